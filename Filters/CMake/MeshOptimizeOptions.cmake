@@ -1,0 +1,46 @@
+# Language, build type, warnings, sanitizers and output folders: what holds for every target.
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+option(BUILD_SHARED_LIBS "Build the VTK modules as shared libraries" ON)
+if (NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif ()
+
+find_program(MESHOPTIMIZE_CCACHE ccache)
+mark_as_advanced(MESHOPTIMIZE_CCACHE)
+if (MESHOPTIMIZE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${MESHOPTIMIZE_CCACHE}")
+endif ()
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+file(RELATIVE_PATH _rpath "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN" "$ORIGIN/${_rpath}")
+
+set(MESHOPTIMIZE_SANITIZE "" CACHE STRING "Sanitizers, e.g. address or undefined or thread; empty: none")
+option(MESHOPTIMIZE_COVERAGE "Compile for gcov" OFF)
+option(MESHOPTIMIZE_WERROR "Treat warnings as errors" OFF)
+if (MESHOPTIMIZE_SANITIZE)
+  add_compile_options(-fsanitize=${MESHOPTIMIZE_SANITIZE} -fno-omit-frame-pointer -g)
+  add_link_options(-fsanitize=${MESHOPTIMIZE_SANITIZE})
+  if (MESHOPTIMIZE_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize=vptr -fno-sanitize-recover=undefined)
+  endif ()
+endif ()
+if (MESHOPTIMIZE_COVERAGE)
+  add_compile_options(--coverage -g)
+  add_link_options(--coverage)
+endif ()
+
+# Warnings are asked for on our own targets only: VTK's generated wrappers are not ours to mend.
+add_library(MeshOptimizeWarnings INTERFACE)
+target_compile_options(MeshOptimizeWarnings INTERFACE
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra>
+  $<$<BOOL:${MESHOPTIMIZE_WERROR}>:-Werror>)
