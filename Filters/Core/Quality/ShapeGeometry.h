@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file ShapeGeometry.h
+/// What the shape measures are made of: determinants, edges, facet normals, angles, with gradients.
+#ifndef meshopt_Quality_ShapeGeometry_h
+#define meshopt_Quality_ShapeGeometry_h
+
+#include "Mesh/Types.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+/// Sets all gradients to zero; returns 0, the value that goes with it.
+template <int D>
+inline double setZero(std::array<Vec<D>, D + 1>& g)
+{
+  for (Vec<D>& ga : g)
+  {
+    ga.setZero();
+  }
+  return 0.0;
+}
+
+inline double squaredEdge(const Corners<2>& x, int e)
+{
+  const Vec<2>&a = x[Local<2>::edges[e][0]], &b = x[Local<2>::edges[e][1]];
+  const double u = b[0] - a[0], v = b[1] - a[1];
+  return u * u + v * v;
+}
+
+inline double squaredEdge(const Corners<3>& x, int e)
+{
+  const Vec<3>&a = x[Local<3>::edges[e][0]], &b = x[Local<3>::edges[e][1]];
+  const double u = b[0] - a[0], v = b[1] - a[1], w = b[2] - a[2];
+  return (u * u + v * v) + w * w;
+}
+
+inline double sumOfSquaredEdges(const Corners<2>& x)
+{
+  return squaredEdge(x, 0) + squaredEdge(x, 1) + squaredEdge(x, 2);
+}
+
+inline double sumOfSquaredEdges(const Corners<3>& x)
+{
+  return ((squaredEdge(x, 0) + squaredEdge(x, 1)) + (squaredEdge(x, 2) + squaredEdge(x, 3))) +
+    (squaredEdge(x, 4) + squaredEdge(x, 5));
+}
+
+/// Half the gradient of the sum of squared edges with respect to x_a: sum_b (x_a - x_b), from
+/// differences only, so that it is as exact far from the origin as near to it.
+template <std::size_t N, int D>
+inline Eigen::Matrix<double, D, 1, Eigen::DontAlign> sumOfDifferences(
+  const std::array<Eigen::Matrix<double, D, 1, Eigen::DontAlign>, N>& x, std::size_t a)
+{
+  Eigen::Matrix<double, D, 1, Eigen::DontAlign> s = x[a] - x[0];
+  for (std::size_t b = 1; b < N; ++b)
+  {
+    s += x[a] - x[b];
+  }
+  return s;
+}
+
+/// D! times the signed volume.
+inline double volumeDeterminant(const Corners<2>& x)
+{
+  const Vec<2> a = x[1] - x[0], b = x[2] - x[0];
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+inline double volumeDeterminant(const Corners<3>& x)
+{
+  const Vec<3> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+    a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// The same, and its gradient.
+inline double volumeDeterminantGradient(const Corners<2>& x, std::array<Vec<2>, 3>& g)
+{
+  const Vec<2> a = x[1] - x[0], b = x[2] - x[0];
+  g[1] << b[1], -b[0];
+  g[2] << -a[1], a[0];
+  g[0] = -(g[1] + g[2]);
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+inline double volumeDeterminantGradient(const Corners<3>& x, std::array<Vec<3>, 4>& g)
+{
+  const Vec<3> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+  g[1] = b.cross(c);
+  g[2] = c.cross(a);
+  g[3] = a.cross(b);
+  g[0] = -(g[1] + g[2] + g[3]);
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+    a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Normals of the facets of a tetrahedron, n[i] opposite to node i, pointing out of a positive one,
+/// of twice the facet's area. Each is a difference of that facet's own nodes, so that it is 0 or
+/// well rounded for a collapsed facet, whatever the other node is.
+struct TetNormals
+{
+  /// n[i] = orientation * (f1 - f0) x (f2 - f0), with f = Local<3>::facets[i].
+  static constexpr double orientation = -1.0;
+  Vec<3> n[4];
+
+  explicit TetNormals(const Corners<3>& x)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const int* f = Local<3>::facets[i];
+      this->n[i] = (x[f[2]] - x[f[0]]).cross(x[f[1]] - x[f[0]]);
+    }
+  }
+};
+
+/// Angles of a simplex: between the facets at an edge (3D), between the edges at a node (2D).
+template <int D>
+struct AngleKernel;
+
+template <>
+struct AngleKernel<2>
+{
+  /// The least angle (of the mirrored triangle if inverted) by its sine and cosine times a common
+  /// positive factor, the sine with the sign of the area. Returns the node, -1 if an edge is collapsed (then 0, 1).
+  static int least(const Corners<2>& x, double& sine, double& cosine)
+  {
+    sine = volumeDeterminant(x);
+    // the least angle lies opposite to the shortest edge
+    int node = 2;
+    double shortest = squaredEdge(x, 0);
+    for (int e = 1; e < 3; ++e)
+    {
+      const double l = squaredEdge(x, e);
+      if (l < shortest)
+      {
+        shortest = l;
+        node = 2 - e;
+      }
+    }
+    if (shortest == 0.0)
+    {
+      sine = 0.0;
+      cosine = 1.0;
+      return -1;
+    }
+    cosine = (x[(node + 1) % 3] - x[node]).dot(x[(node + 2) % 3] - x[node]);
+    return node;
+  }
+
+  /// Gradient, in radians, of the signed angle at a node between two edges that are not collapsed.
+  static void gradient(const Corners<2>& x, int node, std::array<Vec<2>, 3>& g)
+  {
+    const int b = (node + 1) % 3, c = (node + 2) % 3;
+    const Vec<2> u = x[b] - x[node], v = x[c] - x[node];
+    const double uu = u.squaredNorm(), vv = v.squaredNorm();
+    g[b] << u[1] / uu, -u[0] / uu;
+    g[c] << -v[1] / vv, v[0] / vv;
+    g[node] = -(g[b] + g[c]);
+  }
+};
+
+template <>
+struct AngleKernel<3>
+{
+  /// Facets at edge e: those opposite to the two nodes that are not on it.
+  static constexpr int facets[6][2] = { { 2, 3 }, { 1, 3 }, { 1, 2 }, { 0, 3 }, { 0, 2 }, { 0, 1 } };
+
+  /// As in 2D, for the dihedral angles. Returns the edge, -1 if a facet is collapsed.
+  static int least(const Corners<3>& x, double& sine, double& cosine)
+  {
+    const TetNormals n(x);
+    double inverse[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      const double nn = n.n[i].squaredNorm();
+      if (nn == 0.0)
+      {
+        sine = 0.0;
+        cosine = 1.0;
+        return -1;
+      }
+      inverse[i] = 1.0 / std::sqrt(nn);
+    }
+    int edge = 0;
+    double greatest = -2.0;
+    for (int e = 0; e < 6; ++e)
+    {
+      const int i = facets[e][0], j = facets[e][1];
+      const double c = -n.n[i].dot(n.n[j]) * inverse[i] * inverse[j];
+      if (c > greatest)
+      {
+        greatest = c;
+        edge = e;
+      }
+    }
+    sine = volumeDeterminant(x) * std::sqrt(squaredEdge(x, edge));
+    cosine = -n.n[facets[edge][0]].dot(n.n[facets[edge][1]]);
+    return edge;
+  }
+
+  /// Gradient, in radians, of the signed dihedral angle at edge e; both its facets have an area.
+  static void gradient(const Corners<3>& x, int e, std::array<Vec<3>, 4>& g)
+  {
+    const int a = Local<3>::edges[e][0], b = Local<3>::edges[e][1];
+    const Vec<3> v = x[b] - x[a];
+    const double vv = v.squaredNorm(), l = std::sqrt(vv);
+    const TetNormals n(x);
+    g[a].setZero();
+    g[b].setZero();
+    for (int k = 0; k < 2; ++k)
+    {
+      // node c turns its facet (a, b, c) about the edge; a and b take the opposite, by leverage
+      const int c = facets[e][k], f = facets[e][1 - k];
+      g[c] = n.n[f] * (l / n.n[f].squaredNorm());
+      const double t = (x[c] - x[a]).dot(v) / vv;
+      g[a] -= (1.0 - t) * g[c];
+      g[b] -= t * g[c];
+    }
+  }
+};
+
+/// The least sine of the angles, that of obtuse ones times `weight`, with the sign of the volume.
+template <int D>
+struct SineKernel;
+
+template <>
+struct SineKernel<2>
+{
+  /// Squared least weighted sine over det^2, and the node it is at; -1 if an edge is collapsed.
+  static int least(const Corners<2>& x, double weight, double& factor)
+  {
+    int node = -1;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec<2> u = x[(i + 1) % 3] - x[i], v = x[(i + 2) % 3] - x[i];
+      const double d = u.squaredNorm() * v.squaredNorm();
+      if (d == 0.0)
+      {
+        factor = 0.0;
+        return -1;
+      }
+      const double f = (u.dot(v) < 0.0 ? weight * weight : 1.0) / d;
+      if (node < 0 || f < factor)
+      {
+        factor = f;
+        node = i;
+      }
+    }
+    return node;
+  }
+  static double value(const Corners<2>& x, double weight)
+  {
+    double factor;
+    least(x, weight, factor);
+    return volumeDeterminant(x) * std::sqrt(factor);
+  }
+  static double gradient(const Corners<2>& x, double weight, std::array<Vec<2>, 3>& g)
+  {
+    double factor;
+    const int i = least(x, weight, factor);
+    if (i < 0)
+    {
+      return setZero<2>(g);
+    }
+    const Vec<2> u = x[(i + 1) % 3] - x[i], v = x[(i + 2) % 3] - x[i];
+    const double c = u.dot(v);
+    const double cosine = c / std::sqrt(u.squaredNorm() * v.squaredNorm());
+    AngleKernel<2>::gradient(x, i, g);
+    for (Vec<2>& ga : g)
+    {
+      ga *= (c < 0.0 ? weight : 1.0) * cosine;
+    }
+    return volumeDeterminant(x) * std::sqrt(factor);
+  }
+};
+
+template <>
+struct SineKernel<3>
+{
+  /// As in 2D: sine = det l / (|n_i| |n_j|) at the edge of length l between facets i and j.
+  static int least(const Corners<3>& x, double weight, double& factor)
+  {
+    const TetNormals n(x);
+    double nn[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      nn[i] = n.n[i].squaredNorm();
+    }
+    int edge = -1;
+    for (int e = 0; e < 6; ++e)
+    {
+      const int i = AngleKernel<3>::facets[e][0], j = AngleKernel<3>::facets[e][1];
+      const double d = nn[i] * nn[j];
+      if (d == 0.0)
+      {
+        factor = 0.0;
+        return -1;
+      }
+      double f = squaredEdge(x, e) / d;
+      if (weight < 1.0 && n.n[i].dot(n.n[j]) > 0.0)
+      {
+        f *= weight * weight;
+      }
+      if (edge < 0 || f < factor)
+      {
+        factor = f;
+        edge = e;
+      }
+    }
+    return edge;
+  }
+  static double value(const Corners<3>& x, double weight)
+  {
+    double factor;
+    least(x, weight, factor);
+    return volumeDeterminant(x) * std::sqrt(factor);
+  }
+  static double gradient(const Corners<3>& x, double weight, std::array<Vec<3>, 4>& g)
+  {
+    double factor;
+    const int e = least(x, weight, factor);
+    if (e < 0)
+    {
+      return setZero<3>(g);
+    }
+    const TetNormals n(x);
+    const Vec<3>&u = n.n[AngleKernel<3>::facets[e][0]], &v = n.n[AngleKernel<3>::facets[e][1]];
+    const double c = -u.dot(v);
+    const double cosine = c / std::sqrt(u.squaredNorm() * v.squaredNorm());
+    AngleKernel<3>::gradient(x, e, g);
+    for (Vec<3>& ga : g)
+    {
+      ga *= (c < 0.0 ? weight : 1.0) * cosine;
+    }
+    return volumeDeterminant(x) * std::sqrt(factor);
+  }
+};
+}
+
+#endif
