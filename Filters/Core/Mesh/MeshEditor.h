@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file MeshEditor.h
+/// The only way to change a SimplexMesh: replace a cavity, move a point; all of it can be undone.
+#ifndef meshopt_Mesh_MeshEditor_h
+#define meshopt_Mesh_MeshEditor_h
+
+#include "Mesh/SimplexMesh.h"
+
+namespace meshopt
+{
+/// Edits a mesh through two operations, both journalled while a transaction is open:
+///  - replace(): exchange a cavity (cells) for other cells that fill the same boundary;
+///  - movePoint().
+/// The editor keeps adjacency, kept facets and edges, cells of points, regions, parents and stamps. Qualities
+/// are given by the caller, who has just computed them to decide.
+///
+/// Geometry is not looked at: whether the new cells are positively oriented, or better, is the
+/// caller's business; that they fill the cavity's boundary exactly is asserted in debug builds.
+///
+/// Several editors may work on one mesh at the same time if each touches only cells all of whose
+/// points it owns (Point::owner); see setOwner(). Then it takes slots from its own pool only.
+template <int D>
+class MeshEditor
+{
+public:
+  using Mesh = SimplexMesh<D>;
+
+  explicit MeshEditor(Mesh& mesh);
+
+  Mesh& mesh() { return *this->mesh_; }
+  const Mesh& mesh() const { return *this->mesh_; }
+
+  /// Replaces the cells `cavity` by `cells` (positively numbered point ids, points from the cavity
+  /// or from addPoint), with the qualities `qualities`. New cell ids, in the order of `cells`, are
+  /// in created(). Points of the cavity that no new cell uses die (they must be interior to the
+  /// cavity). New cells take region and parent from the cavity cell behind their facet.
+  /// Returns false, with nothing changed, only if no slot is left in the editor's pool.
+  bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
+    const std::vector<double>& qualities);
+  const std::vector<Index>& created() const { return this->created_; }
+
+  /// A new point at x that no cell uses yet; None if no slot is left in the editor's pool.
+  Index addPoint(const Vec<D>& x);
+
+  /// Gives back the point that addPoint() returned last and that no cell uses.
+  void dropPoint(Index p);
+
+  /// Moves a point; stamps it. Qualities of its star are the caller's to set.
+  void movePoint(Index p, const Vec<D>& x);
+
+  void setQuality(Index c, double q);
+  /// CellData::stamp, the algorithms' "failed at" time; not journalled.
+  void setStamp(Index c, std::uint32_t stamp) { this->mesh_->cellData_[c].stamp = stamp; }
+
+  /// The time of the latest edit. Points around an edit carry it as their stamp.
+  std::uint32_t clock() const { return this->clock_; }
+  void setClock(std::uint32_t clock) { this->clock_ = clock; }
+
+  // --- transactions
+  /// Opens a transaction (they may be nested); returns its place in the journal.
+  std::size_t begin();
+  /// Keeps what was done since `place`. The journal is emptied when the outermost one commits.
+  void commit(std::size_t place);
+  /// Undoes what was done since `place`, in reverse, bit for bit.
+  void rollback(std::size_t place);
+
+  // --- scratch marks on cells: O(1) sets of cells
+  /// Starts an empty set; the one before is forgotten.
+  std::uint32_t newMark() { return ++this->mark_; }
+  bool isMarked(Index c, std::uint32_t m) const { return this->mesh_->cellData_[c].mark == m; }
+  void setMark(Index c, std::uint32_t m) const { this->mesh_->cellData_[c].mark = m; }
+  std::uint32_t lastMark() const { return this->mark_; }
+  void setLastMark(std::uint32_t m) { this->mark_ = m; }
+
+  // --- parallel rounds
+  /// Restricts the editor to cells all of whose points have this owner, and to the slots given by
+  /// addFreeCells/addFreePoints. None (the default): all cells, and the mesh grows as needed.
+  void setOwner(Index owner) { this->owner_ = owner; }
+  Index owner() const { return this->owner_; }
+  bool owns(Index c) const
+  {
+    if (this->owner_ == None)
+    {
+      return true;
+    }
+    for (Index p : this->mesh_->cells_[c].nodes)
+    {
+      if (this->mesh_->points_[p].owner != this->owner_)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+  void setPointOwner(Index p, Index owner) { this->mesh_->points_[p].owner = owner; }
+  /// Dead slots that this editor may use, taken from the back.
+  std::vector<Index>& freeCells() { return this->freeCells_; }
+  std::vector<Index>& freePoints() { return this->freePoints_; }
+  /// Appends n dead slots to the mesh (not while another editor works) and adds them to the pool.
+  void growCells(Index n);
+  void growPoints(Index n);
+
+  /// Star of p as SimplexMesh::star, by marks: faster. Returns false, with `star` incomplete, as
+  /// soon as it meets a cell that the editor does not own.
+  bool star(Index p, std::vector<Index>& star);
+
+private:
+  using Cell = typename Mesh::Cell;
+  using CellData = typename Mesh::CellData;
+  using Point = typename Mesh::Point;
+
+  enum class Entry : std::uint8_t
+  {
+    CellChanged,
+    PointChanged,
+    CellTaken, // from the pool
+    CellGrown,
+    CellFreed,
+    PointTaken,
+    PointGrown,
+    PointFreed
+  };
+  struct CellRecord
+  {
+    Index id;
+    Cell cell;
+    CellData data;
+  };
+  struct PointRecord
+  {
+    Index id;
+    Point point;
+  };
+  struct OuterFacet
+  {
+    Facet<D> key;  // sorted
+    Index outside; // handle across, or None
+    Index inside;  // cavity cell
+    Index match;   // handle of the new cell's facet once found, else None
+    bool kept;
+  };
+
+  bool reserveCells(std::size_t n);
+  Index takeCell();
+  void freeCell(Index c);
+  void saveCell(Index c);
+  void savePoint(Index p);
+  void collectOuterFacets(const std::vector<Index>& cavity, std::uint32_t inCavity);
+  void collectKeptEdges(const std::vector<Index>& cavity);
+  void linkFacet(Index c, int i);
+
+  Mesh* mesh_;
+  Index owner_ = None;
+  std::uint32_t clock_ = 0;
+  std::uint32_t mark_ = 0;
+  std::vector<Index> freeCells_, freePoints_;
+  std::vector<Index> created_;
+
+  int depth_ = 0;
+  std::uint32_t savedClock_ = 0;
+  std::vector<Entry> journal_;
+  std::vector<CellRecord> cellRecords_;
+  std::vector<PointRecord> pointRecords_;
+  std::vector<Index> slotRecords_;
+
+  // scratch of replace(): an open-addressing hash of facets
+  std::vector<OuterFacet> facets_;
+  std::vector<Index> table_;
+  std::vector<std::array<Index, 2>> keptEdges_;
+  std::vector<Index> cavityPoints_;
+};
+
+extern template class MeshEditor<2>;
+extern template class MeshEditor<3>;
+}
+
+#endif

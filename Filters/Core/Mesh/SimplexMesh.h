@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SimplexMesh.h
+/// The mesh that is optimized: points, cells, adjacency, and what must be kept.
+///
+/// Facets between cells are found once, by a linear bucket sort, when the mesh is built; from then
+/// on MeshEditor keeps them. There is no table of edges: rings and stars are walked over facets.
+#ifndef meshopt_Mesh_SimplexMesh_h
+#define meshopt_Mesh_SimplexMesh_h
+
+#include "Mesh/Types.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meshopt
+{
+/// What a mesh is built from. Points that no cell uses are legal and stay as they are.
+template <int D>
+struct MeshInput
+{
+  std::vector<Vec<D>> points;
+  std::vector<Simplex<D>> cells;
+  /// Region of each cell, or empty (all one region). Facets between regions are kept.
+  std::vector<Index> regions;
+  /// Nonzero: the point neither moves nor vanishes. One per point, or empty.
+  std::vector<std::uint8_t> fixedPoints;
+  /// Facets to be kept though both sides have one region (any order of the points).
+  std::vector<Facet<D>> constrainedFacets;
+  /// Edges to be kept (any order of the points). For D = 2 use constrainedFacets.
+  std::vector<std::array<Index, 2>> constrainedEdges;
+};
+
+/// Why a mesh could not be built: a sentence for the user that names what is wrong and where.
+struct MeshError
+{
+  std::string message;
+  Index cell = None;  ///< first offending cell of the input, or None
+  Index point = None; ///< first offending point of the input, or None
+};
+
+/// A conforming mesh of simplices. Cells and points live in slots; a slot may be dead after an
+/// edit and be used again. Slots of the input's points are never used for another point, so that
+/// point p < numberOfInputPoints() is always point p of the input.
+template <int D>
+class SimplexMesh
+{
+public:
+  static constexpr int NodesPerCell = D + 1;
+
+  enum CellFlag : std::uint16_t
+  {
+    /// Bits 0..3: facet i is kept (surface, interface between regions, or the caller's).
+    FacetBits = 0x000f,
+    /// Bits 4..9: edge i is kept by the caller's wish (edges of kept facets are not marked).
+    FirstEdgeBit = 4,
+    EdgeBits = 0x03f0,
+    CellAlive = 0x8000
+  };
+
+  enum PointFlag : std::uint8_t
+  {
+    PointFixed = 1,    ///< must not move or vanish (on a kept facet, kept edge, or the caller's)
+    PointBoundary = 2, ///< lies on a kept facet
+    PointMoved = 4,    ///< has another place than in the input
+    PointAlive = 8,    ///< is used by a cell
+    PointFixedByUser = 16
+  };
+
+  /// Topology of a cell. adjacent[i] is the handle of the facet across facet i, or None at the
+  /// surface: handle = 4 * cell + facet.
+  struct Cell
+  {
+    Simplex<D> nodes;
+    std::array<Index, D + 1> adjacent;
+  };
+
+  /// What else belongs to a cell.
+  struct CellData
+  {
+    double quality = 0.0;    ///< kept by whoever edits; see MeshEditor
+    Index region = 0;        ///< region of the input
+    Index parent = None;     ///< input cell whose data this cell takes
+    std::uint32_t stamp = 0; ///< free for algorithms: last failed try
+    mutable std::uint32_t mark = 0; ///< scratch of the MeshEditor that owns the cell
+    std::uint16_t flags = 0;
+  };
+
+  struct Point
+  {
+    Vec<D> x;
+    Index cell = None;       ///< a cell that uses the point
+    std::uint32_t stamp = 0; ///< last change in the star of the point
+    Index owner = 0;         ///< chunk that may edit around the point (parallel rounds)
+    std::uint8_t flags = 0;
+  };
+
+  /// Builds the mesh; linear in the size of the input. A malformed input (a point id out of range, a point
+  /// twice in a cell, coordinates that are not finite, a facet with more than two cells, a cell that stands twice,
+  /// arrays of a wrong length) is an error and leaves `mesh` empty. Inverted and flat cells are
+  /// legal. Cells numbered against their neighbours are renumbered (the last two nodes swapped),
+  /// such that each connected component is consistently oriented with positive total volume;
+  /// numberOfReorientedCells() counts them.
+  static std::optional<MeshError> build(const MeshInput<D>& input, SimplexMesh& mesh);
+
+  // --- sizes
+  Index numberOfCellSlots() const { return static_cast<Index>(this->cells_.size()); }
+  Index numberOfPointSlots() const { return static_cast<Index>(this->points_.size()); }
+  Index numberOfInputPoints() const { return this->inputPoints_; }
+  Index numberOfInputCells() const { return this->inputCells_; }
+  Index numberOfReorientedCells() const { return this->reoriented_; }
+  Index countCells() const;  ///< live cells; linear
+  Index countPoints() const; ///< points used by a cell; linear
+  bool hasConstrainedEdges() const { return this->hasConstrainedEdges_; }
+
+  // --- cells
+  bool isAlive(Index c) const { return (this->cellData_[c].flags & CellAlive) != 0; }
+  const Simplex<D>& nodes(Index c) const { return this->cells_[c].nodes; }
+  /// Handle of the facet on the other side of facet i of cell c, or None.
+  Index adjacent(Index c, int i) const { return this->cells_[c].adjacent[i]; }
+  static Index cellOf(Index handle) { return handle >> 2; }
+  static int facetOf(Index handle) { return handle & 3; }
+  static Index handle(Index c, int i) { return 4 * c + i; }
+  /// True if facet i must be kept. Surface facets are always kept.
+  bool isConstrained(Index c, int i) const { return (this->cellData_[c].flags >> i) & 1; }
+  bool isEdgeConstrained(Index c, int e) const
+  {
+    return (this->cellData_[c].flags >> (FirstEdgeBit + e)) & 1;
+  }
+  double quality(Index c) const { return this->cellData_[c].quality; }
+  Index region(Index c) const { return this->cellData_[c].region; }
+  Index parent(Index c) const { return this->cellData_[c].parent; }
+  const CellData& cellData(Index c) const { return this->cellData_[c]; }
+  Corners<D> corners(Index c) const
+  {
+    Corners<D> x;
+    for (int i = 0; i <= D; ++i)
+    {
+      x[i] = this->points_[this->cells_[c].nodes[i]].x;
+    }
+    return x;
+  }
+  /// Nodes of facet i, ordered as in Local<D>::facets.
+  Facet<D> facet(Index c, int i) const
+  {
+    Facet<D> f;
+    for (int k = 0; k < D; ++k)
+    {
+      f[k] = this->cells_[c].nodes[Local<D>::facets[i][k]];
+    }
+    return f;
+  }
+  /// Local number of point p in cell c, or -1.
+  int localIndex(Index c, Index p) const
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      if (this->cells_[c].nodes[i] == p)
+      {
+        return i;
+      }
+    }
+    return -1;
+  }
+
+  // --- points
+  const Vec<D>& point(Index p) const { return this->points_[p].x; }
+  const Point& pointData(Index p) const { return this->points_[p]; }
+  bool isFixed(Index p) const { return (this->points_[p].flags & PointFixed) != 0; }
+  bool isBoundary(Index p) const { return (this->points_[p].flags & PointBoundary) != 0; }
+  bool isPointAlive(Index p) const { return (this->points_[p].flags & PointAlive) != 0; }
+  bool isMoved(Index p) const { return (this->points_[p].flags & PointMoved) != 0; }
+  Index cellOfPoint(Index p) const { return this->points_[p].cell; }
+
+  /// Cells that share point p, reached over facets from one of them (also over kept facets, and
+  /// for surface points as well); `star` is overwritten. Allocates nothing once `star` has room.
+  void star(Index p, std::vector<Index>& star) const;
+
+  /// Cells around the edge (a, b) of cell c, in ring order starting with c. Returns false if the
+  /// ring is open (it ends at the surface on both sides) or crosses a kept facet. The cells are
+  /// then still all those on c's side of kept facets if acrossKept is false, else all. D = 3 only.
+  bool ring(Index c, Index a, Index b, bool acrossKept, std::vector<Index>& ring) const;
+
+  /// Everything that must hold, for tests and debugging: each broken invariant as a sentence,
+  /// empty if all is well. Symmetric adjacency, facets with at most two cells, kept facets marked on both
+  /// sides, cells of points, flags of points, no live cell with a dead point, positive
+  /// orientation where `requirePositive`.
+  std::vector<std::string> audit(bool requirePositive) const;
+
+  /// Sum of signed volumes (areas) of the live cells.
+  double volume() const;
+
+  /// V - E + F - C of the live mesh (D = 3), V - E + C (D = 2).
+  long eulerCharacteristic() const;
+
+private:
+  template <int>
+  friend class MeshEditor;
+  template <int>
+  friend struct MeshBuilder;
+  friend struct MeshTestAccess;
+
+  std::vector<Cell> cells_;
+  std::vector<CellData> cellData_;
+  std::vector<Point> points_;
+  Index inputPoints_ = 0;
+  Index inputCells_ = 0;
+  Index reoriented_ = 0;
+  bool hasConstrainedEdges_ = false;
+};
+
+extern template class SimplexMesh<2>;
+extern template class SimplexMesh<3>;
+}
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Optimizer.h
+/// The door of the core: optimize a mesh in place.
+#ifndef meshopt_Optimize_Optimizer_h
+#define meshopt_Optimize_Optimizer_h
+
+#include "Mesh/SimplexMesh.h"
+#include "Metric/NodalMetric.h"
+#include "Optimize/Options.h"
+
+namespace meshopt
+{
+/// Maximizes the quality of the worst element of `mesh` (2.1). Kept facets, kept edges and fixed points are
+/// untouched, bit for bit. The worst quality never falls, and no cell is inverted that was not.
+/// `metric` holds h* and the metric at the points; it is sampled where points move or come.
+/// Preconditions: options.check(...) is empty; the mesh was built without error.
+template <int D>
+Report optimize(
+  SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options, const Control& control);
+
+extern template Report optimize<2>(
+  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&);
+extern template Report optimize<3>(
+  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&);
+}
+
+#endif
