@@ -1,8 +1,68 @@
 /**
  * @class   vtkMeshOptimizeFilter
- * @brief   raise the worst element quality of a triangle or tetrahedral mesh
+ * @brief   raise the worst element quality of a tetrahedral or triangle mesh
  *
- * Placeholder: the whole set of properties, passes its input through.
+ * vtkMeshOptimizeFilter moves nodes and changes the connectivity of a mesh such that its worst
+ * element gets as good as possible: it maximizes Q(mesh) = min { Q(K) : K in mesh }, equation (2.1)
+ * of the paper below, where the quality of an element is its shape times, if wanted, a factor for
+ * its size (2.2). A few very bad elements are what spoils a finite element computation; the mean
+ * quality hardly matters.
+ *
+ * <b>What is optimized.</b> If the input has cells of dimension three, its tetrahedra are optimized. Else
+ * its triangles, which must lie in one plane (any plane). All other cells pass through:
+ * their points are kept; a triangle between two tetrahedra is kept as a face of the mesh, a line
+ * is kept as an edge. Quadratic triangles and tetrahedra are such other cells, too, with a warning.
+ *
+ * <b>What is kept.</b> The surface, bit for bit (in the plane: the boundary edges); the faces between
+ * regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality never falls,
+ * and no cell is inverted that was not. Inverted and flat cells in the input are worked on. Cells that are numbered
+ * against their neighbours are renumbered (counted in the field data `NumberOfReorientedCells`).
+ *
+ * <b>Output port 0: the mesh.</b> Points: those of the input that are still there, in their old
+ * order, then the new ones; cells likewise. Coordinates of points that have not moved are the same bits. If a
+ * point was moved or inserted, points are of type double even if the input's are float, since rounding
+ * could lower the quality again. Data arrays keep name, type, components and attribute:
+ * - point data: a point that has not moved keeps its values. Else floating point arrays are interpolated in the
+ *   input cell that holds the point (constants are exact, linear fields to rounding), all others take the value of
+ *   the nearest node of that cell.
+ * - cell data: a new cell takes the values of the input cell in whose place it stands.
+ * - global ids: points and cells of the input keep them, new ones have -1, and the array is no longer
+ *   the active global id array (ids that are unique over blocks and processes cannot be made up here).
+ *   Pedigree ids: as other arrays that are not interpolated, but a moved point keeps its own.
+ * - field data: kept; added are `WorstQualityBefore`, `WorstQualityAfter`, `MeanQualityBefore`,
+ *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfReorientedCells`,
+ *   `NumberOfOperations` and `StopReason`.
+ * - the cell array `MeshQuality` (double): quality by the chosen measure; NaN for other cells.
+ *
+ * <b>Output port 1: the history</b>, a vtkTable, one row per pass, the first one being the input: Pass, Stage, for each
+ * kind of operation how often it was tried and done, then Worst, Mean, BelowTarget (cells under the target),
+ * Cells and Points. For composite input the first column is Block (the flat index).
+ *
+ * <b>Composite data</b>: each vtkUnstructuredGrid in it is optimized by itself, other leaves pass
+ * through. Since surfaces are kept, neighbouring blocks still fit together. The results below are
+ * those of all blocks together.
+ *
+ * <b>Distributed data</b>: each process optimizes its own piece with the piece's surface kept, so
+ * that pieces still fit together. Ghost cells pass through untouched; the cells they are copies of may have changed in the
+ * meantime: generate ghost cells afterwards, not before. The results below are those of the piece.
+ *
+ * <b>Errors.</b> An input that is not a mesh (a point id out of range, a point twice in a cell, coordinates that
+ * are not finite, a face with three cells, a cell that stands twice, triangles that are not in one plane) or an unusable array or option gives one error message that names what
+ * and where; the outputs are then empty and GetErrorCode() is not 0.
+ *
+ * <b>Abort.</b> Progress is reported and AbortExecute looked at all the time. After an abort the
+ * output is a valid mesh, as good as it was by then, and GetStopReason() is Aborted. (Filters of VTK usually
+ * leave an empty output then.)
+ *
+ * The same input gives the same output, bit for bit, for any number of threads, unless TimeLimit or
+ * abort is used.
+ *
+ * @par Thanks:
+ * G. C. Buscaglia, E. A. Dari, P. D. Zavattieri: Mesh optimization: some results in 3D elasticity
+ * (1996). Equation numbers here are its numbers.
+ *
+ * @sa
+ * vtkMeshQualityMinMax vtkMeshQuality vtkConstrainedSmoothingFilter
  */
 #ifndef vtkMeshOptimizeFilter_h
 #define vtkMeshOptimizeFilter_h
@@ -10,7 +70,10 @@
 #include "vtkFiltersMeshOptimizeModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <string> // for StopReasonString
+#include <memory> // for std::unique_ptr
+
+class vtkCompositeDataSet;
+class vtkUnstructuredGrid;
 
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkMeshOptimizeFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -21,28 +84,48 @@ public:
 
   enum AlgorithmType
   {
-    Paper1996 = 0,
-    WorstFirst = 1
+    Paper1996 = 0, ///< the algorithm of the paper, step by step
+    WorstFirst = 1 ///< the fast engine: priority queue, more operations, threads
   };
+  ///@{
+  /**
+   * How to optimize. Paper1996 alternates the reconnection and the node repositioning of the paper; it uses
+   * NeighborhoodLevel, MaximumNumberOfIterations, Epsilon, ArmijoFactor and
+   * MaximumNumberOfAlternations. WorstFirst is faster and reaches more; it uses Effort,
+   * NumberOfThreads, GrowthBudget. Everything else is used by both. Default: Paper1996.
+   */
   vtkSetClampMacro(Algorithm, int, Paper1996, WorstFirst);
   vtkGetMacro(Algorithm, int);
   void SetAlgorithmToPaper1996() { this->SetAlgorithm(Paper1996); }
   void SetAlgorithmToWorstFirst() { this->SetAlgorithm(WorstFirst); }
+  ///@}
 
+  ///@{
+  /**
+   * Stop once the worst quality is at least this. Range ]0, 1], default 0.6; 1: go on as long as
+   * something gets better. Cells under it are counted as BelowTarget in the history.
+   */
   vtkSetClampMacro(TargetQuality, double, 0.0, 1.0);
   vtkGetMacro(TargetQuality, double);
+  ///@}
 
   enum QualityMeasureType
   {
-    Shape = 0,
-    RadiusRatio = 1,
-    MeanRatio = 2,
-    MinimumSine = 3,
-    WarpedSine = 4,
-    VolumeLength = 5,
-    MinimumDihedralAngle = 6
+    Shape = 0,       ///< the paper's S (2.3): 1832.82 V / P^3, 20.78 A / P^2, P the sum of edge lengths
+    RadiusRatio = 1, ///< D times inradius over circumradius
+    MeanRatio = 2,   ///< 12 (3V)^(2/3) / sum l^2; 4 sqrt(3) A / sum l^2
+    MinimumSine = 3, ///< least sine of the dihedral angles (2D: corner angles) over the regular one's
+    WarpedSine = 4,  ///< the same, with the sines of obtuse angles times 0.75
+    VolumeLength = 5 ///< 6 sqrt(2) V / l_rms^3; 4 A / (sqrt(3) l_rms^2)
   };
-  vtkSetClampMacro(QualityMeasure, int, Shape, MinimumDihedralAngle);
+  ///@{
+  /**
+   * The shape measure S that is optimized. All are 1 for the regular simplex, 0 for a flat one and
+   * negative for an inverted one, and do not depend on size. What is chosen here decides which
+   * figures get good: Shape leads to good overall shapes, MinimumSine to good smallest dihedral angles.
+   * Default: Shape.
+   */
+  vtkSetClampMacro(QualityMeasure, int, Shape, VolumeLength);
   vtkGetMacro(QualityMeasure, int);
   void SetQualityMeasureToShape() { this->SetQualityMeasure(Shape); }
   void SetQualityMeasureToRadiusRatio() { this->SetQualityMeasure(RadiusRatio); }
@@ -50,22 +133,79 @@ public:
   void SetQualityMeasureToMinimumSine() { this->SetQualityMeasure(MinimumSine); }
   void SetQualityMeasureToWarpedSine() { this->SetQualityMeasure(WarpedSine); }
   void SetQualityMeasureToVolumeLength() { this->SetQualityMeasure(VolumeLength); }
-  void SetQualityMeasureToMinimumDihedralAngle() { this->SetQualityMeasure(MinimumDihedralAngle); }
+  ///@}
 
+  ///@{
+  /**
+   * Weight of size in the quality (2.2): Q = S exp(-beta^2 ln^2(h / h*)), h the longest edge of the
+   * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give the size
+   * by DesiredSize or SetSizeArray().
+   */
   vtkSetClampMacro(Beta, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Beta, double);
+  ///@}
+
+  ///@{
+  /**
+   * h* of (2.2), the longest edge that an element should have, the same everywhere, in units of the
+   * coordinates (of the metric, if there is one). Range >= 0, default 0: not set. Used only if Beta > 0; a
+   * size array takes precedence.
+   */
   vtkSetClampMacro(DesiredSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DesiredSize, double);
+  ///@}
+
+  ///@{
+  /**
+   * NL of the paper: how far from the worst element nodes are moved together. 0: the nodes of the
+   * element; 1: also all that share an edge with them; and so on. Range 0 to 3, default 1.
+   */
   vtkSetClampMacro(NeighborhoodLevel, int, 0, 3);
   vtkGetMacro(NeighborhoodLevel, int);
+  ///@}
+
+  ///@{
+  /**
+   * M of the paper: the greatest number of steps of its global algorithm in each repositioning. Range >= 0,
+   * default 0: no limit.
+   */
   vtkSetClampMacro(MaximumNumberOfIterations, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfIterations, int);
-  vtkSetClampMacro(Epsilon, double, 0.0, 1.0);
+  ///@}
+
+  ///@{
+  /**
+   * Epsilon of (2.8): elements of a cluster whose quality is within it of the worst one take part in the
+   * search for a direction. A solve ends when it gains less than a tenth of it. Range 1e-6 to 1, default 0.02.
+   */
+  vtkSetClampMacro(Epsilon, double, 1e-6, 1.0);
   vtkGetMacro(Epsilon, double);
-  vtkSetClampMacro(ArmijoFactor, double, 0.0, 1.0);
+  ///@}
+
+  ///@{
+  /**
+   * Alpha of Armijo's rule (2.7): the part of the predicted gain that a step must bring. Range
+   * 1e-6 to 0.99, default 0.01.
+   */
+  vtkSetClampMacro(ArmijoFactor, double, 1e-6, 0.99);
   vtkGetMacro(ArmijoFactor, double);
+  ///@}
+
+  ///@{
+  /**
+   * How often, at most, the paper's algorithm does a reconnection and then a repositioning.
+   * Range >= 0, default 20; 0: the mesh is measured only.
+   */
   vtkSetClampMacro(MaximumNumberOfAlternations, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfAlternations, int);
+  ///@}
+
+  ///@{
+  /**
+   * Which kinds of change are allowed, all by default. MoveNodes: move nodes (the paper's section
+   * 2.2). Reconnect: change the connectivity, the nodes staying (2.3). InsertNodes, RemoveNodes: change the
+   * connectivity such that nodes come, or go. With all off the mesh is measured only.
+   */
   vtkSetMacro(MoveNodes, bool);
   vtkGetMacro(MoveNodes, bool);
   vtkBooleanMacro(MoveNodes, bool);
@@ -78,6 +218,7 @@ public:
   vtkSetMacro(RemoveNodes, bool);
   vtkGetMacro(RemoveNodes, bool);
   vtkBooleanMacro(RemoveNodes, bool);
+  ///@}
 
   enum EffortType
   {
@@ -85,36 +226,125 @@ public:
     Default = 1,
     Best = 2
   };
+  ///@{
+  /**
+   * How hard WorstFirst tries before it gives up. Default: Default.
+   */
   vtkSetClampMacro(Effort, int, Quick, Best);
   vtkGetMacro(Effort, int);
   void SetEffortToQuick() { this->SetEffort(Quick); }
   void SetEffortToDefault() { this->SetEffort(Default); }
   void SetEffortToBest() { this->SetEffort(Best); }
+  ///@}
+
+  ///@{
+  /**
+   * Threads that WorstFirst uses. Range >= 0, default 0: all (VTK_SMP_MAX_THREADS limits them, as
+   * everywhere in VTK). The output does not depend on it.
+   */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
-  vtkSetClampMacro(GrowthBudget, double, 0.0, VTK_DOUBLE_MAX);
+  ///@}
+
+  ///@{
+  /**
+   * How much WorstFirst may let the number of cells grow, as a fraction of the input's. Range >= 0, default 0.1.
+   */
+  vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);
+  ///@}
+
+  ///@{
+  /**
+   * Stop after so many seconds. Range >= 0, default 0: no limit. With a limit, two runs can
+   * differ.
+   */
   vtkSetClampMacro(TimeLimit, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TimeLimit, double);
+  ///@}
 
+  ///@{
+  /**
+   * The input arrays by name; nullptr or "" for none, which is the default. The same as
+   * SetInputArrayToProcess() with the index given here.
+   * - 0, region: cell array of one integer component. Faces between cells of different regions are
+   *   kept, and a new cell lies in one region.
+   * - 1, fixed points: point array of one numeric component. Points where it is not 0 neither move nor vanish.
+   * - 2, size: point array of one numeric component greater than 0: h* of (2.2) at the points, interpolated between
+   *   them; takes the place of DesiredSize. Needs Beta > 0 to matter.
+   * - 3, metric: point array of a symmetric positive definite tensor M, 6 components in VTK's order
+   *   XX YY ZZ XY YZ XZ or 9; lengths are measured as sqrt(e' M e). Triangles use its part in their plane.
+   */
+  void SetRegionArray(const char* name);
+  void SetFixedPointArray(const char* name);
+  void SetSizeArray(const char* name);
+  void SetMetricArray(const char* name);
+  ///@}
+
+  enum StopReasonType
+  {
+    NotRun = 0,          ///< not run yet, or stopped by an error
+    TargetReached = 1,   ///< the worst quality is at least TargetQuality
+    CappedBySurface = 2, ///< what is under the target cannot get better while the surface is kept
+    NoFurtherGain = 3,   ///< no operation improves the worst cells any more
+    IterationLimit = 4,
+    TimeLimitReached = 5,
+    Aborted = 6,
+    NothingToDo = 7 ///< no cells to optimize
+  };
+
+  ///@{
+  /**
+   * Results of the last run: quality of the worst cell and mean quality, before and after; the
+   * certified upper bound on the worst quality while the surface is kept (1 where unknown); the
+   * number of cells under the target that their own cap keeps there. 0 before a run and
+   * if there was nothing to optimize.
+   */
   vtkGetMacro(WorstQualityBefore, double);
   vtkGetMacro(WorstQualityAfter, double);
+  vtkGetMacro(MeanQualityBefore, double);
+  vtkGetMacro(MeanQualityAfter, double);
   vtkGetMacro(QualityBound, double);
+  vtkGetMacro(NumberOfCappedCells, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
+   * Why the last run stopped, as StopReasonType and as a sentence. Of several blocks: the one that
+   * says most (aborted, a limit, no further gain, capped, target reached).
+   */
   vtkGetMacro(StopReason, int);
-  const char* GetStopReasonAsString() { return this->StopReasonString.c_str(); }
+  const char* GetStopReasonAsString();
+  ///@}
+
+  /**
+   * Operations done in the last run, all kinds together.
+   */
   vtkGetMacro(NumberOfOperations, vtkIdType);
+
+  /**
+   * Seconds that the last run spent inside the optimizer proper, without import and export. Not part
+   * of any output array, so that outputs can be reproduced bit for bit.
+   */
   vtkGetMacro(OptimizeSeconds, double);
+
+  vtkTypeBool ProcessRequest(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 protected:
   vtkMeshOptimizeFilter();
-  ~vtkMeshOptimizeFilter() override = default;
+  ~vtkMeshOptimizeFilter() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  virtual int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*);
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkMeshOptimizeFilter(const vtkMeshOptimizeFilter&) = delete;
   void operator=(const vtkMeshOptimizeFilter&) = delete;
+
+  class vtkInternals;
 
   int Algorithm = Paper1996;
   double TargetQuality = 0.6;
@@ -137,9 +367,11 @@ private:
 
   double WorstQualityBefore = 0.0;
   double WorstQualityAfter = 0.0;
+  double MeanQualityBefore = 0.0;
+  double MeanQualityAfter = 0.0;
   double QualityBound = 0.0;
-  int StopReason = 0;
-  std::string StopReasonString;
+  vtkIdType NumberOfCappedCells = 0;
+  int StopReason = NotRun;
   vtkIdType NumberOfOperations = 0;
   double OptimizeSeconds = 0.0;
 };
