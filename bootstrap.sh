@@ -15,11 +15,11 @@ output_dir=${MESHOPTIMIZE_OUTPUT:-$build_dir/demo}
 python_dir=$build_dir/lib/python3/site-packages
 plugin_dir=$build_dir/lib/paraview-5.11/plugins/MeshOptimize
 
-# The shortest list that configures, builds, loads and renders on a bare system.
+# The shortest list that configures, builds, loads and renders on a bare system (the rest comes as their dependencies).
 packages=(
   g++ cmake ninja-build paraview-dev python3-paraview libeigen3-dev
-  libopenmpi-dev python3-dev libexpat1-dev libdouble-conversion-dev liblzma-dev liblz4-dev zlib1g-dev libutfcpp-dev
-  qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
+  libopenmpi-dev libutfcpp-dev libdouble-conversion-dev liblzma-dev liblz4-dev
+  qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools
   xvfb xauth libgl1-mesa-dri)
 test_packages=(libgtest-dev)
 

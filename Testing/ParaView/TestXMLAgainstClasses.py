@@ -1,0 +1,127 @@
+"""Holds the plugin's XML against the wrapped classes: defaults, ranges, enumerations, ports, nothing missing.
+
+Runs without ParaView's server manager: it reads the XML files as files. TestProxies.py then asks the loaded proxies.
+"""
+import os
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import meshoptimize
+from vtkmodules.vtkCommonExecutionModel import vtkUnstructuredGridAlgorithm
+
+SOURCE = os.environ["MESHOPTIMIZE_SOURCE"]
+# What the class can and the XML leaves out on purpose.
+NOT_OFFERED = {
+    # report only: an error in the optimizer
+    ("MeshOptimize", "QualityMeasure"): {"MinimumDihedralAngle"},
+}
+NOT_IN_XML = {"MeshOptimize": set(), "MeshQualityMinMax": {"Controller"}}
+
+failures = []
+
+
+def check(condition, message):
+    if not condition:
+        failures.append(message)
+
+
+def numbers(text):
+    return [float(word) for word in (text or "").split()]
+
+
+def own_setters(filter_class):
+    """Names X of the class' own SetX, without SetXToY and without what the superclass has."""
+    inherited = set(dir(vtkUnstructuredGridAlgorithm))
+    names = {m[3:] for m in dir(filter_class) if m.startswith("Set") and m not in inherited}
+    return {n for n in names if not any(n.startswith(other + "To") for other in names)}
+
+
+def check_number(proxy, prop, instance):
+    name = prop.get("name")
+    where = f"{proxy}.{name}"
+    getter = getattr(instance, "Get" + name, None)
+    check(getter is not None, f"{where}: the class has no Get{name}")
+    if getter is None:
+        return
+    default = numbers(prop.get("default_values"))
+    value = getter()
+    check(default == [float(value)], f"{where}: default {default} in the XML, {value} in the class")
+
+    domain = prop.find("IntRangeDomain")
+    domain = prop.find("DoubleRangeDomain") if domain is None else domain
+    if domain is not None:
+        for end, method in (("min", "MinValue"), ("max", "MaxValue")):
+            limit = getattr(instance, f"Get{name}{method}", None)
+            check(limit is not None, f"{where}: the class has no Get{name}{method}")
+            if limit is None:
+                continue
+            in_xml = domain.get(end)
+            unlimited = abs(limit()) >= 2147483647  # VTK_INT_MAX, VTK_DOUBLE_MAX: no limit to show
+            if unlimited:
+                check(in_xml is None, f"{where}: {end} {in_xml} in the XML, unlimited in the class")
+            else:
+                check(in_xml is not None and float(in_xml) == limit(),
+                      f"{where}: {end} {in_xml} in the XML, {limit()} in the class")
+
+    enumeration = prop.find("EnumerationDomain")
+    if enumeration is not None:
+        offered = set()
+        for entry in enumeration.findall("Entry"):
+            word = entry.get("text").replace(" ", "")
+            offered.add(word)
+            setter = getattr(instance, f"Set{name}To{word}", None)
+            check(setter is not None, f"{where}: the class has no Set{name}To{word}")
+            if setter is not None:
+                setter()
+                check(getter() == int(entry.get("value")),
+                      f"{where}: {word} is {entry.get('value')} in the XML, {getter()} in the class")
+        prefix = f"Set{name}To"
+        available = {m[len(prefix):] for m in dir(instance) if m.startswith(prefix)}
+        hidden = NOT_OFFERED.get((proxy, name), set())
+        check(available - hidden == offered, f"{where}: the class offers {available}, the XML {offered}")
+
+
+def check_proxy(path):
+    proxy_xml = ElementTree.parse(path).getroot().find("ProxyGroup/SourceProxy")
+    proxy = proxy_xml.get("name")
+    filter_class = getattr(meshoptimize, proxy_xml.get("class"))
+    instance = filter_class()
+    check(proxy_xml.get("label").replace(" ", "") == proxy, f"{proxy}: the label is the Python name")
+    check(len(proxy_xml.findall("OutputPort")) == instance.GetNumberOfOutputPorts(),
+          f"{proxy}: number of output ports")
+
+    in_groups = [p.get("name") for p in proxy_xml.findall("PropertyGroup/Property")]
+    named = set()
+    arrays = set()
+    for prop in proxy_xml:
+        if not prop.tag.endswith("VectorProperty"):
+            continue
+        name, command = prop.get("name"), prop.get("command")
+        named.add(name)
+        where = f"{proxy}.{name}"
+        check(prop.get("label").replace(" ", "") == name, f"{where}: the label is the Python name")
+        documentation = (prop.findtext("Documentation") or "").strip()
+        check(len(documentation) > 20, f"{where}: no documentation")
+        if prop.get("information_only") == "1":
+            check(hasattr(instance, command), f"{where}: the class has no {command}")
+        elif command == "SetInputArrayToProcess":
+            index, port, connection, association, default = prop.get("default_values").split(";")
+            check(default == "None" and (port, connection) == ("0", "0"), f"{where}: default is not None")
+            check(index not in arrays, f"{where}: array index {index} used twice")
+            arrays.add(index)
+        else:
+            check(command == "Set" + name and hasattr(instance, command), f"{where}: command {command}")
+            check_number(proxy, prop, filter_class())
+        if prop.get("information_only") != "1":
+            check(in_groups.count(name) == 1, f"{where}: in {in_groups.count(name)} property groups")
+    check(set(in_groups) <= named, f"{proxy}: groups name {set(in_groups) - named}")
+
+    missing = own_setters(filter_class) - named - NOT_IN_XML[proxy]
+    check(not missing, f"{proxy}: the XML lacks {sorted(missing)}")
+
+
+for file_name in ("MeshOptimize.xml", "MeshQualityMinMax.xml"):
+    check_proxy(os.path.join(SOURCE, "ParaViewPlugin", file_name))
+for failure in failures:
+    print("FAILED:", failure)
+sys.exit(1 if failures else 0)
