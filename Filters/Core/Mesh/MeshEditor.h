@@ -33,7 +33,8 @@ public:
   /// Replaces the cells `cavity` by `cells` (positively numbered point ids, points from the cavity
   /// or from addPoint), with the qualities `qualities`. New cell ids, in the order of `cells`, are
   /// in created(). Points of the cavity that no new cell uses die (they must be interior to the
-  /// cavity). New cells take region and parent from the cavity cell behind their facet.
+  /// cavity), which has no kept facet inside. All cells of the cavity have one region; a new cell
+  /// takes its parent from the cavity cell behind its facet.
   /// Returns false, with nothing changed, only if no slot is left in the editor's pool.
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
     const std::vector<double>& qualities);
@@ -131,13 +132,14 @@ private:
     Index id;
     Point point;
   };
-  struct OuterFacet
+  /// A facet met while a cavity is refilled: one of its boundary, or one between new cells.
+  struct OpenFacet
   {
     Facet<D> key;  // sorted
-    Index outside; // handle across, or None
-    Index inside;  // cavity cell
-    Index match;   // handle of the new cell's facet once found, else None
+    Index outside; // handle across it (boundary of the cavity, or first new cell), or None: surface
+    Index parent;  // input cell of the cavity cell behind it
     bool kept;
+    bool closed; // both sides are known
   };
 
   bool reserveCells(std::size_t n);
@@ -145,9 +147,14 @@ private:
   void freeCell(Index c);
   void saveCell(Index c);
   void savePoint(Index p);
-  void collectOuterFacets(const std::vector<Index>& cavity, std::uint32_t inCavity);
+  void collectOpenFacets(const std::vector<Index>& cavity, std::uint32_t inCavity);
   void collectKeptEdges(const std::vector<Index>& cavity);
-  void linkFacet(Index c, int i);
+  void killPoints(const std::vector<Index>& cavity);
+  void buryPoints();
+  void hashOpenFacets(std::size_t numberOfNewCells);
+  void create(const Simplex<D>& nodes, double quality, Index region);
+  Index linkFacet(Index c, int i);
+  void keepEdges(Index c);
 
   Mesh* mesh_;
   Index owner_ = None;
@@ -164,7 +171,7 @@ private:
   std::vector<Index> slotRecords_;
 
   // scratch of replace(): an open-addressing hash of facets
-  std::vector<OuterFacet> facets_;
+  std::vector<OpenFacet> facets_;
   std::vector<Index> table_;
   std::vector<std::array<Index, 2>> keptEdges_;
   std::vector<Index> cavityPoints_;

@@ -78,10 +78,10 @@ public:
   /// What else belongs to a cell.
   struct CellData
   {
-    double quality = 0.0;    ///< kept by whoever edits; see MeshEditor
-    Index region = 0;        ///< region of the input
-    Index parent = None;     ///< input cell whose data this cell takes
-    std::uint32_t stamp = 0; ///< free for algorithms: last failed try
+    double quality = 0.0;           ///< kept by whoever edits; see MeshEditor
+    Index region = 0;               ///< region of the input
+    Index parent = None;            ///< input cell whose data this cell takes
+    std::uint32_t stamp = 0;        ///< free for algorithms: last failed try
     mutable std::uint32_t mark = 0; ///< scratch of the MeshEditor that owns the cell
     std::uint16_t flags = 0;
   };
@@ -176,9 +176,10 @@ public:
   /// for surface points as well); `star` is overwritten. Allocates nothing once `star` has room.
   void star(Index p, std::vector<Index>& star) const;
 
-  /// Cells around the edge (a, b) of cell c, in ring order starting with c. Returns false if the
-  /// ring is open (it ends at the surface on both sides) or crosses a kept facet. The cells are
-  /// then still all those on c's side of kept facets if acrossKept is false, else all. D = 3 only.
+  /// Cells around the edge (a, b) of cell c, in ring order; D = 3 only. Returns true if the ring is
+  /// closed and crosses no kept facet; it then starts with c. Otherwise the list still holds, from
+  /// end to end, all cells that are reached without crossing a kept facet (acrossKept false) or the
+  /// surface (acrossKept true).
   bool ring(Index c, Index a, Index b, bool acrossKept, std::vector<Index>& ring) const;
 
   /// Everything that must hold, for tests and debugging: each broken invariant as a sentence,

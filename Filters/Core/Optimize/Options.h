@@ -41,10 +41,10 @@ struct Options
   bool removeNodes = true; ///< changes of topology that take points away
 
   // --- the paper's parameters
-  int neighborhoodLevel = 1;           ///< NL >= 0
-  long maximumNumberOfIterations = 0;  ///< M, per repositioning; 0: no limit
-  double epsilon = 0.02;               ///< (2.8)
-  double armijo = 0.01;                ///< alpha of (2.7)
+  int neighborhoodLevel = 1;            ///< NL >= 0
+  long maximumNumberOfIterations = 0;   ///< M, per repositioning; 0: no limit
+  double epsilon = 0.02;                ///< (2.8)
+  double armijo = 0.01;                 ///< alpha of (2.7)
   int maximumNumberOfAlternations = 20; ///< reconnection, then repositioning; at most so often
   bool naiveSearch = false; ///< rescan for the worst cell instead of the heap; same result (tests)
 
@@ -61,13 +61,13 @@ struct Options
 enum class StopReason
 {
   NotRun = 0,
-  TargetReached,       ///< the worst quality is at least the target
-  CappedBySurface,     ///< what is under the target cannot get better while the surface is kept
-  NoFurtherGain,       ///< no operation improves the worst cells any more
+  TargetReached,   ///< the worst quality is at least the target
+  CappedBySurface, ///< what is under the target cannot get better while the surface is kept
+  NoFurtherGain,   ///< no operation improves the worst cells any more
   IterationLimit,
   TimeLimit,
-  Aborted,             ///< by the caller; the mesh is valid, and as good as it was by then
-  NothingToDo          ///< no cells
+  Aborted,    ///< by the caller; the mesh is valid, and as good as it was by then
+  NothingToDo ///< no cells
 };
 
 /// A sentence for the user.

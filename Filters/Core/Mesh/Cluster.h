@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Cluster.h
+/// The few cells being worked on, numbered locally: what the node motion and the reconnection see of a mesh.
+///
+/// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2 (steps 3 and 4 of the global
+/// algorithm: neighbours of order NL, moving nodes, optimization cluster) and section 2.3 (nodal
+/// and edge clusters).
+#ifndef meshopt_Mesh_Cluster_h
+#define meshopt_Mesh_Cluster_h
+
+#include "Mesh/MeshEditor.h"
+
+#include <vector>
+
+namespace meshopt
+{
+/// The optimization cluster of section 2.2: the cells that contain a moving node. Local point numbers
+/// 0 .. numberOfMoving - 1 are the moving nodes, the others follow.
+template <int D>
+struct Cluster
+{
+  std::vector<Index> points;     ///< local number -> point of the mesh
+  std::vector<Vec<D>> x;         ///< coordinates, by local number
+  std::vector<Index> cells;      ///< cells of the mesh
+  std::vector<Simplex<D>> nodes; ///< local point numbers of each cell
+  std::vector<double> quality;   ///< of each cell, as the mesh has it
+  int numberOfMoving = 0;
+
+  Corners<D> corners(int k) const
+  {
+    Corners<D> c;
+    for (int i = 0; i <= D; ++i)
+    {
+      c[i] = this->x[this->nodes[k][i]];
+    }
+    return c;
+  }
+  /// Mean length of the edges of all cells (an edge counts once per cell): the L of (2.5).
+  double meanEdge() const;
+};
+
+/// Gathers optimization clusters; keeps its scratch between calls. The cost of a call is
+/// proportional to the cells around the neighbourhood, not to the mesh.
+template <int D>
+class ClusterGatherer
+{
+public:
+  explicit ClusterGatherer(MeshEditor<D>& editor)
+    : editor_(&editor)
+  {
+  }
+
+  /// The cluster of `cell`: nodes in its neighbourhood of order `level` (0: its own nodes; 1: also
+  /// those joined to them by an edge; and so on) that are `movable` (nonzero, one per point slot)
+  /// become moving nodes, in the order of distance; the cells are those that contain one.
+  void gather(Index cell, int level, const std::vector<std::uint8_t>& movable, Cluster<D>& cluster);
+
+private:
+  int localNumber(Index p, Cluster<D>& cluster);
+
+  MeshEditor<D>* editor_;
+  std::uint32_t time_ = 0;
+  std::vector<std::uint32_t> seen_; // per point: the call that saw it last
+  std::vector<int> local_;          // per point: its number in that call
+  std::vector<Index> front_, star_;
+};
+
+/// A cluster of section 2.3: all cells around a node or an edge, on one side of kept facets, and the
+/// facets that bound them. Reconnection removes its interior and joins the facets to an apex.
+template <int D>
+struct FanCluster
+{
+  std::vector<Index> cells;
+  /// Bounding facets in local numbers, ordered such that (facet, apex) is positively oriented for
+  /// an apex inside.
+  std::vector<Facet<D>> facets;
+  std::vector<Index> points; ///< points of the facets, by local number: ascending ids
+  std::vector<Vec<D>> x;     ///< their coordinates
+  bool coreInside = false;   ///< the central node is no point of a facet: it vanishes
+  bool closed = false;       ///< no facet contains the core (node or edge): it is interior
+  double worst = 0.0;        ///< least quality of the cells
+  int inverted = 0;          ///< cells with quality <= 0
+
+  bool contains(int facet, int apex) const
+  {
+    for (int p : this->facets[facet])
+    {
+      if (p == apex)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+};
+
+/// Gathers the cluster around a node (n = 1) or an edge (n = 2) `core` of `cell`: the cells that
+/// contain the core and are reached from `cell` over facets that contain it and are not kept. A node that
+/// bounds the cluster (it lies on a kept facet) stays; see FanCluster::coreInside. Returns false if the
+/// cluster lies on both sides of a kept facet: it must then be left as it is.
+/// The cells are left marked with editor.lastMark().
+template <int D>
+bool gatherFanCluster(
+  MeshEditor<D>& editor, Index cell, const Index* core, int n, FanCluster<D>& cluster);
+
+extern template struct Cluster<2>;
+extern template struct Cluster<3>;
+extern template class ClusterGatherer<2>;
+extern template class ClusterGatherer<3>;
+extern template bool gatherFanCluster<2>(MeshEditor<2>&, Index, const Index*, int, FanCluster<2>&);
+extern template bool gatherFanCluster<3>(MeshEditor<3>&, Index, const Index*, int, FanCluster<3>&);
+}
+
+#endif

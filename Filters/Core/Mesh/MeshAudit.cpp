@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The audit: everything that must hold of a SimplexMesh, checked without trusting any of it.
+#include "Mesh/SimplexMesh.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace meshopt
+{
+namespace
+{
+template <int D>
+struct Audit
+{
+  using Mesh = SimplexMesh<D>;
+  const Mesh& mesh;
+  std::vector<std::string> faults;
+
+  void fault(const std::string& text)
+  {
+    if (this->faults.size() < 20)
+    {
+      this->faults.push_back(text);
+    }
+  }
+
+  void cell(Index c, bool requirePositive)
+  {
+    const std::string name = "cell " + std::to_string(c);
+    for (Index p : this->mesh.nodes(c))
+    {
+      if (p < 0 || p >= this->mesh.numberOfPointSlots() || !this->mesh.isPointAlive(p))
+      {
+        this->fault(name + " uses the dead point " + std::to_string(p));
+        return;
+      }
+    }
+    if (requirePositive && !(signedVolume(this->mesh.corners(c)) > 0.0))
+    {
+      this->fault(name + " is not positive");
+    }
+    for (int i = 0; i <= D; ++i)
+    {
+      this->facet(c, i, name + " facet " + std::to_string(i));
+    }
+  }
+
+  void facet(Index c, int i, const std::string& name)
+  {
+    const Index h = this->mesh.adjacent(c, i);
+    Facet<D> f = this->mesh.facet(c, i);
+    if (this->mesh.isConstrained(c, i))
+    {
+      for (Index p : f)
+      {
+        if (!this->mesh.isFixed(p) || !this->mesh.isBoundary(p))
+        {
+          this->fault(name + " is kept but its point " + std::to_string(p) + " is free");
+        }
+      }
+    }
+    if (h == None)
+    {
+      if (!this->mesh.isConstrained(c, i))
+      {
+        this->fault(name + " is at the surface but not kept");
+      }
+      return;
+    }
+    const Index o = Mesh::cellOf(h);
+    const int j = Mesh::facetOf(h);
+    if (o < 0 || o >= this->mesh.numberOfCellSlots() || !this->mesh.isAlive(o) || j > D)
+    {
+      this->fault(name + " leads to a dead cell");
+      return;
+    }
+    Facet<D> g = this->mesh.facet(o, j);
+    std::sort(f.begin(), f.end());
+    std::sort(g.begin(), g.end());
+    if (this->mesh.adjacent(o, j) != Mesh::handle(c, i) || f != g)
+    {
+      this->fault(name + " is not the facet of its neighbour");
+    }
+    if (this->mesh.isConstrained(c, i) != this->mesh.isConstrained(o, j))
+    {
+      this->fault(name + " is kept on one side only");
+    }
+    if (this->mesh.region(c) != this->mesh.region(o) && !this->mesh.isConstrained(c, i))
+    {
+      this->fault(name + " lies between regions but is not kept");
+    }
+  }
+
+  /// Facets counted anew, without the adjacency.
+  void counts()
+  {
+    std::map<Facet<D>, int> count;
+    std::set<Simplex<D>> seen;
+    for (Index c = 0; c < this->mesh.numberOfCellSlots(); ++c)
+    {
+      if (!this->mesh.isAlive(c))
+      {
+        continue;
+      }
+      Simplex<D> t = this->mesh.nodes(c);
+      std::sort(t.begin(), t.end());
+      if (!seen.insert(t).second)
+      {
+        this->fault("cell " + std::to_string(c) + " stands twice");
+      }
+      for (int i = 0; i <= D; ++i)
+      {
+        Facet<D> f = this->mesh.facet(c, i);
+        std::sort(f.begin(), f.end());
+        const int n = ++count[f];
+        if (n > 2)
+        {
+          this->fault("a facet of cell " + std::to_string(c) + " has more than two cells");
+        }
+      }
+    }
+  }
+
+  void points()
+  {
+    std::vector<bool> used(this->mesh.numberOfPointSlots(), false);
+    for (Index c = 0; c < this->mesh.numberOfCellSlots(); ++c)
+    {
+      if (this->mesh.isAlive(c))
+      {
+        for (Index p : this->mesh.nodes(c))
+        {
+          used[p] = true;
+        }
+      }
+    }
+    for (Index p = 0; p < this->mesh.numberOfPointSlots(); ++p)
+    {
+      const std::string name = "point " + std::to_string(p);
+      if (used[p] != this->mesh.isPointAlive(p))
+      {
+        this->fault(name + (used[p] ? " is used but dead" : " is alive but not used"));
+      }
+      const Index c = this->mesh.cellOfPoint(p);
+      if (used[p] && (c == None || !this->mesh.isAlive(c) || this->mesh.localIndex(c, p) < 0))
+      {
+        this->fault(name + " has a cell that does not use it");
+      }
+    }
+  }
+};
+}
+
+template <int D>
+std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
+{
+  Audit<D> audit{ *this, {} };
+  for (Index c = 0; c < this->numberOfCellSlots(); ++c)
+  {
+    if (this->isAlive(c))
+    {
+      audit.cell(c, requirePositive);
+    }
+  }
+  if (audit.faults.empty())
+  {
+    audit.counts();
+    audit.points();
+  }
+  return audit.faults;
+}
+
+template <int D>
+long SimplexMesh<D>::eulerCharacteristic() const
+{
+  std::set<std::array<Index, 2>> edges;
+  std::set<Facet<D>> facets;
+  for (Index c = 0; c < this->numberOfCellSlots(); ++c)
+  {
+    if (!this->isAlive(c))
+    {
+      continue;
+    }
+    for (const auto& e : Local<D>::edges)
+    {
+      const Index a = this->nodes(c)[e[0]], b = this->nodes(c)[e[1]];
+      edges.insert({ std::min(a, b), std::max(a, b) });
+    }
+    for (int i = 0; i <= D; ++i)
+    {
+      Facet<D> f = this->facet(c, i);
+      std::sort(f.begin(), f.end());
+      facets.insert(f);
+    }
+  }
+  const long v = this->countPoints(), e = static_cast<long>(edges.size());
+  const long f = static_cast<long>(facets.size()), c = this->countCells();
+  return D == 3 ? v - e + f - c : v - e + c;
+}
+
+template std::vector<std::string> SimplexMesh<2>::audit(bool) const;
+template std::vector<std::string> SimplexMesh<3>::audit(bool) const;
+template long SimplexMesh<2>::eulerCharacteristic() const;
+template long SimplexMesh<3>::eulerCharacteristic() const;
+}

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Building a SimplexMesh: checks, adjacency by a bucket sort, orientation, what must be kept.
+#include "Mesh/SimplexMesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+template <std::size_t N>
+std::string list(const std::array<Index, N>& ids)
+{
+  std::string text;
+  for (std::size_t i = 0; i < N; ++i)
+  {
+    text += (i == 0 ? "" : i + 1 == N ? " and " : ", ") + std::to_string(ids[i]);
+  }
+  return text;
+}
+
+/// Sorts the D ids of a facet; returns whether the permutation was odd.
+template <int D>
+bool sortFacet(Facet<D>& f)
+{
+  bool odd = false;
+  const auto order = [&](int i, int j)
+  {
+    if (f[i] > f[j])
+    {
+      std::swap(f[i], f[j]);
+      odd = !odd;
+    }
+  };
+  order(0, 1);
+  if constexpr (D == 3)
+  {
+    order(1, 2);
+    order(0, 1);
+  }
+  return odd;
+}
+
+/// What a facet is besides its least point id.
+struct FacetEntry
+{
+  std::uint64_t rest;    // the other ids, sorted
+  std::uint32_t handle2; // 2 * handle + parity
+  bool operator<(const FacetEntry& o) const
+  {
+    return this->rest != o.rest ? this->rest < o.rest : this->handle2 < o.handle2;
+  }
+};
+}
+
+template <int D>
+struct MeshBuilder
+{
+  using Mesh = SimplexMesh<D>;
+  const MeshInput<D>& input;
+  Mesh& mesh;
+  bool consistent = true;
+
+  MeshError error(std::string message, Index cell = None, Index point = None)
+  {
+    this->mesh = Mesh();
+    return { std::move(message), cell, point };
+  }
+
+  std::optional<MeshError> checkLengths()
+  {
+    const auto wrong = [&](const char* what, std::size_t have, std::size_t want, const char* of)
+    {
+      return this->error(std::string(what) + " has " + std::to_string(have) + " values for " +
+        std::to_string(want) + " " + of + ".");
+    };
+    if (this->input.cells.size() > (std::size_t(1) << 29))
+    {
+      return this->error("More than 2^29 cells.");
+    }
+    if (!this->input.regions.empty() && this->input.regions.size() != this->input.cells.size())
+    {
+      return wrong(
+        "The region array", this->input.regions.size(), this->input.cells.size(), "cells");
+    }
+    if (!this->input.fixedPoints.empty() &&
+      this->input.fixedPoints.size() != this->input.points.size())
+    {
+      return wrong("The mask of fixed points", this->input.fixedPoints.size(),
+        this->input.points.size(), "points");
+    }
+    return std::nullopt;
+  }
+
+  std::optional<MeshError> checkCells()
+  {
+    const Index n = static_cast<Index>(this->input.points.size());
+    for (std::size_t c = 0; c < this->input.cells.size(); ++c)
+    {
+      const Simplex<D>& t = this->input.cells[c];
+      for (int i = 0; i <= D; ++i)
+      {
+        if (t[i] < 0 || t[i] >= n)
+        {
+          return this->error("Cell " + std::to_string(c) + " uses point " + std::to_string(t[i]) +
+              ", but there are " + std::to_string(n) + " points.",
+            Index(c), t[i]);
+        }
+        for (int j = 0; j < i; ++j)
+        {
+          if (t[i] == t[j])
+          {
+            return this->error(
+              "Cell " + std::to_string(c) + " uses point " + std::to_string(t[i]) + " twice.",
+              Index(c), t[i]);
+          }
+        }
+        if (!this->input.points[t[i]].allFinite())
+        {
+          return this->error("Point " + std::to_string(t[i]) + " of cell " + std::to_string(c) +
+              " has a coordinate that is not finite.",
+            Index(c), t[i]);
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  void fill()
+  {
+    const std::size_t n = this->input.cells.size();
+    this->mesh.cells_.resize(n);
+    this->mesh.cellData_.resize(n);
+    this->mesh.points_.resize(this->input.points.size());
+    this->mesh.inputCells_ = static_cast<Index>(n);
+    this->mesh.inputPoints_ = static_cast<Index>(this->input.points.size());
+    for (std::size_t p = 0; p < this->input.points.size(); ++p)
+    {
+      this->mesh.points_[p].x = this->input.points[p];
+      if (!this->input.fixedPoints.empty() && this->input.fixedPoints[p])
+      {
+        this->mesh.points_[p].flags = Mesh::PointFixed | Mesh::PointFixedByUser;
+      }
+    }
+    for (std::size_t c = 0; c < n; ++c)
+    {
+      this->mesh.cells_[c].nodes = this->input.cells[c];
+      this->mesh.cells_[c].adjacent.fill(None);
+      typename Mesh::CellData& data = this->mesh.cellData_[c];
+      data.parent = static_cast<Index>(c);
+      data.region = this->input.regions.empty() ? 0 : this->input.regions[c];
+      data.flags = Mesh::CellAlive;
+      for (Index p : this->input.cells[c])
+      {
+        this->mesh.points_[p].cell = static_cast<Index>(c);
+        this->mesh.points_[p].flags |= Mesh::PointAlive;
+      }
+    }
+  }
+
+  /// Bucket by the least point id (counting sort), then sort the few entries of each bucket.
+  std::optional<MeshError> link()
+  {
+    const Index n = this->mesh.numberOfCellSlots();
+    std::vector<std::uint32_t> start(this->input.points.size() + 1, 0);
+    for (Index c = 0; c < n; ++c)
+    {
+      for (int i = 0; i <= D; ++i)
+      {
+        const Facet<D> f = this->mesh.facet(c, i);
+        ++start[*std::min_element(f.begin(), f.end()) + 1];
+      }
+    }
+    for (std::size_t p = 0; p + 1 < start.size(); ++p)
+    {
+      start[p + 1] += start[p];
+    }
+    std::vector<FacetEntry> entries(std::size_t(n) * (D + 1));
+    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+    for (Index c = 0; c < n; ++c)
+    {
+      for (int i = 0; i <= D; ++i)
+      {
+        Facet<D> f = this->mesh.facet(c, i);
+        const bool odd = sortFacet<D>(f);
+        std::uint64_t rest = static_cast<std::uint32_t>(f[1]);
+        if constexpr (D == 3)
+        {
+          rest = (rest << 32) | static_cast<std::uint32_t>(f[2]);
+        }
+        entries[next[f[0]]++] = { rest,
+          (static_cast<std::uint32_t>(Mesh::handle(c, i)) << 1) | odd };
+      }
+    }
+    for (std::size_t p = 0; p + 1 < start.size(); ++p)
+    {
+      std::sort(entries.begin() + start[p], entries.begin() + start[p + 1]);
+      for (std::uint32_t k = start[p]; k + 1 < start[p + 1]; ++k)
+      {
+        if (entries[k].rest != entries[k + 1].rest)
+        {
+          continue;
+        }
+        if (auto wrong = this->pair(entries, k, start[p + 1]))
+        {
+          return wrong;
+        }
+        ++k;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<MeshError> pair(
+    const std::vector<FacetEntry>& entries, std::uint32_t k, std::uint32_t end)
+  {
+    const Index a = static_cast<Index>(entries[k].handle2 >> 1);
+    const Index b = static_cast<Index>(entries[k + 1].handle2 >> 1);
+    const Index ca = Mesh::cellOf(a), cb = Mesh::cellOf(b);
+    if (k + 2 < end && entries[k + 2].rest == entries[k].rest)
+    {
+      const Index cc = Mesh::cellOf(static_cast<Index>(entries[k + 2].handle2 >> 1));
+      return this->error("The " + std::string(D == 3 ? "face" : "edge") + " of points " +
+          list(this->mesh.facet(ca, Mesh::facetOf(a))) +
+          " belongs to more than two cells: " + list(std::array<Index, 3>{ ca, cb, cc }) + ".",
+        cc);
+    }
+    Simplex<D> na = this->mesh.nodes(ca), nb = this->mesh.nodes(cb);
+    std::sort(na.begin(), na.end());
+    std::sort(nb.begin(), nb.end());
+    if (na == nb)
+    {
+      return this->error(
+        "Cells " + list(std::array<Index, 2>{ ca, cb }) + " have the same points.", cb);
+    }
+    this->mesh.cells_[ca].adjacent[Mesh::facetOf(a)] = b;
+    this->mesh.cells_[cb].adjacent[Mesh::facetOf(b)] = a;
+    this->consistent &= ((entries[k].handle2 ^ entries[k + 1].handle2) & 1) != 0;
+    return std::nullopt;
+  }
+
+  /// True if the shared facet is seen from opposite sides, as it must be.
+  bool agree(Index c, int i) const
+  {
+    const Index h = this->mesh.adjacent(c, i);
+    Facet<D> f = this->mesh.facet(c, i), g = this->mesh.facet(Mesh::cellOf(h), Mesh::facetOf(h));
+    return sortFacet<D>(f) != sortFacet<D>(g);
+  }
+
+  /// Makes the numbering of each connected component consistent, and positive as a whole. What is
+  /// still negative after that is geometrically inverted, not just numbered the other way round.
+  void orient()
+  {
+    const Index n = this->mesh.numberOfCellSlots();
+    bool negative = false;
+    for (Index c = 0; c < n && !negative; ++c)
+    {
+      negative = signedVolume(this->mesh.corners(c)) < 0.0;
+    }
+    if (this->consistent && !negative)
+    {
+      return;
+    }
+    std::vector<std::int8_t> sign(n, 0);
+    std::vector<Index> component;
+    for (Index seed = 0; seed < n; ++seed)
+    {
+      if (sign[seed] != 0)
+      {
+        continue;
+      }
+      const double volume = this->propagate(seed, sign, component);
+      for (Index c : component)
+      {
+        if ((sign[c] < 0) != (volume < 0.0))
+        {
+          this->reverse(c);
+          ++this->mesh.reoriented_;
+        }
+      }
+    }
+  }
+
+  double propagate(Index seed, std::vector<std::int8_t>& sign, std::vector<Index>& component)
+  {
+    component.assign(1, seed);
+    sign[seed] = 1;
+    double volume = 0.0;
+    for (std::size_t k = 0; k < component.size(); ++k)
+    {
+      const Index c = component[k];
+      volume += sign[c] * signedVolume(this->mesh.corners(c));
+      for (int i = 0; i <= D; ++i)
+      {
+        const Index h = this->mesh.adjacent(c, i);
+        if (h != None && sign[Mesh::cellOf(h)] == 0)
+        {
+          sign[Mesh::cellOf(h)] = this->agree(c, i) ? sign[c] : -sign[c];
+          component.push_back(Mesh::cellOf(h));
+        }
+      }
+    }
+    return volume;
+  }
+
+  void reverse(Index c)
+  {
+    auto& cell = this->mesh.cells_[c];
+    std::swap(cell.nodes[D - 1], cell.nodes[D]);
+    std::swap(cell.adjacent[D - 1], cell.adjacent[D]);
+    for (int i = D - 1; i <= D; ++i)
+    {
+      const Index h = cell.adjacent[i];
+      if (h != None)
+      {
+        this->mesh.cells_[Mesh::cellOf(h)].adjacent[Mesh::facetOf(h)] = Mesh::handle(c, i);
+      }
+    }
+  }
+
+  void keepFacet(Index c, int i)
+  {
+    this->mesh.cellData_[c].flags |= std::uint16_t(1u << i);
+    for (Index p : this->mesh.facet(c, i))
+    {
+      this->mesh.points_[p].flags |= Mesh::PointFixed | Mesh::PointBoundary;
+    }
+  }
+
+  void constrain()
+  {
+    for (Index c = 0; c < this->mesh.numberOfCellSlots(); ++c)
+    {
+      for (int i = 0; i <= D; ++i)
+      {
+        const Index h = this->mesh.adjacent(c, i);
+        if (h == None || this->mesh.region(Mesh::cellOf(h)) != this->mesh.region(c))
+        {
+          this->keepFacet(c, i);
+        }
+      }
+    }
+    this->constrainListed();
+    this->fixPinchedPoints();
+  }
+
+  /// The caller's facets and edges are marked in every cell that has them; each is looked up in the
+  /// star of its first point. What no cell has is ignored.
+  void constrainListed()
+  {
+    std::vector<Index> star;
+    for (const Facet<D>& f : this->input.constrainedFacets)
+    {
+      this->findStar(f[0], star);
+      for (Index c : star)
+      {
+        for (int i = 0; i <= D; ++i)
+        {
+          const Facet<D> g = this->mesh.facet(c, i);
+          if (std::is_permutation(f.begin(), f.end(), g.begin()))
+          {
+            this->keepFacet(c, i);
+          }
+        }
+      }
+    }
+    for (const auto& e : this->input.constrainedEdges)
+    {
+      this->findStar(e[0], star);
+      for (Index c : star)
+      {
+        for (int k = 0; k < Local<D>::numberOfEdges; ++k)
+        {
+          const Index a = this->mesh.nodes(c)[Local<D>::edges[k][0]];
+          const Index b = this->mesh.nodes(c)[Local<D>::edges[k][1]];
+          if ((a == e[0] && b == e[1]) || (a == e[1] && b == e[0]))
+          {
+            this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
+            this->mesh.points_[a].flags |= Mesh::PointFixed;
+            this->mesh.points_[b].flags |= Mesh::PointFixed;
+            this->mesh.hasConstrainedEdges_ = true;
+          }
+        }
+      }
+    }
+  }
+
+  void findStar(Index p, std::vector<Index>& star) const
+  {
+    star.clear();
+    if (p >= 0 && p < this->mesh.numberOfPointSlots() && this->mesh.isPointAlive(p))
+    {
+      this->mesh.star(p, star);
+    }
+  }
+
+  /// A free point whose cells are not all connected over facets (two bodies that touch in an inner
+  /// point) must not move: its star would be seen in part only.
+  void fixPinchedPoints()
+  {
+    std::vector<Index> count(this->mesh.points_.size(), 0), star;
+    for (const auto& cell : this->mesh.cells_)
+    {
+      for (Index p : cell.nodes)
+      {
+        ++count[p];
+      }
+    }
+    for (Index p = 0; p < this->mesh.numberOfPointSlots(); ++p)
+    {
+      if (count[p] > 0 && !this->mesh.isFixed(p))
+      {
+        this->mesh.star(p, star);
+        if (static_cast<Index>(star.size()) != count[p])
+        {
+          this->mesh.points_[p].flags |= Mesh::PointFixed;
+        }
+      }
+    }
+  }
+};
+
+template <int D>
+std::optional<MeshError> SimplexMesh<D>::build(const MeshInput<D>& input, SimplexMesh<D>& mesh)
+{
+  mesh = SimplexMesh<D>();
+  MeshBuilder<D> builder{ input, mesh };
+  if (auto wrong = builder.checkLengths())
+  {
+    return wrong;
+  }
+  if (auto wrong = builder.checkCells())
+  {
+    return wrong;
+  }
+  builder.fill();
+  if (auto wrong = builder.link())
+  {
+    return wrong;
+  }
+  builder.orient();
+  builder.constrain();
+  return std::nullopt;
+}
+
+template std::optional<MeshError> SimplexMesh<2>::build(const MeshInput<2>&, SimplexMesh<2>&);
+template std::optional<MeshError> SimplexMesh<3>::build(const MeshInput<3>&, SimplexMesh<3>&);
+}
