@@ -2,7 +2,7 @@
 #   meshopt_core_test(SimplexMeshTest)          Testing/Core/SimplexMeshTest.cpp, GoogleTest, no VTK
 #   meshopt_cxx_test(TestMeshOptimizeFilter)    Testing/Cxx/TestMeshOptimizeFilter.cxx, a main(argc, argv), VTK
 #   meshopt_python_test(TestMeasures)           Testing/Python/TestMeasures.py, by python3 and by pvpython if there is one
-#   meshopt_pvpython_test(TestProxies [PVBATCH] [MPI n] [RENDERS] [ARGS ...])   Testing/ParaView/TestProxies.py
+#   meshopt_pvpython_test(TestProxies [PVBATCH] [MPI n] [RENDERS] [LOADS_PLUGIN])   Testing/ParaView/TestProxies.py
 # Extra arguments: TIMEOUT seconds; ARGS for the program; PYTHON_ONLY for a Python test without pvpython.
 
 set(MESHOPTIMIZE_DATA_DIR "${PROJECT_SOURCE_DIR}/Data")
@@ -15,6 +15,7 @@ set(MESHOPTIMIZE_TEST_ENVIRONMENT
   "MESHOPTIMIZE_DATA=set:${MESHOPTIMIZE_DATA_DIR}"
   "MESHOPTIMIZE_OUTPUT=set:${MESHOPTIMIZE_TEST_OUTPUT_DIR}"
   "MESHOPTIMIZE_SOURCE=set:${PROJECT_SOURCE_DIR}"
+  "MESHOPTIMIZE_PLUGIN=set:${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/paraview-5.11/plugins/MeshOptimize/MeshOptimize.so"
   "PV_PLUGIN_PATH=set:${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/paraview-5.11/plugins/MeshOptimize"
   "PYTHONPATH=path_list_prepend:${CMAKE_BINARY_DIR}/${MESHOPTIMIZE_PYTHON_DIR}"
   "OMPI_ALLOW_RUN_AS_ROOT=set:1"
@@ -70,7 +71,7 @@ function (meshopt_python_test name)
 endfunction ()
 
 function (meshopt_pvpython_test name)
-  cmake_parse_arguments(arg "PVBATCH;RENDERS" "MPI;TIMEOUT;SCRIPT;SUFFIX" "ARGS" ${ARGN})
+  cmake_parse_arguments(arg "PVBATCH;RENDERS;LOADS_PLUGIN" "MPI;TIMEOUT;SCRIPT" "ARGS" ${ARGN})
   set(script "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
   if (arg_SCRIPT)
     set(script "${arg_SCRIPT}")
@@ -87,6 +88,9 @@ function (meshopt_pvpython_test name)
   endif ()
   add_test(NAME ${test} COMMAND ${command} "${script}" ${arg_ARGS})
   _meshopt_test_properties(${test} paraview TIMEOUT ${arg_TIMEOUT})
+  if (arg_LOADS_PLUGIN)  # by LoadPlugin(), not by PV_PLUGIN_PATH
+    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT_MODIFICATION "PV_PLUGIN_PATH=unset:")
+  endif ()
   if (arg_RENDERS)  # software rendering: not two at a time on a small machine
     set_tests_properties(${test} PROPERTIES RESOURCE_LOCK display)
   endif ()
