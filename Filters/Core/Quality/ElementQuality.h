@@ -16,9 +16,10 @@ namespace meshopt
 {
 /// The size factor phi = exp(-t), t = beta^2 ln^2(h / h*) >= 0, and its derivative by t.
 ///
-/// exp(-t) is 0 in floating point from t = 745 on, which would make all elements far from h* equally bad, with
-/// no way out. From t = 500 on (phi < 1e-217) it is continued, with its slope, by exp(-500) / (1 + t - 500), which
-/// keeps falling: (2.2) is followed to the last bit wherever it can be told from 0, and ranks stay those of ln Q.
+/// exp(-t) is 0 in floating point from t = 745 on, which would make all elements far from h*
+/// equally bad, with no way out. From t = 500 on (phi < 1e-217) it is continued, with its slope, by
+/// exp(-500) / (1 + t - 500), which keeps falling: (2.2) is followed to the last bit wherever it
+/// can be told from 0, and ranks stay those of ln Q.
 inline double sizeFactor(double t, double& slope)
 {
   constexpr double last = 500.0;
@@ -38,8 +39,9 @@ inline double sizeFactor(double t, double& slope)
 ///   static double value(const Corners<D>& x);
 ///   static double gradient(const Corners<D>& x, std::array<Vec<D>, D + 1>& g); // returns value
 ///
-/// The element is measured in the metric M: its corners are mapped by M^(1/2) first. h is its longest edge there (the
-/// paper's diameter). The size factor applies where beta > 0, h* > 0 and S > 0.
+/// The element is measured in the metric M: its corners are mapped by M^(1/2) first. h is its
+/// longest edge there (the paper's diameter). The size factor applies where beta > 0, h* > 0 and S
+/// > 0.
 template <int D, class Shape>
 struct ElementQuality
 {
@@ -47,9 +49,9 @@ struct ElementQuality
 
   /// S phi; S where S <= 0 (inverted elements are ranked by shape alone).
   double value(const Corners<D>& x, const ElementMetric<D>& m) const;
-  /// The same, and its gradient with respect to every node: in 1 / unit of length. The diameter's is that of
-  /// the longest edge, the first in local numbering if there are several: for h < h* this is a
-  /// max-type function, so trust only a measured increase.
+  /// The same, and its gradient with respect to every node: in 1 / unit of length. The diameter's
+  /// is that of the longest edge, the first in local numbering if there are several: for h < h*
+  /// this is a max-type function, so trust only a measured increase.
   double gradient(
     const Corners<D>& x, const ElementMetric<D>& m, std::array<Vec<D>, D + 1>& g) const;
 
@@ -85,8 +87,7 @@ private:
 };
 
 template <int D, class Shape>
-inline double ElementQuality<D, Shape>::value(
-  const Corners<D>& x, const ElementMetric<D>& m) const
+inline double ElementQuality<D, Shape>::value(const Corners<D>& x, const ElementMetric<D>& m) const
 {
   if (m.euclidean && !this->hasSize(m))
   {

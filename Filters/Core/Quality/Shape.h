@@ -9,14 +9,15 @@
 ///  - value(x) is dimensionless (degrees for MinimumAngleShape), unchanged by translation, rotation
 ///    and scale; scaling by a power of two gives the same bits;
 ///  - it has the sign of the volume: value(mirrored element) = -value(element);
-///  - an element without volume has 0, also when nodes or all of it coincide: nothing is divided by the volume;
+///  - an element without volume has 0, also when nodes or all of it coincide: nothing is divided by
+///    the volume;
 ///  - a coordinate that is not finite gives NaN;
-///  - gradient(x, g) returns the value and sets g[a] = d value / d x_a, in 1 / unit of length; where a
-///    minimum over edges or angles is taken, that of the term that attains it, the first in local
-///    numbering if there are several.
+///  - gradient(x, g) returns the value and sets g[a] = d value / d x_a, in 1 / unit of length;
+///    where a minimum over edges or angles is taken, that of the term that attains it, the first in
+///    local numbering if there are several.
 ///
-/// The range of safe sizes is wide: no intermediate result overflows or underflows for edges between
-/// 1e-30 and 1e+30 units of length.
+/// The range of safe sizes is wide: no intermediate result overflows or underflows for edges
+/// between 1e-30 and 1e+30 units of length.
 #ifndef meshopt_Quality_Shape_h
 #define meshopt_Quality_Shape_h
 
@@ -156,8 +157,8 @@ private:
 /// Mean ratio: 12 (3 V)^(2/3) / sum l^2 in 3D, 4 sqrt(3) A / sum l^2 in 2D (there the same as
 /// VolumeLengthShape).
 ///
-/// In 3D the slope is infinite where V = 0: the gradient takes V^(-1/3) no larger than it is at V = 1e-12 times the
-/// cube of the rms edge length, so that it stays finite and keeps its direction.
+/// In 3D the slope is infinite where V = 0: the gradient takes V^(-1/3) no larger than it is at V =
+/// 1e-12 times the cube of the rms edge length, so that it stays finite and keeps its direction.
 template <int D>
 struct MeanRatioShape
 {
@@ -328,16 +329,17 @@ inline double RadiusRatioShape<D>::gradient3(const Corners<3>& x, std::array<Vec
   for (int k = 0; k < 3; ++k)
   {
     const Vec<3>&a = e[k], &b = e[(k + 1) % 3], &c = e[(k + 2) % 3];
-    const Vec<3> t =
-      2.0 * u.dot(b.cross(c)) * a + b.squaredNorm() * u.cross(c) + c.squaredNorm() * b.cross(u);
+    const Vec<3> t = 2.0 * u.dot(b.cross(c)) * a + b.squaredNorm() * u.cross(c) +
+      c.squaredNorm() * b.cross(u);
     g[k + 1] -= t;
     g[0] += t;
   }
   return q;
 }
 
-/// The least sine of the dihedral angles (3D) or of the corner angles (2D), as it is: the regular simplex has
-/// sin 70.53 = .9428 (sin 60 = .8660 in 2D), which is the greatest there is. It is 0 for angles of 0 and of 180 degrees.
+/// The least sine of the dihedral angles (3D) or of the corner angles (2D), as it is: the regular
+/// simplex has sin 70.53 = .9428 (sin 60 = .8660 in 2D), which is the greatest there is. It is 0
+/// for angles of 0 and of 180 degrees.
 template <int D>
 struct MinimumSineShape
 {

@@ -125,7 +125,8 @@ template <>
 struct AngleKernel<2>
 {
   /// The least angle (of the mirrored triangle if inverted) by its sine and cosine times a common
-  /// positive factor, the sine with the sign of the area. Returns the node, -1 if an edge is collapsed (then 0, 1).
+  /// positive factor, the sine with the sign of the area. Returns the node, -1 if an edge is
+  /// collapsed (then 0, 1).
   static int least(const Corners<2>& x, double& sine, double& cosine)
   {
     sine = volumeDeterminant(x);
@@ -167,7 +168,8 @@ template <>
 struct AngleKernel<3>
 {
   /// Facets at edge e: those opposite to the two nodes that are not on it.
-  static constexpr int facets[6][2] = { { 2, 3 }, { 1, 3 }, { 1, 2 }, { 0, 3 }, { 0, 2 }, { 0, 1 } };
+  static constexpr int facets[6][2] = { { 2, 3 }, { 1, 3 }, { 1, 2 }, { 0, 3 }, { 0, 2 },
+    { 0, 1 } };
 
   /// As in 2D, for the dihedral angles. Returns the edge, -1 if a facet is collapsed.
   static int least(const Corners<3>& x, double& sine, double& cosine)

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Boundary/SurfaceBound.h"
+
+#include "Boundary/ApexBound.h"
+#include "Quality/Shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+/// Edge (3D) or node (2D) k of a side, ready to be sorted so that those that coincide are
+/// neighbours.
+struct Rim
+{
+  Index low, high; ///< nodes; in 2D both are the node
+  Index region;
+  Index side;
+  std::int8_t k; ///< local number: the edge from node k to node k + 1; in 2D node k
+  bool forward;  ///< from low to high; in 2D: the side begins here
+  bool operator<(const Rim& other) const
+  {
+    return this->low != other.low    ? this->low < other.low
+      : this->high != other.high     ? this->high < other.high
+      : this->region != other.region ? this->region < other.region
+                                     : this->side < other.side;
+  }
+  bool sameWedge(const Rim& other) const
+  {
+    return this->low == other.low && this->high == other.high && this->region == other.region;
+  }
+};
+
+std::vector<Rim> collectRims(const std::vector<KeptSide<3>>& sides)
+{
+  std::vector<Rim> rims;
+  rims.reserve(3 * sides.size());
+  for (std::size_t s = 0; s < sides.size(); ++s)
+  {
+    for (std::int8_t k = 0; sides[s].oriented && k < 3; ++k)
+    {
+      const Index a = sides[s].nodes[k], b = sides[s].nodes[(k + 1) % 3];
+      rims.push_back(
+        { std::min(a, b), std::max(a, b), sides[s].region, static_cast<Index>(s), k, a < b });
+    }
+  }
+  std::sort(rims.begin(), rims.end());
+  return rims;
+}
+
+std::vector<Rim> collectRims(const std::vector<KeptSide<2>>& sides)
+{
+  std::vector<Rim> rims;
+  rims.reserve(2 * sides.size());
+  for (std::size_t s = 0; s < sides.size(); ++s)
+  {
+    for (std::int8_t k = 0; sides[s].oriented && k < 2; ++k)
+    {
+      const Index a = sides[s].nodes[k];
+      rims.push_back({ a, a, sides[s].region, static_cast<Index>(s), k, k == 0 });
+    }
+  }
+  std::sort(rims.begin(), rims.end());
+  return rims;
+}
+
+/// An angle in ]0, 2 pi]: a facet and its own back side, or one folded onto it, leave all of it.
+double positiveAngle(double y, double x)
+{
+  const double angle = std::atan2(y, x);
+  return angle > 0.0 ? angle : angle + 2.0 * pi;
+}
+
+/// What both dimensions share: facet caps, then the wedges between neighbouring sides of one
+/// region.
+template <int D>
+class BoundBuilder
+{
+public:
+  BoundBuilder(const Vec<D>* points, const SurfaceBoundOptions& options, SurfaceBound<D>& result)
+    : points_(points)
+    , options_(options)
+    , enough_(std::max(options.enough, options.listEdgesBelow))
+    , result_(result)
+  {
+  }
+
+  void run()
+  {
+    const double regular = regularValue<D>(this->options_.measure);
+    this->result_.bound = regular;
+    this->result_.sideCaps.assign(this->result_.sides.size(), regular);
+    this->capSides();
+    if (this->options_.useEdges && this->options_.measure == Measure::Shape)
+    {
+      this->capWedges();
+    }
+  }
+
+private:
+  void capSides();
+  void capWedges();
+  double angle(const Rim& from, const Rim& to) const;
+  double wedgeCap(const Rim& from, const Rim& to, double theta, double below) const;
+  double capOfSide(std::size_t s, double enough);
+
+  /// The rim that ends the wedge which begins at `from`: the first one met when turning into it.
+  const Rim* partner(const Rim& from, const Rim* begin, const Rim* end, double& theta) const
+  {
+    const Rim* best = nullptr;
+    for (const Rim* rim = begin; rim != end; ++rim)
+    {
+      if (!rim->forward)
+      {
+        const double t = this->angle(from, *rim);
+        if (!best || t < theta)
+        {
+          best = rim;
+          theta = t;
+        }
+      }
+    }
+    return best;
+  }
+
+  const Vec<D>* points_;
+  const SurfaceBoundOptions options_;
+  double enough_;
+  SurfaceBound<D>& result_;
+  std::vector<Vec<D>> apexes_; ///< D = 3
+};
+
+template <>
+double BoundBuilder<2>::capOfSide(std::size_t, double)
+{
+  return 1.0; // every edge has an equilateral triangle
+}
+
+template <>
+double BoundBuilder<3>::capOfSide(std::size_t s, double enough)
+{
+  const Facet<3>& f = this->result_.sides[s].nodes;
+  const Vec<3>&a = this->points_[f[0]], &b = this->points_[f[1]], &c = this->points_[f[2]];
+  switch (this->options_.measure)
+  {
+    case Measure::Shape:
+      return facetCap(a, b, c, enough, &this->apexes_[s]);
+    case Measure::VolumeLength:
+    case Measure::MeanRatio:
+    {
+      // The best apex is above the centroid, and gives the mean ratio 4 sqrt(3) A / sum l^2 of the
+      // facet itself.
+      const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+      const double area = 0.5 * (b - a).cross(c - a).norm();
+      const double cap = squares == 0.0 ? 0.0 : std::min(1.0, 6.928203230275509 * area / squares);
+      if (!std::isfinite(squares))
+      {
+        return 1.0;
+      }
+      return this->options_.measure == Measure::VolumeLength ? cap : std::cbrt(cap * cap);
+    }
+    default:
+      return regularValue<3>(this->options_.measure);
+  }
+}
+
+template <int D>
+void BoundBuilder<D>::capSides()
+{
+  if (D == 3)
+  {
+    this->apexes_.resize(this->result_.sides.size());
+  }
+  double bound = this->result_.bound;
+  for (std::size_t s = 0; s < this->result_.sides.size(); ++s)
+  {
+    const double cap = this->capOfSide(s, std::max(bound, this->enough_));
+    this->result_.sideCaps[s] = cap;
+    bound = std::min(bound, cap);
+  }
+  this->result_.bound = bound;
+}
+
+template <int D>
+void BoundBuilder<D>::capWedges()
+{
+  const std::vector<Rim> rims = collectRims(this->result_.sides);
+  const double list = this->options_.listEdgesBelow;
+  for (std::size_t i = 0, j = 0; i < rims.size(); i = j)
+  {
+    for (j = i + 1; j < rims.size() && rims[i].sameWedge(rims[j]);)
+    {
+      ++j;
+    }
+    for (std::size_t r = i; r < j; ++r)
+    {
+      if (!rims[r].forward)
+      {
+        continue;
+      }
+      double theta = 0.0;
+      const Rim* to = this->partner(rims[r], &rims[i], &rims[i] + (j - i), theta);
+      if (!to)
+      {
+        continue;
+      }
+      // only what the facets at the edge do not forbid by themselves
+      const double facets = std::min(
+        this->result_.sideCaps[rims[r].side], this->result_.sideCaps[to->side]);
+      const double below = std::min(facets, std::max(this->result_.bound, list));
+      const double cap = this->wedgeCap(rims[r], *to, theta, below * (1.0 - 1e-9));
+      if (cap < below * (1.0 - 1e-9))
+      {
+        if (cap < list)
+        {
+          this->result_.edges.push_back({ rims[r].low, D == 2 ? None : rims[r].high, cap });
+        }
+        this->result_.bound = std::min(this->result_.bound, cap);
+      }
+    }
+  }
+}
+
+template <>
+double BoundBuilder<2>::angle(const Rim& from, const Rim& to) const
+{
+  const Vec<2>& x = this->points_[from.low];
+  const Vec<2> u = this->points_[this->result_.sides[from.side].nodes[1]] - x;
+  const Vec<2> v = this->points_[this->result_.sides[to.side].nodes[0]] - x;
+  return positiveAngle(u[0] * v[1] - u[1] * v[0], u.dot(v));
+}
+
+template <>
+double BoundBuilder<3>::angle(const Rim& from, const Rim& to) const
+{
+  const Vec<3>& a = this->points_[from.low];
+  const Vec<3> t = this->points_[from.high] - a;
+  const Vec<3> u = this->points_[this->result_.sides[from.side].nodes[(from.k + 2) % 3]] - a;
+  const Vec<3> v = this->points_[this->result_.sides[to.side].nodes[(to.k + 2) % 3]] - a;
+  // normals of both half planes, turned the same way: (t x u) . (t x v) and t . ((t x u) x (t x v))
+  const Vec<3> m = t.cross(u), n = t.cross(v);
+  return positiveAngle(t.norm() * u.dot(v.cross(t)), m.dot(n));
+}
+
+template <>
+double BoundBuilder<2>::wedgeCap(const Rim& from, const Rim& to, double theta, double below) const
+{
+  const Vec<2>& x = this->points_[from.low];
+  const Vec<2>& b = this->points_[this->result_.sides[from.side].nodes[1]];
+  const Vec<2>& c = this->points_[this->result_.sides[to.side].nodes[0]];
+  if (!std::isfinite(theta))
+  {
+    return 1.0;
+  }
+  double cap = theta < pi ? MeanEdgeShape<2>::value({ x, b, c }) : 0.0;
+  const int last = 2 + static_cast<int>(theta); // angles under 60 degrees only get worse
+  for (int k = 2; k <= last && cap < below; ++k)
+  {
+    if (theta / k < pi)
+    {
+      cap = std::max(cap, angleCap2(theta / k));
+    }
+  }
+  return cap;
+}
+
+template <>
+double BoundBuilder<3>::wedgeCap(const Rim& from, const Rim& to, double theta, double below) const
+{
+  const auto apexOf = [this](const Rim& rim)
+  { return this->points_[this->result_.sides[rim.side].nodes[(rim.k + 2) % 3]]; };
+  const Vec<3>&a = this->points_[from.low], &b = this->points_[from.high];
+  const Vec<3> c = apexOf(from), d = apexOf(to);
+  const double spanned = theta < pi ? MeanEdgeShape<3>::value({ a, b, c, d }) : 0.0;
+  const EdgeView first(a, b, c, this->apexes_[from.side]);
+  const EdgeView last(a, b, d, this->apexes_[to.side]);
+  if (!edgeForbids(below, theta, first, last, spanned))
+  {
+    return 1.0;
+  }
+  // exactly only what sets the bound
+  if (below > this->result_.bound && edgeForbids(this->result_.bound, theta, first, last, spanned))
+  {
+    return edgeCap(this->result_.bound, theta, first, last, spanned);
+  }
+  return edgeCap(below, theta, first, last, spanned, below > this->result_.bound ? 1e-3 : 1e-7);
+}
+}
+
+template <int D>
+std::vector<double> SurfaceBound<D>::cellCaps(Index numberOfCells) const
+{
+  std::vector<double> caps(numberOfCells, 1.0);
+  for (std::size_t s = 0; s < this->sides.size(); ++s)
+  {
+    double& cap = caps[this->sides[s].cell];
+    cap = std::min(cap, this->sideCaps[s]);
+  }
+  return caps;
+}
+
+template <int D>
+SurfaceBound<D> surfaceBound(
+  const Vec<D>* points, std::vector<KeptSide<D>> sides, const SurfaceBoundOptions& options)
+{
+  SurfaceBound<D> result;
+  result.sides = std::move(sides);
+  BoundBuilder<D>(points, options, result).run();
+  return result;
+}
+
+template <int D>
+SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptions& options)
+{
+  std::vector<Vec<D>> points(mesh.numberOfPointSlots());
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    points[p] = mesh.point(p);
+  }
+  std::vector<KeptSide<D>> sides;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; mesh.isAlive(c) && i <= D; ++i)
+    {
+      if (mesh.isConstrained(c, i))
+      {
+        sides.push_back({ mesh.facet(c, i), c, mesh.region(c), true });
+      }
+    }
+  }
+  return surfaceBound<D>(points.data(), std::move(sides), options);
+}
+
+template struct SurfaceBound<2>;
+template struct SurfaceBound<3>;
+template SurfaceBound<2> surfaceBound(
+  const Vec<2>*, std::vector<KeptSide<2>>, const SurfaceBoundOptions&);
+template SurfaceBound<3> surfaceBound(
+  const Vec<3>*, std::vector<KeptSide<3>>, const SurfaceBoundOptions&);
+template SurfaceBound<2> surfaceBound(const SimplexMesh<2>&, const SurfaceBoundOptions&);
+template SurfaceBound<3> surfaceBound(const SimplexMesh<3>&, const SurfaceBoundOptions&);
+}
