@@ -3,7 +3,7 @@
 #   meshopt_cxx_test(TestMeshOptimizeFilter)    Testing/Cxx/TestMeshOptimizeFilter.cxx, a main(argc, argv), VTK
 #   meshopt_python_test(TestMeasures)           Testing/Python/TestMeasures.py, by python3 and by pvpython if there is one
 #   meshopt_pvpython_test(TestProxies [PVBATCH] [MPI n] [RENDERS] [LOADS_PLUGIN])   Testing/ParaView/TestProxies.py
-# Extra arguments: TIMEOUT seconds; ARGS for the program; PYTHON_ONLY for a Python test without pvpython.
+# Extra arguments: TIMEOUT seconds; ARGS for the program; SCRIPT where it is not in the folder; PYTHON_ONLY for a Python test without pvpython.
 
 set(MESHOPTIMIZE_DATA_DIR "${PROJECT_SOURCE_DIR}/Data")
 set(MESHOPTIMIZE_TEST_OUTPUT_DIR "${CMAKE_BINARY_DIR}/Testing/Output")
@@ -60,8 +60,11 @@ function (meshopt_cxx_test name)
 endfunction ()
 
 function (meshopt_python_test name)
-  cmake_parse_arguments(arg "PYTHON_ONLY" "TIMEOUT" "ARGS" ${ARGN})
+  cmake_parse_arguments(arg "PYTHON_ONLY" "TIMEOUT;SCRIPT" "ARGS" ${ARGN})
   set(script "${CMAKE_CURRENT_SOURCE_DIR}/${name}.py")
+  if (arg_SCRIPT)
+    set(script "${arg_SCRIPT}")
+  endif ()
   add_test(NAME python.${name} COMMAND "${Python3_EXECUTABLE}" "${script}" ${arg_ARGS})
   _meshopt_test_properties(python.${name} python TIMEOUT ${arg_TIMEOUT})
   if (MESHOPTIMIZE_WITH_PARAVIEW AND NOT arg_PYTHON_ONLY)

@@ -1,0 +1,49 @@
+"""The demo's picture on a small mesh, against Data/Baseline/demo_picture.png.
+
+The mesh is a twisted box of tetrahedra, made here, so that the test takes seconds. MESHOPTIMIZE_ACCEPT_BASELINES=1 takes the
+new picture over as the baseline: look at it first.
+"""
+import os
+import shutil
+import subprocess
+import sys
+
+from paraview import simple
+from vtkmodules.vtkImagingCore import vtkImageDifference
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+from paraview_case import DATA, OUTPUT, check, load_plugin, random_mesh, source_of
+
+TOLERANCE = 25.0  # vtkImageDifference's thresholded error, as VTK's own regression tests use it
+
+load_plugin()
+folder = os.path.join(OUTPUT, "demo_picture")
+os.makedirs(folder, exist_ok=True)
+mesh = os.path.join(folder, "random.vtu")
+simple.SaveData(mesh, proxy=source_of(random_mesh(400)), DataMode="Binary")
+demo = os.path.join(os.environ["MESHOPTIMIZE_SOURCE"], "ParaViewPlugin", "Examples", "demo.py")
+subprocess.run(["pvpython", demo, mesh, folder, "--algorithm", "Paper 1996"], check=True, timeout=240)
+
+picture = os.path.join(folder, "before_after.png")
+baseline = os.path.join(DATA, "Baseline", "demo_picture.png")
+if os.environ.get("MESHOPTIMIZE_ACCEPT_BASELINES") == "1":
+    os.makedirs(os.path.dirname(baseline), exist_ok=True)
+    shutil.copyfile(picture, baseline)
+    print("accepted", baseline)
+    sys.exit(0)
+
+
+def image(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader
+
+
+difference = vtkImageDifference()
+difference.SetInputConnection(image(picture).GetOutputPort())
+difference.SetImageConnection(image(baseline).GetOutputPort())
+difference.Update()
+error = difference.GetThresholdedError()
+print(f"difference {error:.2f}, allowed {TOLERANCE}")
+check(error <= TOLERANCE, "the picture changed: compare", picture, "with", baseline)
