@@ -5,8 +5,11 @@
 #define meshopt_Metric_NodalMetric_h
 
 #include "Mesh/SimplexMesh.h"
+#include "Metric/Background.h"
 #include "Quality/Measure.h"
 
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace meshopt
@@ -15,16 +18,28 @@ namespace meshopt
 /// its points. At the points of the mesh being optimized it is sampled by linear interpolation (of
 /// log h*, and of log M: log-Euclidean), again whenever a point moves or comes, so that it does
 /// not drift. Without sizes and without tensors it is trivial and costs nothing.
+///
+/// Copies share the background. Different points may be resampled by different threads if there is
+/// room for them (see reserve()).
 template <int D>
 class NodalMetric
 {
 public:
+  /// What is stored for a point; to be taken and put back where a move is undone.
+  struct Sample
+  {
+    double logSize = 0.0;
+    Tensor<D> logTensor = Tensor<D>::Zero();
+    Index hint = None; ///< cell of the background where the point was found last
+  };
+
   /// Trivial: Euclidean, h* the same everywhere.
   explicit NodalMetric(double desiredSize = 0.0) { this->constantSize_ = desiredSize; }
 
-  /// Values at the points of `background` (which is copied): sizes empty or one per input point, > 0;
-  /// tensors empty or one per input point, symmetric positive definite. Returns a sentence
-  /// naming the first unusable value, or an empty string.
+  /// Values at the points of `background` (which is copied): sizes empty or one per input point, >
+  /// 0; tensors empty or one per input point, symmetric positive definite, in 1 / unit of length
+  /// squared. Returns a sentence naming the first unusable value, or an empty string; after an
+  /// error nothing has changed. Points that no cell uses may have any value.
   std::string set(const SimplexMesh<D>& background, const std::vector<double>& sizes,
     const std::vector<Tensor<D>>& tensors);
 
@@ -32,28 +47,64 @@ public:
   std::string setConstant(const Tensor<D>& tensor);
 
   bool isTrivial() const { return this->values_.empty() && !this->hasConstant_; }
-  bool hasSizes() const;
-  bool hasTensors() const;
+  bool hasSizes() const { return this->hasSizes_; }
+  /// True if tensors vary from point to point.
+  bool hasTensors() const { return this->hasTensors_; }
+  /// True if setConstant() gave one tensor for all points.
+  bool hasConstantTensor() const { return this->hasConstant_; }
 
   /// Samples the background at x and stores the values for point p (moved or new). Does nothing
-  /// where the field does not vary. Points out of the background take the nearest cell's clamped value.
-  void resample(Index p, const Vec<D>& x);
+  /// where the field does not vary. Points out of the background take the nearest cell's clamped
+  /// value. `near` is a point whose neighbourhood x is in, for new points: it makes the search
+  /// short.
+  void resample(Index p, const Vec<D>& x, Index near = None);
+
+  /// Makes room for points 0 ... n - 1; needed before several threads resample new points.
+  void reserve(Index n);
+
+  /// Values of point p as they are, to be put back by setSample() where a move is undone.
+  Sample sample(Index p) const
+  {
+    return p < static_cast<Index>(this->values_.size()) ? this->values_[p] : Sample();
+  }
+  void setSample(Index p, const Sample& value)
+  {
+    if (p < static_cast<Index>(this->values_.size()))
+    {
+      this->values_[p] = value;
+    }
+  }
 
   /// The metric and h* of an element: from the mean of the logarithms at its nodes.
-  ElementMetric<D> element(const Simplex<D>& nodes) const;
+  ElementMetric<D> element(const Simplex<D>& nodes) const
+  {
+    ElementMetric<D> m;
+    m.desiredSize = this->constantSize_;
+    if (!this->isTrivial())
+    {
+      this->fill(nodes, m);
+    }
+    return m;
+  }
+
+  /// The frozen input mesh; null if the field does not vary.
+  const std::shared_ptr<const Background<D>>& background() const { return this->background_; }
 
 private:
-  struct Value
-  {
-    double logSize = 0.0;
-    Tensor<D> logTensor = Tensor<D>::Zero();
-  };
+  void fill(const Simplex<D>& nodes, ElementMetric<D>& m) const;
+
   double constantSize_ = 0.0;
+  bool hasSizes_ = false;
+  bool hasTensors_ = false;
   bool hasConstant_ = false;
-  ElementMetric<D> constant_;
-  std::vector<Value> values_; // per point of the optimized mesh
-  // The quality engineer completes this: background copy, walking location.
+  Tensor<D> constantMap_ = Tensor<D>::Identity(); ///< M^(1/2)
+  std::vector<Sample> values_;                    ///< per point of the optimized mesh
+  std::vector<Sample> backgroundValues_;          ///< per point of the background
+  std::shared_ptr<const Background<D>> background_;
 };
+
+extern template class NodalMetric<2>;
+extern template class NodalMetric<3>;
 }
 
 #endif

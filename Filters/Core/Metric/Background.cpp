@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Metric/Background.h"
+
+#include "Quality/ShapeGeometry.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace meshopt
+{
+namespace
+{
+/// How far out of a cell a point may be, as a weight, and still be taken as inside.
+constexpr double slack = 1e-10;
+constexpr Index leafSize = 8;
+
+template <int D>
+double squaredDistanceToBox(const Vec<D>& low, const Vec<D>& high, const Vec<D>& x)
+{
+  double d2 = 0.0;
+  for (int i = 0; i < D; ++i)
+  {
+    const double d = std::max(0.0, std::max(low[i] - x[i], x[i] - high[i]));
+    d2 += d * d;
+  }
+  return d2;
+}
+
+/// Sets the weights of the point nearest to x in the face of the simplex whose nodes are the bits
+/// of `face`; false if it is not in the face (a smaller face has it) or the face is degenerate.
+template <int D>
+bool projectOnFace(
+  const Corners<D>& corners, const Vec<D>& x, unsigned face, std::array<double, D + 1>& w)
+{
+  int ids[D + 1];
+  int n = 0;
+  for (int i = 0; i <= D; ++i)
+  {
+    w[i] = 0.0;
+    if ((face >> i) & 1u)
+    {
+      ids[n++] = i;
+    }
+  }
+  using Dynamic = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, D, D>;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, D, 1> t(n - 1);
+  if (n > 1)
+  {
+    Dynamic edges(D, n - 1);
+    for (int k = 1; k < n; ++k)
+    {
+      edges.col(k - 1) = corners[ids[k]] - corners[ids[0]];
+    }
+    const Dynamic gram = edges.transpose() * edges;
+    const Eigen::FullPivLU<Dynamic> lu(gram);
+    if (lu.rank() < n - 1)
+    {
+      return false;
+    }
+    t = lu.solve(edges.transpose() * (x - corners[ids[0]]));
+  }
+  double rest = 1.0;
+  for (int k = 1; k < n; ++k)
+  {
+    if (!(t[k - 1] >= 0.0))
+    {
+      return false;
+    }
+    w[ids[k]] = t[k - 1];
+    rest -= t[k - 1];
+  }
+  w[ids[0]] = rest;
+  return rest >= 0.0;
+}
+}
+
+template <int D>
+Background<D>::Background(const SimplexMesh<D>& mesh)
+{
+  const Index slots = mesh.numberOfCellSlots();
+  std::vector<Index> numbers(slots, None);
+  Index n = 0;
+  for (Index c = 0; c < slots; ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      numbers[c] = n++;
+    }
+  }
+  this->points_.resize(mesh.numberOfPointSlots());
+  this->cellOfPoint_.assign(mesh.numberOfPointSlots(), None);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    this->points_[p] = mesh.point(p);
+  }
+  this->cells_.resize(n);
+  for (Index c = 0; c < slots; ++c)
+  {
+    if (numbers[c] == None)
+    {
+      continue;
+    }
+    Cell& cell = this->cells_[numbers[c]];
+    cell.nodes = mesh.nodes(c);
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index across = mesh.adjacent(c, i);
+      cell.neighbours[i] = across == None ? None : numbers[SimplexMesh<D>::cellOf(across)];
+      this->cellOfPoint_[cell.nodes[i]] = numbers[c];
+    }
+  }
+}
+
+template <int D>
+bool Background<D>::weights(Index c, const Vec<D>& x, std::array<double, D + 1>& w) const
+{
+  Corners<D> corners;
+  for (int i = 0; i <= D; ++i)
+  {
+    corners[i] = this->points_[this->cells_[c].nodes[i]];
+  }
+  const double det = volumeDeterminant(corners);
+  if (det == 0.0)
+  {
+    return false;
+  }
+  for (int i = 0; i <= D; ++i)
+  {
+    Corners<D> part = corners;
+    part[i] = x;
+    w[i] = volumeDeterminant(part) / det;
+  }
+  return true;
+}
+
+template <int D>
+Location<D> Background<D>::found(Index c, const std::array<double, D + 1>& w) const
+{
+  Location<D> at;
+  at.cell = c;
+  at.nodes = this->cells_[c].nodes;
+  double sum = 0.0;
+  for (int i = 0; i <= D; ++i)
+  {
+    at.weights[i] = std::max(0.0, w[i]);
+    sum += at.weights[i];
+  }
+  for (double& weight : at.weights)
+  {
+    weight = std::min(1.0, weight / sum);
+  }
+  return at;
+}
+
+template <int D>
+Location<D> Background<D>::nearestInCell(Index c, const Vec<D>& x) const
+{
+  Corners<D> corners;
+  for (int i = 0; i <= D; ++i)
+  {
+    corners[i] = this->points_[this->cells_[c].nodes[i]];
+  }
+  Location<D> best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (unsigned face = 1; face < (2u << D); ++face)
+  {
+    std::array<double, D + 1> w;
+    if (!projectOnFace<D>(corners, x, face, w))
+    {
+      continue;
+    }
+    Vec<D> y = w[0] * (corners[0] - x);
+    for (int i = 1; i <= D; ++i)
+    {
+      y += w[i] * (corners[i] - x);
+    }
+    if (y.norm() < best.distance)
+    {
+      best = this->found(c, w);
+      best.distance = y.norm();
+    }
+  }
+  return best;
+}
+
+template <int D>
+Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
+{
+  Location<D> nowhere;
+  if (this->cells_.empty() || !x.allFinite())
+  {
+    return nowhere;
+  }
+  // a straight walk crosses some n^(1/D) cells; far more are a circle
+  const int limit = 50 + 4 * static_cast<int>(std::pow(this->cells_.size(), 1.0 / D));
+  Index c = hint >= 0 && hint < this->numberOfCells() ? hint : None;
+  for (int step = 0; c != None && step < limit; ++step)
+  {
+    std::array<double, D + 1> w;
+    if (!this->weights(c, x, w))
+    {
+      break;
+    }
+    const int i = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
+    if (w[i] >= -slack)
+    {
+      return this->found(c, w);
+    }
+    c = this->cells_[c].neighbours[i];
+  }
+  return this->searchTree(x);
+}
+
+template <int D>
+void Background<D>::fitBox(Box& box) const
+{
+  box.low.setConstant(std::numeric_limits<double>::infinity());
+  box.high.setConstant(-std::numeric_limits<double>::infinity());
+  for (Index k = box.first; k < box.last; ++k)
+  {
+    for (Index p : this->cells_[this->order_[k]].nodes)
+    {
+      box.low = box.low.cwiseMin(this->points_[p]);
+      box.high = box.high.cwiseMax(this->points_[p]);
+    }
+  }
+}
+
+template <int D>
+void Background<D>::buildTree() const
+{
+  this->order_.resize(this->cells_.size());
+  std::iota(this->order_.begin(), this->order_.end(), 0);
+  std::vector<Vec<D>> centres(this->cells_.size());
+  for (std::size_t c = 0; c < this->cells_.size(); ++c)
+  {
+    centres[c].setZero();
+    for (Index p : this->cells_[c].nodes)
+    {
+      centres[c] += this->points_[p];
+    }
+  }
+  Box root;
+  root.last = this->numberOfCells();
+  this->boxes_.push_back(root);
+  for (std::size_t b = 0; b < this->boxes_.size(); ++b)
+  {
+    Box box = this->boxes_[b];
+    this->fitBox(box);
+    if (box.last - box.first > leafSize)
+    {
+      int axis;
+      (box.high - box.low).maxCoeff(&axis);
+      const auto begin = this->order_.begin();
+      const Index middle = box.first + (box.last - box.first) / 2;
+      std::nth_element(begin + box.first, begin + middle, begin + box.last,
+        [&centres, axis](Index a, Index c)
+        {
+          const double x = centres[a][axis], y = centres[c][axis];
+          return x != y ? x < y : a < c;
+        });
+      box.left = static_cast<Index>(this->boxes_.size());
+      Box child;
+      child.first = box.first;
+      child.last = middle;
+      this->boxes_.push_back(child);
+      child.first = middle;
+      child.last = box.last;
+      this->boxes_.push_back(child);
+    }
+    this->boxes_[b] = box;
+  }
+}
+
+template <int D>
+bool Background<D>::isFartherThan(Index c, const Vec<D>& x, double distance) const
+{
+  Vec<D> low = this->points_[this->cells_[c].nodes[0]], high = low;
+  for (int i = 1; i <= D; ++i)
+  {
+    low = low.cwiseMin(this->points_[this->cells_[c].nodes[i]]);
+    high = high.cwiseMax(this->points_[this->cells_[c].nodes[i]]);
+  }
+  return squaredDistanceToBox<D>(low, high, x) > distance * distance;
+}
+
+template <int D>
+Location<D> Background<D>::searchTree(const Vec<D>& x) const
+{
+  std::call_once(this->treeFlag_, [this] { this->buildTree(); });
+  // depth first, the nearer child first, until a cell contains x; ties to the lowest id
+  Location<D> best;
+  best.distance = std::numeric_limits<double>::infinity();
+  std::vector<Index> stack(1, 0);
+  while (!stack.empty() && best.distance > 0.0)
+  {
+    const Box& box = this->boxes_[stack.back()];
+    stack.pop_back();
+    if (squaredDistanceToBox<D>(box.low, box.high, x) > best.distance * best.distance)
+    {
+      continue;
+    }
+    if (box.left != None)
+    {
+      const Box &l = this->boxes_[box.left], &r = this->boxes_[box.left + 1];
+      const bool leftFirst = squaredDistanceToBox<D>(l.low, l.high, x) <=
+        squaredDistanceToBox<D>(r.low, r.high, x);
+      stack.push_back(leftFirst ? box.left + 1 : box.left);
+      stack.push_back(leftFirst ? box.left : box.left + 1);
+      continue;
+    }
+    for (Index k = box.first; k < box.last && best.distance > 0.0; ++k)
+    {
+      const Index c = this->order_[k];
+      if (this->isFartherThan(c, x, best.distance))
+      {
+        continue;
+      }
+      std::array<double, D + 1> w;
+      const bool solid = this->weights(c, x, w);
+      const bool inside = solid && *std::min_element(w.begin(), w.end()) >= -slack;
+      const Location<D> at = inside ? this->found(c, w) : this->nearestInCell(c, x);
+      if (at.distance < best.distance || (at.distance == best.distance && c < best.cell))
+      {
+        best = at;
+      }
+    }
+  }
+  return best;
+}
+
+template class Background<2>;
+template class Background<3>;
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Metric/NodalMetric.h"
+
+#include "Metric/TensorFunctions.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace meshopt
+{
+namespace
+{
+std::string wrongLength(const char* what, std::size_t length, Index points)
+{
+  std::ostringstream text;
+  text << what << ": " << length << " values for " << points << " points.";
+  return text.str();
+}
+}
+
+template <int D>
+std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<double>& sizes,
+  const std::vector<Tensor<D>>& tensors)
+{
+  const Index n = mesh.numberOfInputPoints();
+  if (!sizes.empty() && static_cast<Index>(sizes.size()) != n)
+  {
+    return wrongLength("Desired sizes", sizes.size(), n);
+  }
+  if (!tensors.empty() && static_cast<Index>(tensors.size()) != n)
+  {
+    return wrongLength("Metric tensors", tensors.size(), n);
+  }
+  std::vector<Sample> values(sizes.empty() && tensors.empty() ? 0 : mesh.numberOfPointSlots());
+  for (Index p = 0; !values.empty() && p < n; ++p)
+  {
+    if (!mesh.isPointAlive(p))
+    {
+      continue;
+    }
+    if (!sizes.empty())
+    {
+      if (!(sizes[p] > 0.0) || !std::isfinite(sizes[p]))
+      {
+        std::ostringstream text;
+        text << "The desired size at point " << p << " is " << sizes[p]
+             << "; it must be positive and finite.";
+        return text.str();
+      }
+      values[p].logSize = std::log(sizes[p]);
+    }
+    if (!tensors.empty() && !logarithm<D>(tensors[p], values[p].logTensor))
+    {
+      std::ostringstream text;
+      text << "The metric tensor at point " << p
+           << " is not symmetric, finite and positive definite.";
+      return text.str();
+    }
+  }
+  this->hasSizes_ = !sizes.empty();
+  this->hasTensors_ = !tensors.empty();
+  this->background_.reset();
+  if (!values.empty())
+  {
+    this->background_ = std::make_shared<const Background<D>>(mesh);
+    for (std::size_t p = 0; p < values.size(); ++p)
+    {
+      values[p].hint = this->background_->cellOfPoint(static_cast<Index>(p));
+    }
+  }
+  this->backgroundValues_ = values;
+  this->values_ = std::move(values);
+  return std::string();
+}
+
+template <int D>
+std::string NodalMetric<D>::setConstant(const Tensor<D>& tensor)
+{
+  Tensor<D> l;
+  if (!logarithm<D>(tensor, l))
+  {
+    return "The metric tensor is not symmetric, finite and positive definite.";
+  }
+  this->hasConstant_ = true;
+  this->constantMap_ = exponential<D>((0.5 * l).eval());
+  return std::string();
+}
+
+template <int D>
+void NodalMetric<D>::reserve(Index n)
+{
+  if (!this->values_.empty() && static_cast<Index>(this->values_.size()) < n)
+  {
+    this->values_.resize(n);
+  }
+}
+
+template <int D>
+void NodalMetric<D>::resample(Index p, const Vec<D>& x, Index near)
+{
+  if (this->values_.empty())
+  {
+    return;
+  }
+  this->reserve(p + 1);
+  Sample& value = this->values_[p];
+  const Index hint = near != None ? this->sample(near).hint : value.hint;
+  const Location<D> at = this->background_->locate(x, hint);
+  if (at.cell == None)
+  {
+    return;
+  }
+  value.hint = at.cell;
+  if (this->hasSizes_)
+  {
+    value.logSize = Background<D>::interpolate(
+      at, [this](Index q) { return this->backgroundValues_[q].logSize; });
+  }
+  if (this->hasTensors_)
+  {
+    value.logTensor = Background<D>::interpolate(
+      at, [this](Index q) { return this->backgroundValues_[q].logTensor; });
+  }
+}
+
+template <int D>
+void NodalMetric<D>::fill(const Simplex<D>& nodes, ElementMetric<D>& m) const
+{
+  if (this->hasSizes_)
+  {
+    double sum = 0.0;
+    for (Index p : nodes)
+    {
+      sum += this->values_[p].logSize;
+    }
+    m.desiredSize = std::exp(sum / (D + 1));
+  }
+  if (this->hasTensors_)
+  {
+    Tensor<D> sum = this->values_[nodes[0]].logTensor;
+    for (int i = 1; i <= D; ++i)
+    {
+      sum += this->values_[nodes[i]].logTensor;
+    }
+    m.euclidean = false;
+    m.map = exponential<D>((sum * (0.5 / (D + 1))).eval());
+  }
+  else if (this->hasConstant_)
+  {
+    m.euclidean = false;
+    m.map = this->constantMap_;
+  }
+}
+
+template class NodalMetric<2>;
+template class NodalMetric<3>;
+}
