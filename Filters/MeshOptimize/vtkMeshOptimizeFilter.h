@@ -70,10 +70,16 @@
 #include "vtkFiltersMeshOptimizeModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <memory> // for std::unique_ptr
+#include <string> // for std::string
 
-class vtkCompositeDataSet;
-class vtkUnstructuredGrid;
+class vtkDataObject;
+class vtkTable;
+
+namespace vtkMeshOptimizeBridge
+{
+struct Outcome;
+struct Request;
+}
 
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkMeshOptimizeFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -141,7 +147,7 @@ public:
    * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give the size
    * by DesiredSize or SetSizeArray().
    */
-  vtkSetClampMacro(Beta, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetClampMacro(Beta, double, 0.0, 1e6);
   vtkGetMacro(Beta, double);
   ///@}
 
@@ -194,9 +200,9 @@ public:
   ///@{
   /**
    * How often, at most, the paper's algorithm does a reconnection and then a repositioning.
-   * Range >= 0, default 20; 0: the mesh is measured only.
+   * Range >= 1, default 20.
    */
-  vtkSetClampMacro(MaximumNumberOfAlternations, int, 0, VTK_INT_MAX);
+  vtkSetClampMacro(MaximumNumberOfAlternations, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfAlternations, int);
   ///@}
 
@@ -344,7 +350,11 @@ private:
   vtkMeshOptimizeFilter(const vtkMeshOptimizeFilter&) = delete;
   void operator=(const vtkMeshOptimizeFilter&) = delete;
 
-  class vtkInternals;
+  vtkMeshOptimizeBridge::Request MakeRequest();
+  std::string OptimizeAll(
+    vtkDataObject* input, vtkDataObject* output, vtkTable* history, vtkMeshOptimizeBridge::Outcome& outcome);
+  void StoreResults(const vtkMeshOptimizeBridge::Outcome& outcome);
+  void Warn(const vtkMeshOptimizeBridge::Outcome& outcome);
 
   int Algorithm = Paper1996;
   double TargetQuality = 0.6;

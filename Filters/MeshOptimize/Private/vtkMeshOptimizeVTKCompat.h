@@ -23,6 +23,21 @@ inline bool CheckAbort(vtkAlgorithm* self)
 #endif
 }
 
+/**
+ * VTK empties the output of a filter that has seen an abort. Says that the output of `self` is fit for use all the same.
+ */
+inline void KeepOutputAfterAbort(vtkAlgorithm* self)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20220823)
+  if (self->GetAbortOutput())
+  {
+    self->SetAbortOutput(false);
+  }
+#else
+  (void)self;
+#endif
+}
+
 } // namespace vtkMeshOptimizeCompat
 
 #endif

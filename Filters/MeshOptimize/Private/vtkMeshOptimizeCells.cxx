@@ -1,0 +1,224 @@
+#include "vtkMeshOptimizeCells.h"
+
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkCellTypes.h"
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace vtkMeshOptimizeBridge
+{
+namespace
+{
+
+// The core counts points and cells in 32 bits, facets in the same with 2 bits of its own.
+constexpr vtkIdType MaximumNumberOfPoints = vtkIdType(1) << 30;
+constexpr vtkIdType MaximumNumberOfCells = vtkIdType(1) << 29;
+
+/**
+ * Dimension of cells of one VTK type, asked for once per type.
+ */
+class CellDimensions
+{
+public:
+  int Get(int type)
+  {
+    const auto known = this->Known.find(type);
+    if (known != this->Known.end())
+    {
+      return known->second;
+    }
+    this->Cell->SetCellType(type);
+    return this->Known[type] = this->Cell->GetCellDimension();
+  }
+
+private:
+  std::map<int, int> Known;
+  vtkNew<vtkGenericCell> Cell;
+};
+
+std::string CheckArrayLengths(vtkDataSetAttributes* attributes, vtkIdType wanted, const char* kind)
+{
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = attributes->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() != wanted)
+    {
+      const char* name = array->GetName();
+      return std::string("The ") + kind + " array '" + (name ? name : "(no name)") + "' has " +
+        std::to_string(array->GetNumberOfTuples()) + " values, but the grid has " +
+        std::to_string(wanted) + " " + kind + "s.";
+    }
+  }
+  return {};
+}
+
+std::string CheckSizes(vtkUnstructuredGrid* grid)
+{
+  if (grid->GetNumberOfPoints() > MaximumNumberOfPoints ||
+    grid->GetNumberOfCells() > MaximumNumberOfCells)
+  {
+    return "The grid has more than 2^30 points or 2^29 cells in one piece.";
+  }
+  std::string error = CheckArrayLengths(grid->GetPointData(), grid->GetNumberOfPoints(), "point");
+  return error.empty() ? CheckArrayLengths(grid->GetCellData(), grid->GetNumberOfCells(), "cell")
+                       : error;
+}
+
+std::string CellName(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  return "Cell " + std::to_string(cell) + " (" +
+    vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(cell)) + ")";
+}
+
+/**
+ * A point that is not there would be read by whatever comes later. A polyhedron names its points
+ * twice; both must be right.
+ */
+std::string CheckPointIds(vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdType n, const vtkIdType* ids)
+{
+  const vtkIdType numberOfPoints = grid->GetNumberOfPoints();
+  for (vtkIdType k = 0; k < n; ++k)
+  {
+    if (ids[k] < 0 || ids[k] >= numberOfPoints)
+    {
+      return CellName(grid, cell) + " uses point " + std::to_string(ids[k]) +
+        ", but the grid has " + std::to_string(numberOfPoints) + " points.";
+    }
+  }
+  return {};
+}
+
+std::string CheckPolyhedron(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  vtkNew<vtkIdList> stream; // number of faces, then for each its number of points and the points
+  grid->GetFaceStream(cell, stream);
+  vtkIdType place = 1;
+  while (place < stream->GetNumberOfIds())
+  {
+    const vtkIdType n = stream->GetId(place);
+    if (n < 0 || place + n >= stream->GetNumberOfIds())
+    {
+      return CellName(grid, cell) + " has a face that is cut short.";
+    }
+    const std::string error = CheckPointIds(grid, cell, n, stream->GetPointer(place + 1));
+    if (!error.empty())
+    {
+      return error;
+    }
+    place += n + 1;
+  }
+  return {};
+}
+
+std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, vtkIdType n,
+  const vtkIdType* ids, std::vector<std::uint8_t>& use)
+{
+  if (n != nodes)
+  {
+    return CellName(grid, cell) + " has " + std::to_string(n) + " points instead of " +
+      std::to_string(nodes) + ".";
+  }
+  for (int i = 0; i < nodes; ++i)
+  {
+    for (int j = 0; j < i; ++j)
+    {
+      if (ids[i] == ids[j])
+      {
+        return CellName(grid, cell) + " uses point " + std::to_string(ids[i]) + " twice.";
+      }
+    }
+    if (use[ids[i]] & UsedBySimplex)
+    {
+      continue;
+    }
+    double x[3];
+    grid->GetPoint(ids[i], x);
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+    {
+      return "Point " + std::to_string(ids[i]) + ", used by cell " + std::to_string(cell) +
+        ", has a coordinate that is not finite: (" + std::to_string(x[0]) + ", " +
+        std::to_string(x[1]) + ", " + std::to_string(x[2]) + ").";
+    }
+  }
+  return {};
+}
+
+/**
+ * 3 if there is any cell of dimension three: triangles are then the surface of something.
+ */
+int FindDimension(vtkUnstructuredGrid* grid)
+{
+  CellDimensions dimensions;
+  bool triangles = false, volumes = false, tetrahedra = false;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells() && !tetrahedra; ++c)
+  {
+    const int type = grid->GetCellType(c);
+    tetrahedra = type == VTK_TETRA;
+    triangles |= type == VTK_TRIANGLE;
+    volumes |= dimensions.Get(type) == 3;
+  }
+  return tetrahedra ? 3 : triangles && !volumes ? 2 : 0;
+}
+
+} // namespace
+
+std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
+{
+  cells = Cells();
+  std::string error = CheckSizes(grid);
+  if (!error.empty())
+  {
+    return error;
+  }
+  const vtkIdType numberOfCells = grid->GetNumberOfCells();
+  cells.PointUse.assign(static_cast<std::size_t>(grid->GetNumberOfPoints()), 0);
+  cells.Dimension = FindDimension(grid);
+  const int simplexType = cells.Dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
+  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
+  for (vtkIdType c = 0; c < numberOfCells; ++c)
+  {
+    vtkIdType n = 0;
+    const vtkIdType* ids = nullptr;
+    grid->GetCellPoints(c, n, ids);
+    error = CheckPointIds(grid, c, n, ids);
+    const int type = grid->GetCellType(c);
+    if (error.empty() && type == VTK_POLYHEDRON)
+    {
+      error = CheckPolyhedron(grid, c);
+    }
+    const bool isSimplex = cells.Dimension != 0 && type == simplexType;
+    if (error.empty() && isSimplex)
+    {
+      error = CheckSimplex(grid, c, cells.Dimension + 1, n, ids, cells.PointUse);
+    }
+    if (!error.empty())
+    {
+      return error;
+    }
+    const bool isOptimized = isSimplex && !(ghosts && ghosts->GetValue(c) != 0);
+    for (vtkIdType k = 0; k < n; ++k)
+    {
+      cells.PointUse[ids[k]] |= isOptimized ? UsedBySimplex : UsedByOther;
+    }
+    if (isOptimized)
+    {
+      cells.Simplices.push_back(c);
+    }
+    cells.NumberOfQuadraticSimplices += type == VTK_QUADRATIC_TETRA ||
+      (type == VTK_QUADRATIC_TRIANGLE && cells.Dimension != 3);
+  }
+  return {};
+}
+
+} // namespace vtkMeshOptimizeBridge

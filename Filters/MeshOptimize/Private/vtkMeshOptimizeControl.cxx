@@ -1,0 +1,45 @@
+#include "vtkMeshOptimizeControl.h"
+
+#include "vtkMeshOptimizeVTKCompat.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+
+namespace vtkMeshOptimizeBridge
+{
+
+int ResolveNumberOfThreads(int wanted)
+{
+  int available = 1;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, "STDThread", false },
+    [&]() { available = vtkSMPTools::GetEstimatedNumberOfThreads(); });
+  return wanted > 0 ? wanted : std::max(available, 1);
+}
+
+meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last)
+{
+  meshopt::Control control;
+  control.progress = [=](double fraction, const std::string& text) {
+    filter->SetProgressText(text.c_str());
+    filter->UpdateProgress(first + (last - first) * std::min(1.0, std::max(0.0, fraction)));
+    return !vtkMeshOptimizeCompat::CheckAbort(filter);
+  };
+  if (numberOfThreads > 1)
+  {
+    control.parallelFor = [=](int n, const std::function<void(int)>& body) {
+      vtkSMPTools::LocalScope(vtkSMPTools::Config{ numberOfThreads, "STDThread", false }, [&]() {
+        vtkSMPTools::For(0, n, 1, [&](vtkIdType begin, vtkIdType end) {
+          for (vtkIdType i = begin; i < end; ++i)
+          {
+            body(static_cast<int>(i));
+          }
+        });
+      });
+    };
+  }
+  return control;
+}
+
+} // namespace vtkMeshOptimizeBridge

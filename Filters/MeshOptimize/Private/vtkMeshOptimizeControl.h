@@ -1,0 +1,28 @@
+/**
+ * Progress, abort and threads of a vtkAlgorithm as the core's Control.
+ */
+#ifndef vtkMeshOptimizeControl_h
+#define vtkMeshOptimizeControl_h
+
+#include "Optimize/Options.h"
+
+class vtkAlgorithm;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * How many threads `wanted` (0: all) means in this process.
+ */
+int ResolveNumberOfThreads(int wanted);
+
+/**
+ * Reports progress of the core as the part [first, last] of the filter's progress, and stops the core when the user
+ * aborts. Loops run on so many threads of vtkSMPTools, in a scope of their own: the backend that the application
+ * has chosen is not touched (Debian's is Sequential).
+ */
+meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif

@@ -1,0 +1,284 @@
+#include "vtkMeshOptimizeExport.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace vtkMeshOptimizeBridge
+{
+
+using meshopt::Index;
+using meshopt::SimplexMesh;
+
+namespace
+{
+
+template <int D>
+bool HasMoved(vtkUnstructuredGrid* grid, const Frame<D>& frame, const SimplexMesh<D>& mesh, Index p)
+{
+  double x[3];
+  grid->GetPoint(p, x);
+  return frame.ToCore(x) != mesh.point(p);
+}
+
+template <int D>
+void MapPoints(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
+  const SimplexMesh<D>& mesh, OutputMap& map)
+{
+  map.SlotToPoint.assign(mesh.numberOfPointSlots(), -1);
+  map.PointToSlot.reserve(mesh.numberOfPointSlots());
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    const bool isOld = p < mesh.numberOfInputPoints();
+    // What no simplex has used, or another cell still uses, is not the optimizer's to take away.
+    const bool isOthers = isOld && cells.PointUse[p] != UsedBySimplex;
+    if (!isOthers && !mesh.isPointAlive(p))
+    {
+      continue;
+    }
+    const vtkIdType id = static_cast<vtkIdType>(map.PointToSlot.size());
+    map.SlotToPoint[p] = id;
+    map.PointToSlot.push_back(p);
+    map.NumberOfOldPoints += isOld;
+    const bool isUsed = mesh.isPointAlive(p);
+    if (!isOld || (isUsed && HasMoved(grid, frame, mesh, p)))
+    {
+      map.SampledPoints.push_back(id);
+    }
+  }
+}
+
+/**
+ * Is the cell in slot k still simplex k of the grid? (Its last nodes may have been swapped.)
+ */
+template <int D>
+bool IsStillThere(vtkUnstructuredGrid* grid, vtkIdType cell, const SimplexMesh<D>& mesh, Index k)
+{
+  if (!mesh.isAlive(k))
+  {
+    return false;
+  }
+  vtkIdType n = 0;
+  const vtkIdType* ids = nullptr;
+  grid->GetCellPoints(cell, n, ids);
+  const auto& nodes = mesh.nodes(k);
+  return std::is_permutation(nodes.begin(), nodes.end(), ids);
+}
+
+template <int D>
+void MapCells(
+  vtkUnstructuredGrid* grid, const Cells& cells, const SimplexMesh<D>& mesh, OutputMap& map)
+{
+  std::vector<char> isOld(mesh.numberOfCellSlots(), 0);
+  const auto add = [&](vtkIdType source, Index slot) {
+    map.CellToSource.push_back(source);
+    map.CellToSlot.push_back(slot);
+  };
+  std::size_t next = 0; // of cells.Simplices
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (next == cells.Simplices.size() || cells.Simplices[next] != c)
+    {
+      add(c, meshopt::None);
+      continue;
+    }
+    const Index k = static_cast<Index>(next++);
+    if (IsStillThere(grid, c, mesh, k))
+    {
+      isOld[k] = 1;
+      add(c, k);
+    }
+  }
+  map.NumberOfOldCells = static_cast<vtkIdType>(map.CellToSource.size());
+  for (Index k = 0; k < mesh.numberOfCellSlots(); ++k)
+  {
+    if (mesh.isAlive(k) && !isOld[k])
+    {
+      add(cells.Simplices[mesh.parent(k)], k);
+    }
+  }
+}
+
+template <int D>
+void ExportPoints(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D>& frame,
+  const SimplexMesh<D>& mesh, vtkUnstructuredGrid* output)
+{
+  const vtkIdType n = static_cast<vtkIdType>(map.PointToSlot.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(map.SampledPoints.empty() ? grid->GetPoints()->GetDataType() : VTK_DOUBLE);
+  points->SetNumberOfPoints(n);
+  for (vtkIdType id = 0; id < map.NumberOfOldPoints; ++id)
+  {
+    double x[3];
+    grid->GetPoint(map.PointToSlot[id], x);
+    points->SetPoint(id, x);
+  }
+  for (vtkIdType id : map.SampledPoints)
+  {
+    double x[3];
+    frame.ToGrid(mesh.point(map.PointToSlot[id]), x);
+    points->SetPoint(id, x);
+  }
+  output->SetPoints(points);
+}
+
+/**
+ * Node ids of an output cell. Cells that have not been renumbered keep the order of the grid.
+ */
+template <int D>
+void GetOutputNodes(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh<D>& mesh,
+  std::size_t cell, std::vector<vtkIdType>& nodes)
+{
+  nodes.clear();
+  const Index slot = map.CellToSlot[cell];
+  if (slot != meshopt::None)
+  {
+    for (Index p : mesh.nodes(slot))
+    {
+      nodes.push_back(map.SlotToPoint[p]);
+    }
+    return;
+  }
+  vtkIdType n = 0;
+  const vtkIdType* ids = nullptr;
+  grid->GetCellPoints(map.CellToSource[cell], n, ids);
+  for (vtkIdType k = 0; k < n; ++k)
+  {
+    nodes.push_back(map.SlotToPoint[ids[k]]);
+  }
+}
+
+template <int D>
+int OutputType(vtkUnstructuredGrid* grid, const OutputMap& map, std::size_t cell)
+{
+  return map.CellToSlot[cell] != meshopt::None ? (D == 3 ? VTK_TETRA : VTK_TRIANGLE)
+                                               : grid->GetCellType(map.CellToSource[cell]);
+}
+
+/**
+ * The face stream of a polyhedron with the ids of the output.
+ */
+void InsertPolyhedron(
+  vtkUnstructuredGrid* grid, vtkIdType cell, const OutputMap& map, vtkUnstructuredGrid* output)
+{
+  vtkNew<vtkIdList> stream;
+  grid->GetFaceStream(cell, stream);
+  vtkIdType place = 1;
+  while (place < stream->GetNumberOfIds())
+  {
+    const vtkIdType n = stream->GetId(place++);
+    for (vtkIdType k = 0; k < n; ++k, ++place)
+    {
+      stream->SetId(place, map.SlotToPoint[stream->GetId(place)]);
+    }
+  }
+  output->InsertNextCell(VTK_POLYHEDRON, stream);
+}
+
+/**
+ * Cell by cell: needed only for polyhedra.
+ */
+template <int D>
+void InsertCells(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh<D>& mesh,
+  vtkUnstructuredGrid* output)
+{
+  output->Allocate(static_cast<vtkIdType>(map.CellToSource.size()));
+  std::vector<vtkIdType> nodes;
+  for (std::size_t c = 0; c < map.CellToSource.size(); ++c)
+  {
+    const int type = OutputType<D>(grid, map, c);
+    if (type == VTK_POLYHEDRON)
+    {
+      InsertPolyhedron(grid, map.CellToSource[c], map, output);
+      continue;
+    }
+    GetOutputNodes(grid, map, mesh, c, nodes);
+    output->InsertNextCell(type, static_cast<vtkIdType>(nodes.size()), nodes.data());
+  }
+}
+
+template <int D>
+void SetCells(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh<D>& mesh,
+  vtkUnstructuredGrid* output)
+{
+  const vtkIdType n = static_cast<vtkIdType>(map.CellToSource.size());
+  vtkNew<vtkUnsignedCharArray> types;
+  vtkNew<vtkIdTypeArray> offsets, connectivity;
+  types->SetNumberOfValues(n);
+  offsets->SetNumberOfValues(n + 1);
+  connectivity->Allocate(n * (D + 1));
+  std::vector<vtkIdType> nodes;
+  for (vtkIdType c = 0; c < n; ++c)
+  {
+    types->SetValue(c, static_cast<unsigned char>(OutputType<D>(grid, map, c)));
+    offsets->SetValue(c, connectivity->GetNumberOfValues());
+    GetOutputNodes(grid, map, mesh, c, nodes);
+    for (vtkIdType id : nodes)
+    {
+      connectivity->InsertNextValue(id);
+    }
+  }
+  offsets->SetValue(n, connectivity->GetNumberOfValues());
+  connectivity->Squeeze();
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  output->SetCells(types, cells);
+}
+
+bool HasPolyhedra(vtkUnstructuredGrid* grid, const OutputMap& map)
+{
+  for (std::size_t c = 0; c < map.CellToSource.size(); ++c)
+  {
+    if (map.CellToSlot[c] == meshopt::None &&
+      grid->GetCellType(map.CellToSource[c]) == VTK_POLYHEDRON)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
+template <int D>
+OutputMap MapOutput(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
+  const SimplexMesh<D>& mesh)
+{
+  OutputMap map;
+  MapPoints(grid, cells, frame, mesh, map);
+  MapCells(grid, cells, mesh, map);
+  return map;
+}
+
+template <int D>
+void ExportMesh(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D>& frame,
+  const SimplexMesh<D>& mesh, vtkUnstructuredGrid* output)
+{
+  ExportPoints(grid, map, frame, mesh, output);
+  if (HasPolyhedra(grid, map))
+  {
+    InsertCells(grid, map, mesh, output);
+  }
+  else
+  {
+    SetCells(grid, map, mesh, output);
+  }
+}
+
+template OutputMap MapOutput<2>(
+  vtkUnstructuredGrid*, const Cells&, const Frame<2>&, const SimplexMesh<2>&);
+template OutputMap MapOutput<3>(
+  vtkUnstructuredGrid*, const Cells&, const Frame<3>&, const SimplexMesh<3>&);
+template void ExportMesh<2>(vtkUnstructuredGrid*, const OutputMap&, const Frame<2>&,
+  const SimplexMesh<2>&, vtkUnstructuredGrid*);
+template void ExportMesh<3>(vtkUnstructuredGrid*, const OutputMap&, const Frame<3>&,
+  const SimplexMesh<3>&, vtkUnstructuredGrid*);
+
+} // namespace vtkMeshOptimizeBridge

@@ -1,0 +1,109 @@
+#include "vtkMeshOptimizeHistory.h"
+
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+namespace vtkMeshOptimizeBridge
+{
+namespace
+{
+
+/**
+ * Stems of column names, in the order of meshopt::Operation.
+ */
+constexpr const char* OperationNames[] = { "NodeMotion", "EdgeRemoval", "FaceRemoval",
+  "EdgeContraction", "NodeInsertion", "NodeReplacement", "LookAhead" };
+static_assert(sizeof(OperationNames) / sizeof(OperationNames[0]) == meshopt::NumberOfOperations,
+  "a name for each operation");
+
+template <class Array>
+void AddColumn(vtkTable* table, const std::string& name)
+{
+  vtkNew<Array> column;
+  column->SetName(name.c_str());
+  table->AddColumn(column);
+}
+
+template <class Array, class Value>
+void Append(vtkTable* table, const std::string& name, Value value)
+{
+  Array::SafeDownCast(table->GetColumnByName(name.c_str()))->InsertNextValue(value);
+}
+
+template <class Array, class Value>
+void AddFigure(vtkFieldData* fields, const char* name, Value value)
+{
+  vtkNew<Array> figure;
+  figure->SetName(name);
+  figure->InsertNextValue(value);
+  fields->AddArray(figure);
+}
+
+} // namespace
+
+void StartHistory(vtkTable* table, bool isComposite)
+{
+  if (isComposite)
+  {
+    AddColumn<vtkIntArray>(table, "Block");
+  }
+  AddColumn<vtkIntArray>(table, "Pass");
+  AddColumn<vtkStringArray>(table, "Stage");
+  for (const std::string name : OperationNames)
+  {
+    AddColumn<vtkIdTypeArray>(table, name + "Tried");
+    AddColumn<vtkIdTypeArray>(table, name + "Done");
+  }
+  AddColumn<vtkDoubleArray>(table, "Worst");
+  AddColumn<vtkDoubleArray>(table, "Mean");
+  AddColumn<vtkIdTypeArray>(table, "BelowTarget");
+  AddColumn<vtkIdTypeArray>(table, "Cells");
+  AddColumn<vtkIdTypeArray>(table, "Points");
+}
+
+void AppendHistory(const meshopt::Report& report, int block, vtkTable* table)
+{
+  for (const meshopt::PassRecord& row : report.history)
+  {
+    if (table->GetColumnByName("Block"))
+    {
+      Append<vtkIntArray>(table, "Block", block);
+    }
+    Append<vtkIntArray>(table, "Pass", row.pass);
+    Append<vtkStringArray>(table, "Stage", row.stage);
+    for (int i = 0; i < meshopt::NumberOfOperations; ++i)
+    {
+      const std::string name = OperationNames[i];
+      Append<vtkIdTypeArray>(table, name + "Tried", row.tried[i]);
+      Append<vtkIdTypeArray>(table, name + "Done", row.done[i]);
+    }
+    Append<vtkDoubleArray>(table, "Worst", row.worst);
+    Append<vtkDoubleArray>(table, "Mean", row.mean);
+    Append<vtkIdTypeArray>(table, "BelowTarget", row.belowTarget);
+    Append<vtkIdTypeArray>(table, "Cells", row.cells);
+    Append<vtkIdTypeArray>(table, "Points", row.points);
+  }
+}
+
+void AddFigures(const Outcome& outcome, vtkDataObject* output)
+{
+  vtkFieldData* fields = output->GetFieldData();
+  const meshopt::Report& report = outcome.Report;
+  AddFigure<vtkDoubleArray>(fields, "WorstQualityBefore", report.worstBefore);
+  AddFigure<vtkDoubleArray>(fields, "WorstQualityAfter", report.worstAfter);
+  AddFigure<vtkDoubleArray>(fields, "MeanQualityBefore", report.meanBefore);
+  AddFigure<vtkDoubleArray>(fields, "MeanQualityAfter", report.meanAfter);
+  AddFigure<vtkDoubleArray>(fields, "QualityBound", report.bound);
+  AddFigure<vtkIdTypeArray>(fields, "NumberOfCappedCells", report.cappedCells);
+  AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
+  AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
+  AddFigure<vtkStringArray>(fields, "StopReason", std::string(meshopt::toString(report.stopReason)));
+}
+
+} // namespace vtkMeshOptimizeBridge

@@ -1,0 +1,33 @@
+/**
+ * What the run has to tell: the history table and the figures in the field data.
+ */
+#ifndef vtkMeshOptimizeHistory_h
+#define vtkMeshOptimizeHistory_h
+
+#include "vtkMeshOptimizeRun.h"
+
+class vtkDataObject;
+class vtkTable;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * Puts the columns into an empty table; the first is Block if `isComposite`.
+ */
+void StartHistory(vtkTable* table, bool isComposite);
+
+/**
+ * Adds the rows of one grid. `block` is its flat index, not looked at without a Block column.
+ */
+void AppendHistory(const meshopt::Report& report, int block, vtkTable* table);
+
+/**
+ * Figures before and after, bound, counts, and stop reason as field data of the output. No times: the same input must
+ * give the same output, bit for bit.
+ */
+void AddFigures(const Outcome& outcome, vtkDataObject* output);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif

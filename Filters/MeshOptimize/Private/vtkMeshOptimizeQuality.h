@@ -1,0 +1,33 @@
+/**
+ * The cell array `MeshQuality` of the output.
+ */
+#ifndef vtkMeshOptimizeQuality_h
+#define vtkMeshOptimizeQuality_h
+
+#include "vtkMeshOptimizeExport.h"
+
+#include "Metric/NodalMetric.h"
+#include "Optimize/Options.h"
+
+class vtkUnstructuredGrid;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * Quality (2.2) of every output cell that is a simplex of dimension D (ghosts as well), by the
+ * measure, beta and metric of the run; NaN for the others.
+ */
+template <int D>
+void AddMeshQuality(vtkUnstructuredGrid* grid, const OutputMap& map,
+  const meshopt::SimplexMesh<D>& mesh, const meshopt::NodalMetric<D>& metric,
+  const meshopt::Options& options, vtkUnstructuredGrid* output);
+
+/**
+ * The array for a grid in which nothing was optimized: all NaN.
+ */
+void AddNoMeshQuality(vtkUnstructuredGrid* output);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif

@@ -1,0 +1,203 @@
+#include "vtkMeshOptimizeRun.h"
+
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeCells.h"
+#include "vtkMeshOptimizeExport.h"
+#include "vtkMeshOptimizeHistory.h"
+#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshOptimizeQuality.h"
+#include "vtkMeshOptimizeTransfer.h"
+
+#include "vtkCellData.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "Optimize/Optimizer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+namespace vtkMeshOptimizeBridge
+{
+namespace
+{
+
+template <int D>
+std::string SetMetric(const Cells& cells, const InputArrays& arrays, const Frame<D>& frame,
+  const meshopt::Options& options, const meshopt::SimplexMesh<D>& mesh,
+  meshopt::NodalMetric<D>& metric)
+{
+  vtkDataArray* sizes = options.beta > 0.0 ? arrays.Size : nullptr;
+  if (!sizes && !arrays.Metric)
+  {
+    return {};
+  }
+  return metric.set(mesh, ReadSizes(sizes, cells), ReadMetric(arrays.Metric, cells, frame));
+}
+
+template <int D>
+void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
+  const Request& request, Outcome& outcome)
+{
+  const auto start = std::chrono::steady_clock::now();
+  outcome.NumberOfReorientedCells = mesh.numberOfReorientedCells();
+  outcome.NumberOfCellsBefore = mesh.numberOfInputCells();
+  outcome.Report = meshopt::optimize(mesh, metric, request.Options, request.Control);
+  outcome.NumberOfCells = mesh.countCells();
+  for (const meshopt::PassRecord& row : outcome.Report.history)
+  {
+    outcome.NumberOfOperations += std::accumulate(row.done.begin(), row.done.end(), 0L);
+  }
+  outcome.Seconds =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <int D>
+void Export(vtkUnstructuredGrid* input, const Cells& cells, const Frame<D>& frame,
+  const meshopt::SimplexMesh<D>& mesh, const meshopt::NodalMetric<D>& metric,
+  const Request& request, vtkUnstructuredGrid* output)
+{
+  const OutputMap map = MapOutput(input, cells, frame, mesh);
+  ExportMesh(input, map, frame, mesh, output);
+  std::vector<Sample> samples;
+  if (input->GetPointData()->GetNumberOfArrays() > 0 && !map.SampledPoints.empty())
+  {
+    samples = SampleInput(*FindBackground(input, cells, frame, metric.background()), map, mesh);
+  }
+  TransferPointData(input->GetPointData(), map, samples, output->GetPointData());
+  TransferCellData(input->GetCellData(), map, output->GetCellData());
+  AddMeshQuality(input, map, mesh, metric, request.Options, output);
+}
+
+template <int D>
+std::string OptimizeSimplices(vtkUnstructuredGrid* input, const Cells& cells,
+  const InputArrays& arrays, const Request& request, vtkUnstructuredGrid* output, Outcome& outcome)
+{
+  Frame<D> frame;
+  std::string error = FindFrame(input, cells, frame);
+  if (!error.empty())
+  {
+    return error;
+  }
+  meshopt::SimplexMesh<D> mesh;
+  error = BuildMesh(input, cells, arrays, frame, mesh);
+  if (!error.empty())
+  {
+    return error;
+  }
+  meshopt::NodalMetric<D> metric(request.Options.desiredSize);
+  error = SetMetric(cells, arrays, frame, request.Options, mesh, metric);
+  if (!error.empty())
+  {
+    return error;
+  }
+  Optimize(mesh, metric, request, outcome);
+  Export(input, cells, frame, mesh, metric, request, output);
+  return {};
+}
+
+void PassThrough(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output, Outcome& outcome)
+{
+  output->DeepCopy(input);
+  AddNoMeshQuality(output);
+  outcome.Report.stopReason = meshopt::StopReason::NothingToDo;
+}
+
+/**
+ * Which of two stop reasons says more about a whole of several grids.
+ */
+int Strength(meshopt::StopReason reason)
+{
+  using meshopt::StopReason;
+  switch (reason)
+  {
+    case StopReason::Aborted:
+      return 7;
+    case StopReason::TimeLimit:
+      return 6;
+    case StopReason::IterationLimit:
+      return 5;
+    case StopReason::NoFurtherGain:
+      return 4;
+    case StopReason::CappedBySurface:
+      return 3;
+    case StopReason::TargetReached:
+      return 2;
+    case StopReason::NothingToDo:
+      return 1;
+    case StopReason::NotRun:
+      break;
+  }
+  return 0;
+}
+
+double Mean(double a, vtkIdType countA, double b, vtkIdType countB)
+{
+  return (a * static_cast<double>(countA) + b * static_cast<double>(countB)) /
+    static_cast<double>(std::max<vtkIdType>(countA + countB, 1));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void Outcome::Add(const Outcome& other)
+{
+  const bool isFirst = this->NumberOfCellsBefore == 0;
+  meshopt::Report& mine = this->Report;
+  const meshopt::Report& its = other.Report;
+  if (other.NumberOfCellsBefore > 0)
+  {
+    mine.worstBefore = isFirst ? its.worstBefore : std::min(mine.worstBefore, its.worstBefore);
+    mine.worstAfter = isFirst ? its.worstAfter : std::min(mine.worstAfter, its.worstAfter);
+    mine.bound = isFirst ? its.bound : std::min(mine.bound, its.bound);
+    mine.meanBefore = Mean(
+      mine.meanBefore, this->NumberOfCellsBefore, its.meanBefore, other.NumberOfCellsBefore);
+    mine.meanAfter =
+      Mean(mine.meanAfter, this->NumberOfCells, its.meanAfter, other.NumberOfCells);
+    mine.cappedCells += its.cappedCells;
+  }
+  if (Strength(its.stopReason) > Strength(mine.stopReason))
+  {
+    mine.stopReason = its.stopReason;
+  }
+  this->NumberOfCells += other.NumberOfCells;
+  this->NumberOfCellsBefore += other.NumberOfCellsBefore;
+  this->NumberOfReorientedCells += other.NumberOfReorientedCells;
+  this->NumberOfQuadraticSimplices += other.NumberOfQuadraticSimplices;
+  this->NumberOfOperations += other.NumberOfOperations;
+  this->Seconds += other.Seconds;
+}
+
+std::string OptimizeGrid(vtkUnstructuredGrid* input, const Request& request,
+  vtkUnstructuredGrid* output, Outcome& outcome)
+{
+  Cells cells;
+  std::string error = ClassifyCells(input, cells);
+  if (!error.empty())
+  {
+    return error;
+  }
+  InputArrays arrays;
+  error = FindInputArrays(request.Filter, input, arrays);
+  if (!error.empty())
+  {
+    return error;
+  }
+  outcome.NumberOfQuadraticSimplices = cells.NumberOfQuadraticSimplices;
+  if (cells.Simplices.empty())
+  {
+    PassThrough(input, output, outcome);
+  }
+  else
+  {
+    error = cells.Dimension == 3
+      ? OptimizeSimplices<3>(input, cells, arrays, request, output, outcome)
+      : OptimizeSimplices<2>(input, cells, arrays, request, output, outcome);
+    output->GetFieldData()->DeepCopy(input->GetFieldData());
+  }
+  AddFigures(outcome, output);
+  return error;
+}
+
+} // namespace vtkMeshOptimizeBridge

@@ -1,0 +1,56 @@
+/**
+ * One grid through the optimizer: grid -> import -> SimplexMesh -> optimize -> export -> grid.
+ */
+#ifndef vtkMeshOptimizeRun_h
+#define vtkMeshOptimizeRun_h
+
+#include "Optimize/Options.h"
+
+#include "vtkType.h"
+
+#include <string>
+
+class vtkAlgorithm;
+class vtkUnstructuredGrid;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * What is wanted.
+ */
+struct Request
+{
+  vtkAlgorithm* Filter = nullptr; ///< knows the names of the input arrays
+  meshopt::Options Options;
+  meshopt::Control Control;
+};
+
+/**
+ * What came out, for one grid or, after Add(), several.
+ */
+struct Outcome
+{
+  meshopt::Report Report;
+  vtkIdType NumberOfCells = 0; ///< that were optimized, after it
+  vtkIdType NumberOfCellsBefore = 0;
+  vtkIdType NumberOfReorientedCells = 0;
+  vtkIdType NumberOfQuadraticSimplices = 0;
+  vtkIdType NumberOfOperations = 0;
+  double Seconds = 0.0;
+
+  /// Takes another grid's outcome in: minima, means by number of cells, sums, the strongest stop
+  /// reason. Histories are not joined.
+  void Add(const Outcome& other);
+};
+
+/**
+ * Optimizes `input` into `output`, which shares nothing with it. Returns an empty string, or one
+ * sentence about what makes the input unusable; `output` is then as good as empty.
+ */
+std::string OptimizeGrid(vtkUnstructuredGrid* input, const Request& request,
+  vtkUnstructuredGrid* output, Outcome& outcome);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif

@@ -1,0 +1,185 @@
+#include "vtkMeshOptimizeTransfer.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vtkMeshOptimizeBridge
+{
+namespace
+{
+
+bool IsFloating(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+bool IsNamed(vtkAbstractArray* array, const char* name)
+{
+  return array->GetName() && std::strcmp(array->GetName(), name) == 0;
+}
+
+/**
+ * An array like `source` whose tuple i is its tuple ids[i].
+ */
+vtkSmartPointer<vtkAbstractArray> Gather(vtkAbstractArray* source, vtkIdList* ids)
+{
+  vtkSmartPointer<vtkAbstractArray> array =
+    vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(source->GetDataType()));
+  array->SetName(source->GetName());
+  array->SetNumberOfComponents(source->GetNumberOfComponents());
+  array->SetNumberOfTuples(ids->GetNumberOfIds());
+  array->CopyComponentNames(source);
+  if (source->HasInformation())
+  {
+    array->CopyInformation(source->GetInformation(), 1);
+  }
+  source->GetTuples(ids, array);
+  return array;
+}
+
+/**
+ * v = v0 + sum w_i (v_i - v0), v0 the value with the greatest weight: a constant comes out exactly.
+ */
+double Interpolate(vtkDataArray* source, int component, const Sample& sample)
+{
+  const std::size_t base =
+    std::max_element(sample.Weights.begin(), sample.Weights.end()) - sample.Weights.begin();
+  const double v0 = source->GetComponent(sample.Corners[base], component);
+  double value = v0;
+  for (std::size_t i = 0; i < sample.Corners.size(); ++i)
+  {
+    if (i != base && sample.Weights[i] != 0.0) // a NaN far away must not come in
+    {
+      value += sample.Weights[i] * (source->GetComponent(sample.Corners[i], component) - v0);
+    }
+  }
+  return value;
+}
+
+void InterpolateSamples(vtkDataArray* source, const OutputMap& map,
+  const std::vector<Sample>& samples, vtkDataArray* array)
+{
+  for (std::size_t k = 0; k < samples.size(); ++k)
+  {
+    for (int component = 0; component < source->GetNumberOfComponents(); ++component)
+    {
+      array->SetComponent(
+        map.SampledPoints[k], component, Interpolate(source, component, samples[k]));
+    }
+  }
+}
+
+/**
+ * New tuples [first, end) get one value: they are nobody's copy.
+ */
+void FillNew(vtkAbstractArray* abstract, vtkIdType first, double value)
+{
+  vtkDataArray* array = vtkDataArray::SafeDownCast(abstract);
+  for (vtkIdType i = first; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+    {
+      array->SetComponent(i, component, value);
+    }
+  }
+}
+
+/**
+ * Adds `array` and makes it the active scalars, vectors, ... that array `index` of the input is. Not the
+ * active global ids: those must be unique over all blocks and processes, new points and cells have none.
+ */
+void AddArray(vtkDataSetAttributes* input, int index, vtkAbstractArray* array,
+  vtkDataSetAttributes* output)
+{
+  const int place = output->AddArray(array);
+  const int attribute = input->IsArrayAnAttribute(index);
+  if (attribute >= 0 && attribute != vtkDataSetAttributes::GLOBALIDS)
+  {
+    output->SetActiveAttribute(place, attribute);
+  }
+}
+
+/**
+ * Output points that take the data of one input point: themselves if they have not moved, else the nearest.
+ */
+void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool movedKeepTheirOwn,
+  vtkIdList* sources)
+{
+  sources->SetNumberOfIds(static_cast<vtkIdType>(map.PointToSlot.size()));
+  for (vtkIdType id = 0; id < map.NumberOfOldPoints; ++id)
+  {
+    sources->SetId(id, map.PointToSlot[id]);
+  }
+  for (std::size_t k = 0; k < samples.size(); ++k)
+  {
+    const vtkIdType id = map.SampledPoints[k];
+    if (!movedKeepTheirOwn || id >= map.NumberOfOldPoints)
+    {
+      sources->SetId(id, samples[k].Nearest);
+    }
+  }
+}
+
+} // namespace
+
+void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
+  const std::vector<Sample>& samples, vtkDataSetAttributes* output)
+{
+  vtkNew<vtkIdList> byPlace, byIdentity;
+  ListSources(map, samples, false, byPlace);
+  ListSources(map, samples, true, byIdentity);
+  for (int i = 0; i < input->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* source = input->GetAbstractArray(i);
+    const int attribute = input->IsArrayAnAttribute(i);
+    const bool isIdentity =
+      attribute == vtkDataSetAttributes::GLOBALIDS || attribute == vtkDataSetAttributes::PEDIGREEIDS;
+    vtkSmartPointer<vtkAbstractArray> array = Gather(source, isIdentity ? byIdentity : byPlace);
+    if (IsFloating(source) && !isIdentity)
+    {
+      InterpolateSamples(vtkDataArray::SafeDownCast(source), map, samples,
+        vtkDataArray::SafeDownCast(array));
+    }
+    if (attribute == vtkDataSetAttributes::GLOBALIDS)
+    {
+      FillNew(array, map.NumberOfOldPoints, -1.0);
+    }
+    if (IsNamed(source, vtkDataSetAttributes::GhostArrayName()))
+    {
+      FillNew(array, map.NumberOfOldPoints, 0.0);
+    }
+    AddArray(input, i, array, output);
+  }
+}
+
+void TransferCellData(
+  vtkDataSetAttributes* input, const OutputMap& map, vtkDataSetAttributes* output)
+{
+  vtkNew<vtkIdList> sources;
+  sources->SetNumberOfIds(static_cast<vtkIdType>(map.CellToSource.size()));
+  std::copy(map.CellToSource.begin(), map.CellToSource.end(), sources->begin());
+  for (int i = 0; i < input->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* source = input->GetAbstractArray(i);
+    if (IsNamed(source, "MeshQuality"))
+    {
+      continue;
+    }
+    vtkSmartPointer<vtkAbstractArray> array = Gather(source, sources);
+    if (input->IsArrayAnAttribute(i) == vtkDataSetAttributes::GLOBALIDS)
+    {
+      FillNew(array, map.NumberOfOldCells, -1.0);
+    }
+    AddArray(input, i, array, output);
+  }
+}
+
+} // namespace vtkMeshOptimizeBridge

@@ -1,0 +1,30 @@
+/**
+ * Data arrays of the output: point data interpolated, cell data from the parent, field data kept.
+ */
+#ifndef vtkMeshOptimizeTransfer_h
+#define vtkMeshOptimizeTransfer_h
+
+#include "vtkMeshOptimizeSampling.h"
+
+#include <vector>
+
+class vtkDataSetAttributes;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * Point data of the output. `samples` belong to map.SampledPoints.
+ */
+void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
+  const std::vector<Sample>& samples, vtkDataSetAttributes* output);
+
+/**
+ * Cell data of the output; an array `MeshQuality` of an earlier run is left out.
+ */
+void TransferCellData(
+  vtkDataSetAttributes* input, const OutputMap& map, vtkDataSetAttributes* output);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif
