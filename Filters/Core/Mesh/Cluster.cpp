@@ -143,6 +143,11 @@ bool gatherFanCluster(
 {
   const SimplexMesh<D>& mesh = editor.mesh();
   const auto inCore = [&](Index p) { return p == core[0] || (n == 2 && p == core[1]); };
+  const auto isWorse = [&](Index c)
+  {
+    const double q = mesh.quality(c), limit = mesh.quality(cell);
+    return q < limit || (q == limit && c < cell);
+  };
   const std::uint32_t mark = editor.newMark();
   cluster.cells.assign(1, cell);
   cluster.facets.clear();
@@ -157,6 +162,10 @@ bool gatherFanCluster(
         const Index next = SimplexMesh<D>::cellOf(mesh.adjacent(c, i));
         if (!editor.isMarked(next, mark))
         {
+          if (isWorse(next))
+          {
+            return false;
+          }
           editor.setMark(next, mark);
           cluster.cells.push_back(next);
         }
@@ -169,7 +178,6 @@ bool gatherFanCluster(
   cluster.closed = true;
   for (Index c : cluster.cells)
   {
-    cluster.worst = std::min(cluster.worst, mesh.quality(c));
     cluster.inverted += mesh.quality(c) <= 0.0 ? 1 : 0;
     for (int i = 0; i <= D; ++i)
     {

@@ -97,7 +97,8 @@ struct FanCluster
 /// Gathers the cluster around a node (n = 1) or an edge (n = 2) `core` of `cell`: the cells that
 /// contain the core and are reached from `cell` over facets that contain it and are not kept. A node that
 /// bounds the cluster (it lies on a kept facet) stays; see FanCluster::coreInside. Returns false if the
-/// cluster lies on both sides of a kept facet: it must then be left as it is.
+/// cluster lies on both sides of a kept facet: it must then be left as it is. Returns false as well, early, if
+/// `cell` is not the worst of the cluster by (quality, id).
 /// The cells are left marked with editor.lastMark().
 template <int D>
 bool gatherFanCluster(

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Optimize/Paper1996.h"
+
+#include "Optimize/Progress.h"
+#include "Optimize/Statistics.h"
+#include "Reconnect/Reconnection.h"
+#include "Reposition/GlobalAlgorithm.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+namespace meshopt
+{
+namespace
+{
+constexpr double LeastGain = 1e-3; // of the worst quality in one alternation, as a fraction
+
+template <int D>
+class Paper1996
+{
+public:
+  Paper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
+    const Control& control, Report& report)
+    : editor_(editor)
+    , metric_(metric)
+    , options_(options)
+    , report_(report)
+    , progress_(control)
+  {
+  }
+
+  StopReason run();
+
+private:
+  using Counts = std::array<long, NumberOfOperations>;
+
+  void reconnectAll();
+  void repositionAll();
+  void record(const char* stage, const Counts& tried, const Counts& done);
+  void touchMoved(const std::vector<Vec<D>>& before);
+  bool keepGoing(const char* stage, double worst);
+  double worst() const { return this->report_.history.back().worst; }
+
+  MeshEditor<D>& editor_;
+  NodalMetric<D>& metric_;
+  const Options& options_;
+  Report& report_;
+  Progress progress_;
+  ReconnectionMemory<D> memory_;
+  bool limitReached_ = false;
+  long gained_ = 0; // operations done in this alternation
+  long steps_ = 0, expectedSteps_ = 1;
+  std::chrono::steady_clock::time_point passBegin_ = std::chrono::steady_clock::now();
+};
+
+// How far the work is, is not known beforehand: the fraction approaches 1 as steps are made.
+template <int D>
+bool Paper1996<D>::keepGoing(const char* stage, double worst)
+{
+  ++this->steps_;
+  const double ratio =
+    static_cast<double>(this->steps_) / static_cast<double>(this->expectedSteps_);
+  return this->progress_.report(1.0 - 1.0 / (1.0 + ratio),
+    [&]
+    {
+      char text[96];
+      std::snprintf(text, sizeof text, "%s %d: worst element %.4f", stage,
+        static_cast<int>(this->report_.history.size() + 1) / 2, worst);
+      return std::string(text);
+    });
+}
+
+template <int D>
+void Paper1996<D>::record(const char* stage, const Counts& tried, const Counts& done)
+{
+  PassRecord row = summarize(this->editor_.mesh(), this->options_.targetQuality);
+  row.pass = static_cast<int>(this->report_.history.size());
+  row.stage = stage;
+  row.tried = tried;
+  row.done = done;
+  for (long n : done)
+  {
+    this->gained_ += n;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  row.seconds = std::chrono::duration<double>(now - this->passBegin_).count();
+  this->passBegin_ = now;
+  this->report_.history.push_back(row);
+}
+
+Operation operationOf(Filling kind)
+{
+  switch (kind)
+  {
+    case Filling::RingNode:
+      return Operation::EdgeRemoval;
+    case Filling::BoundaryNode:
+      return Operation::EdgeContraction;
+    case Filling::Centre:
+      return Operation::NodeReplacement;
+    case Filling::NewCentre:
+    case Filling::Midpoint:
+      return Operation::NodeInsertion;
+    default:
+      return Operation::FaceRemoval;
+  }
+}
+
+template <int D>
+void Paper1996<D>::reconnectAll()
+{
+  const Options& o = this->options_;
+  ReconnectionParameters parameters;
+  parameters.target = o.targetQuality;
+  parameters.naiveSearch = o.naiveSearch;
+  const auto allow = [&](Filling kind, bool on)
+  { parameters.allowed[static_cast<int>(kind)] = on; };
+  allow(Filling::RingNode, o.reconnect);
+  allow(Filling::OpenRing, o.reconnect);
+  allow(Filling::BoundaryNode, o.removeNodes);
+  allow(Filling::Centre, o.moveNodes);
+  allow(Filling::NewCentre, o.insertNodes);
+  allow(Filling::Midpoint, o.insertNodes);
+
+  const ReconnectionResult result = reconnect<D>(this->editor_, this->metric_, o.measure, o.beta,
+    parameters, this->memory_,
+    [this](double worst) { return this->keepGoing("reconnection", worst); });
+  Counts tried{}, done{};
+  for (int k = 0; k < NumberOfFillings; ++k)
+  {
+    const int op = static_cast<int>(operationOf(static_cast<Filling>(k)));
+    tried[op] += result.tried[k];
+    done[op] += result.done[k];
+  }
+  this->record("reconnection", tried, done);
+}
+
+// Elements around nodes that have moved are reconnected again.
+template <int D>
+void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
+{
+  const SimplexMesh<D>& mesh = this->editor_.mesh();
+  this->memory_.resize(mesh);
+  ++this->memory_.time;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (!mesh.isAlive(c))
+    {
+      continue;
+    }
+    bool moved = false;
+    for (Index p : mesh.nodes(c))
+    {
+      moved = moved || mesh.point(p) != before[p];
+    }
+    for (Index p : mesh.nodes(c))
+    {
+      if (moved)
+      {
+        this->memory_.touch(p);
+      }
+    }
+  }
+}
+
+template <int D>
+void Paper1996<D>::repositionAll()
+{
+  const Options& o = this->options_;
+  RepositionParameters parameters;
+  parameters.neighborhoodLevel = o.neighborhoodLevel;
+  parameters.maximumNumberOfIterations = o.maximumNumberOfIterations;
+  parameters.target = o.targetQuality;
+  parameters.naiveSearch = o.naiveSearch;
+  parameters.local.epsilon = o.epsilon;
+  parameters.local.armijo = o.armijo;
+
+  const SimplexMesh<D>& mesh = this->editor_.mesh();
+  std::vector<Vec<D>> before(mesh.numberOfPointSlots());
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    before[p] = mesh.point(p);
+  }
+  const RepositionResult result = reposition<D>(this->editor_, this->metric_, o.measure, o.beta,
+    parameters, [this](double worst) { return this->keepGoing("repositioning", worst); });
+  this->touchMoved(before);
+  this->limitReached_ = this->limitReached_ || result.limitReached;
+  Counts tried{}, done{};
+  tried[static_cast<int>(Operation::NodeMotion)] = result.tried;
+  done[static_cast<int>(Operation::NodeMotion)] = result.done;
+  this->record("repositioning", tried, done);
+}
+
+template <int D>
+StopReason Paper1996<D>::run()
+{
+  const Options& o = this->options_;
+  const bool reconnects = o.reconnect || o.removeNodes || o.insertNodes;
+  this->expectedSteps_ = std::max(1L, 4 * this->report_.history.back().belowTarget);
+  for (int k = 0; k < o.maximumNumberOfAlternations; ++k)
+  {
+    const double before = this->worst();
+    this->gained_ = 0;
+    if (before >= o.targetQuality)
+    {
+      return StopReason::TargetReached;
+    }
+    if (reconnects)
+    {
+      this->reconnectAll();
+    }
+    if (o.moveNodes && !this->progress_.cancelled() && this->worst() < o.targetQuality)
+    {
+      this->repositionAll();
+    }
+    if (this->progress_.cancelled())
+    {
+      return StopReason::Aborted;
+    }
+    if (this->worst() >= o.targetQuality)
+    {
+      return StopReason::TargetReached;
+    }
+    const bool rises = this->worst() > before + LeastGain * std::abs(before);
+    if (this->gained_ == 0 || !rises)
+    {
+      return this->limitReached_ ? StopReason::IterationLimit : StopReason::NoFurtherGain;
+    }
+  }
+  return StopReason::IterationLimit;
+}
+}
+
+template <int D>
+void optimizePaper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
+  const Control& control, Report& report)
+{
+  Paper1996<D> paper(editor, metric, options, control, report);
+  report.stopReason = paper.run();
+}
+
+template void optimizePaper1996<2>(
+  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&);
+template void optimizePaper1996<3>(
+  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&);
+}

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Reposition/MinNormPoint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace meshopt
+{
+namespace
+{
+constexpr double Tolerance = 1e-12;
+constexpr double LeastWeight = 1e-12;
+// A pivot below this (relative) means that the new point depends on the corral within rounding.
+constexpr double LeastPivot = 1e-14;
+}
+
+template <int D>
+double MinNormPoint<D>::product(const SparsePoint<D>& w) const
+{
+  double sum = this->first_ * w.first;
+  for (int i = 0; i < w.count; ++i)
+  {
+    sum += this->blocks_[w.block[i]].dot(w.value[i]);
+  }
+  return sum;
+}
+
+template <int D>
+void MinNormPoint<D>::formPoint(const std::vector<SparsePoint<D>>& points)
+{
+  this->first_ = 0.0;
+  std::fill(this->blocks_.begin(), this->blocks_.end(), Vec<D>::Zero());
+  for (std::size_t k = 0; k < this->corral_.size(); ++k)
+  {
+    const SparsePoint<D>& w = points[this->corral_[k]];
+    this->first_ += this->weights_[k] * w.first;
+    for (int i = 0; i < w.count; ++i)
+    {
+      this->blocks_[w.block[i]] += this->weights_[k] * w.value[i];
+    }
+  }
+  this->squaredNorm_ = this->first_ * this->first_;
+  for (const Vec<D>& b : this->blocks_)
+  {
+    this->squaredNorm_ += b.squaredNorm();
+  }
+}
+
+// Cholesky factor of (Gram matrix + scale ee'), rows `row` and below. The shift makes it definite for
+// every affinely independent corral and changes the affine weights by a factor only.
+template <int D>
+bool MinNormPoint<D>::factorFrom(std::size_t row)
+{
+  this->factor_.resize(this->gram_.size());
+  for (std::size_t i = row; i < this->gram_.size(); ++i)
+  {
+    std::vector<double>& f = this->factor_[i];
+    f.assign(i + 1, 0.0);
+    double pivot = this->gram_[i][i] + this->scale_;
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      double sum = this->gram_[i][j] + this->scale_;
+      for (std::size_t k = 0; k < j; ++k)
+      {
+        sum -= f[k] * this->factor_[j][k];
+      }
+      f[j] = sum / this->factor_[j][j];
+      pivot -= f[j] * f[j];
+    }
+    if (!(pivot > LeastPivot * this->scale_))
+    {
+      return false;
+    }
+    f[i] = std::sqrt(pivot);
+  }
+  return true;
+}
+
+template <int D>
+bool MinNormPoint<D>::append(const std::vector<SparsePoint<D>>& points, int k)
+{
+  std::vector<double> row;
+  for (int other : this->corral_)
+  {
+    row.push_back(points[k].dot(points[other]));
+  }
+  row.push_back(points[k].dot(points[k]));
+  this->gram_.push_back(std::move(row));
+  if (!this->factorFrom(this->gram_.size() - 1))
+  {
+    this->gram_.pop_back();
+    this->factor_.pop_back();
+    return false;
+  }
+  this->corral_.push_back(k);
+  this->weights_.push_back(0.0);
+  return true;
+}
+
+template <int D>
+void MinNormPoint<D>::drop(std::size_t i)
+{
+  this->corral_.erase(this->corral_.begin() + i);
+  this->weights_.erase(this->weights_.begin() + i);
+  this->gram_.erase(this->gram_.begin() + i);
+  for (std::size_t k = i; k < this->gram_.size(); ++k)
+  {
+    this->gram_[k].erase(this->gram_[k].begin() + i);
+  }
+}
+
+// Weights (of any sign, sum 1) of the point of least norm in the affine hull of the corral.
+template <int D>
+void MinNormPoint<D>::affineWeights()
+{
+  const std::size_t n = this->corral_.size();
+  this->affine_.assign(n, 1.0);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      this->affine_[i] -= this->factor_[i][j] * this->affine_[j];
+    }
+    this->affine_[i] /= this->factor_[i][i];
+  }
+  for (std::size_t i = n; i-- > 0;)
+  {
+    for (std::size_t j = i + 1; j < n; ++j)
+    {
+      this->affine_[i] -= this->factor_[j][i] * this->affine_[j];
+    }
+    this->affine_[i] /= this->factor_[i][i];
+  }
+  const double sum = std::accumulate(this->affine_.begin(), this->affine_.end(), 0.0);
+  for (double& v : this->affine_)
+  {
+    v /= sum;
+  }
+}
+
+// Wolfe's minor cycle: from the present weights towards the affine ones, dropping points that reach
+// weight zero, until the affine point lies inside the hull of what is left.
+template <int D>
+bool MinNormPoint<D>::reduceToCorral()
+{
+  for (;;)
+  {
+    this->affineWeights();
+    double theta = 1.0;
+    bool inside = true;
+    for (std::size_t i = 0; i < this->affine_.size(); ++i)
+    {
+      const double w = this->weights_[i], a = this->affine_[i];
+      if (a < LeastWeight)
+      {
+        inside = false;
+        theta = w > a ? std::min(theta, w / (w - a)) : theta;
+      }
+    }
+    if (inside)
+    {
+      this->weights_ = this->affine_;
+      return true;
+    }
+    std::size_t least = 0;
+    for (std::size_t i = 0; i < this->weights_.size(); ++i)
+    {
+      this->weights_[i] += theta * (this->affine_[i] - this->weights_[i]);
+      least = this->weights_[i] < this->weights_[least] ? i : least;
+    }
+    if (this->corral_.size() == 1)
+    {
+      this->weights_[0] = 1.0;
+      return true;
+    }
+    std::size_t lowest = least;
+    this->drop(least);
+    for (std::size_t i = this->corral_.size(); i-- > 0;)
+    {
+      if (this->weights_[i] < LeastWeight && this->corral_.size() > 1)
+      {
+        this->drop(i);
+        lowest = std::min(lowest, i);
+      }
+    }
+    if (!this->factorFrom(lowest))
+    {
+      return false;
+    }
+  }
+}
+
+template <int D>
+void MinNormPoint<D>::sortCorral()
+{
+  std::vector<std::pair<int, double>> pairs;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < this->corral_.size(); ++i)
+  {
+    pairs.emplace_back(this->corral_[i], this->weights_[i]);
+    sum += this->weights_[i];
+  }
+  std::sort(pairs.begin(), pairs.end());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    this->corral_[i] = pairs[i].first;
+    this->weights_[i] = pairs[i].second / sum;
+  }
+}
+
+template <int D>
+void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numberOfBlocks)
+{
+  const int m = static_cast<int>(points.size());
+  this->corral_.clear();
+  this->weights_.clear();
+  this->gram_.clear();
+  this->factor_.clear();
+  this->blocks_.assign(numberOfBlocks, Vec<D>::Zero());
+  int start = 0;
+  double least = points[0].dot(points[0]);
+  this->scale_ = least;
+  for (int k = 1; k < m; ++k)
+  {
+    const double norm = points[k].dot(points[k]);
+    this->scale_ = std::max(this->scale_, norm);
+    if (norm < least)
+    {
+      least = norm;
+      start = k;
+    }
+  }
+  this->scale_ = this->scale_ > 0.0 ? this->scale_ : 1.0;
+  this->append(points, start);
+  this->weights_[0] = 1.0;
+  this->formPoint(points);
+
+  const int limit = 20 + 4 * m;
+  for (int cycle = 0; cycle < limit; ++cycle)
+  {
+    int best = 0;
+    double lowest = this->product(points[0]);
+    for (int k = 1; k < m; ++k)
+    {
+      const double p = this->product(points[k]);
+      if (p < lowest)
+      {
+        lowest = p;
+        best = k;
+      }
+    }
+    const bool known =
+      std::find(this->corral_.begin(), this->corral_.end(), best) != this->corral_.end();
+    if (known || lowest >= this->squaredNorm_ - Tolerance * this->scale_ ||
+      !this->append(points, best))
+    {
+      break;
+    }
+    const bool sound = this->reduceToCorral();
+    this->formPoint(points);
+    if (!sound)
+    {
+      break;
+    }
+  }
+  this->sortCorral();
+  this->formPoint(points);
+}
+
+template class MinNormPoint<2>;
+template class MinNormPoint<3>;
+}

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file StarProblem.h
+/// Where to put one node: the worst quality of the elements around it as a function of its place.
+///
+/// The elements are the facets of a polyhedron (the link of a node, or the boundary of a cavity)
+/// joined to the node. For a fixed topology the worst shape quality is quasi-concave where it is
+/// positive, so that the maximum found is global; it is found by steps of ProximalStep with a
+/// trust in the linearization (tau) that grows and shrinks by what the steps really gain.
+#ifndef meshopt_Reposition_StarProblem_h
+#define meshopt_Reposition_StarProblem_h
+
+#include "Mesh/LocalNumbers.h"
+#include "Quality/EdgeSum.h"
+#include "Quality/ElementQuality.h"
+#include "Reposition/ProximalStep.h"
+
+namespace meshopt
+{
+template <int D, class Shape>
+class StarProblem
+{
+public:
+  /// Plain: Euclidean, without size factor. Otherwise setFacetMetric() gives each facet its metric.
+  void clear(const ElementQuality<D, Shape>& quality, bool plain)
+  {
+    this->quality_ = quality;
+    this->plain_ = plain;
+    this->numbers_.clear();
+    this->ring_.clear();
+    this->facets_.clear();
+    this->metrics_.clear();
+  }
+
+  int numberOfFacets() const { return static_cast<int>(this->facets_.size()); }
+  int numberOfPoints() const { return static_cast<int>(this->ring_.size()); }
+
+  int addPoint(Index p, const Vec<D>& x)
+  {
+    const int k = this->numbers_.add(p);
+    if (k == static_cast<int>(this->ring_.size()))
+    {
+      this->ring_.push_back({ x, 0.0 });
+    }
+    return k;
+  }
+
+  /// Facet of local point numbers; (facet, node) is positive for a node inside.
+  void addFacet(const std::array<int, D>& f)
+  {
+    FacetData data;
+    data.points = f;
+    const Vec<D>& a = this->ring_[f[0]].x;
+    if constexpr (D == 3)
+    {
+      const Vec<D> u = this->ring_[f[1]].x - a, v = this->ring_[f[2]].x - a;
+      data.normal = u.cross(v);
+      if constexpr (EdgeSum<Shape>::value)
+      {
+        data.sum = EdgeSum<Shape>::weight(u.squaredNorm()) +
+          EdgeSum<Shape>::weight(v.squaredNorm()) + EdgeSum<Shape>::weight((u - v).squaredNorm());
+      }
+    }
+    else
+    {
+      const Vec<D> u = this->ring_[f[1]].x - a;
+      data.normal = Vec<D>(-u[1], u[0]);
+      if constexpr (EdgeSum<Shape>::value)
+      {
+        data.sum = EdgeSum<Shape>::weight(u.squaredNorm());
+      }
+    }
+    this->facets_.push_back(data);
+  }
+  void addFacetMetric(const ElementMetric<D>& m) { this->metrics_.push_back(m); }
+
+  /// Quality of each element with the node at x; returns the worst.
+  double evaluate(const Vec<D>& x)
+  {
+    this->values_.resize(this->facets_.size());
+    double worst = std::numeric_limits<double>::infinity();
+    if (this->fast())
+    {
+      this->evaluateFast(x);
+    }
+    else
+    {
+      for (std::size_t k = 0; k < this->facets_.size(); ++k)
+      {
+        this->values_[k] = this->quality_.value(this->corners(k, x), this->metric(k));
+      }
+    }
+    for (double q : this->values_)
+    {
+      worst = std::min(worst, q);
+    }
+    return worst;
+  }
+  /// Qualities of the last evaluate(), in the order of the facets.
+  const std::vector<double>& values() const { return this->values_; }
+
+  /// Moves x to a better place; returns the worst quality there. Stops when it is at least
+  /// `enough`, or when a step gains less than `gain`. After it values() belong to x.
+  double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = 20)
+  {
+    double worst = this->evaluate(x);
+    double tau = this->firstTau(x);
+    for (int step = 0; step < maximumSteps && worst < enough;)
+    {
+      this->linearize(x, worst);
+      bool moved = false;
+      for (int trial = 0; trial < 5 && step < maximumSteps && !moved; ++trial, ++step)
+      {
+        Vec<D> d;
+        const double predicted = this->solver_.solve(this->active_, tau, d) - worst;
+        if (!(predicted > gain))
+        {
+          step = maximumSteps;
+          break;
+        }
+        const Vec<D> y = x + d;
+        const double there = this->evaluate(y);
+        moved = there > worst + 0.1 * predicted;
+        tau *= there > worst + 0.7 * predicted ? 3.0 : moved ? 1.0 : 0.25;
+        if (moved)
+        {
+          x = y;
+          worst = there;
+        }
+      }
+      if (!moved)
+      {
+        break;
+      }
+    }
+    return this->evaluate(x);
+  }
+
+private:
+  static constexpr bool HasSum = EdgeSum<Shape>::value;
+
+  struct RingPoint
+  {
+    Vec<D> x;
+    double weight;
+  };
+  struct FacetData
+  {
+    Vec<D> normal; // det = normal . (node - first point)
+    double sum = 0.0;
+    std::array<int, D> points;
+  };
+
+  bool fast() const { return HasSum && this->plain_; }
+  ElementMetric<D> metric(std::size_t k) const
+  {
+    return this->plain_ ? ElementMetric<D>() : this->metrics_[k];
+  }
+
+  Corners<D> corners(std::size_t k, const Vec<D>& x) const
+  {
+    Corners<D> c;
+    for (int i = 0; i < D; ++i)
+    {
+      c[i] = this->ring_[this->facets_[k].points[i]].x;
+    }
+    c[D] = x;
+    return c;
+  }
+
+  void evaluateFast([[maybe_unused]] const Vec<D>& x)
+  {
+    if constexpr (HasSum)
+    {
+      for (RingPoint& r : this->ring_)
+      {
+        r.weight = EdgeSum<Shape>::weight((x - r.x).squaredNorm());
+      }
+      for (std::size_t k = 0; k < this->facets_.size(); ++k)
+      {
+        const FacetData& f = this->facets_[k];
+        double sum = f.sum;
+        for (int p : f.points)
+        {
+          sum += this->ring_[p].weight;
+        }
+        this->values_[k] =
+          EdgeSum<Shape>::quality(f.normal.dot(x - this->ring_[f.points[0]].x), sum);
+      }
+    }
+  }
+
+  /// Values and gradients of the elements that a step could make the worst.
+  void linearize(const Vec<D>& x, double worst)
+  {
+    this->active_.clear();
+    const double limit = worst + 0.35;
+    for (std::size_t k = 0; k < this->facets_.size(); ++k)
+    {
+      if (this->values_[k] < limit)
+      {
+        this->active_.push_back({ this->values_[k], this->gradient(k, x) });
+      }
+    }
+  }
+
+  Vec<D> gradient(std::size_t k, const Vec<D>& x) const
+  {
+    if constexpr (HasSum)
+    {
+      if (this->plain_)
+      {
+        const FacetData& f = this->facets_[k];
+        double sum = f.sum, byDet, bySum;
+        Vec<D> g = Vec<D>::Zero();
+        for (int p : f.points)
+        {
+          const RingPoint& r = this->ring_[p];
+          sum += r.weight;
+          g += EdgeSum<Shape>::slope(r.weight) * (x - r.x);
+        }
+        EdgeSum<Shape>::derivatives(
+          f.normal.dot(x - this->ring_[f.points[0]].x), sum, byDet, bySum);
+        return byDet * f.normal + bySum * g;
+      }
+    }
+    std::array<Vec<D>, D + 1> g;
+    this->quality_.gradient(this->corners(k, x), this->metric(k), g);
+    return g[D];
+  }
+
+  /// Trust at the start: a unit gradient per length L moves the node by a tenth of L, the mean
+  /// distance to the points around.
+  double firstTau(const Vec<D>& x) const
+  {
+    double sum = 0.0;
+    for (const RingPoint& r : this->ring_)
+    {
+      sum += (x - r.x).squaredNorm();
+    }
+    return 0.1 * sum / static_cast<double>(std::max<std::size_t>(1, this->ring_.size()));
+  }
+
+  ElementQuality<D, Shape> quality_;
+  bool plain_ = true;
+  LocalNumbers numbers_;
+  std::vector<RingPoint> ring_;
+  std::vector<FacetData> facets_;
+  std::vector<ElementMetric<D>> metrics_;
+  std::vector<double> values_;
+  std::vector<typename ProximalStep<D>::Function> active_;
+  ProximalStep<D> solver_;
+};
+}
+
+#endif
