@@ -1,33 +1,327 @@
 #include "vtkMeshQualityMinMax.h"
 
-#include "vtkDataObject.h"
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshQualityReport.h"
+
+#include "vtkCellData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkSmartPointer.h"
+#include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
-vtkStandardNewMacro(vtkMeshQualityMinMax);
+#include <algorithm>
+#include <limits>
+#include <vector>
 
+vtkStandardNewMacro(vtkMeshQualityMinMax);
+vtkCxxSetObjectMacro(vtkMeshQualityMinMax, Controller, vtkMultiProcessController);
+
+namespace quality = vtkMeshQuality;
+
+//------------------------------------------------------------------------------
 vtkMeshQualityMinMax::vtkMeshQualityMinMax()
 {
   this->SetNumberOfOutputPorts(4);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
+//------------------------------------------------------------------------------
+vtkMeshQualityMinMax::~vtkMeshQualityMinMax() { this->SetController(nullptr); }
+
+//------------------------------------------------------------------------------
 void vtkMeshQualityMinMax::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "QualityMeasure: " << this->QualityMeasure << "\n";
+  os << indent << "Beta: " << this->Beta << "\n";
+  os << indent << "DesiredSize: " << this->DesiredSize << "\n";
+  os << indent << "NumberOfWorstCells: " << this->NumberOfWorstCells << "\n";
+  os << indent << "NumberOfBins: " << this->NumberOfBins << "\n";
+  os << indent << "ComputeBound: " << this->ComputeBound << "\n";
+  os << indent << "TargetQuality: " << this->TargetQuality << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+  os << indent << "MinimumQuality: " << this->MinimumQuality << "\n";
+  os << indent << "MaximumQuality: " << this->MaximumQuality << "\n";
+  os << indent << "MeanQuality: " << this->MeanQuality << "\n";
+  os << indent << "StandardDeviation: " << this->StandardDeviation << "\n";
+  os << indent << "QualityBound: " << this->QualityBound << "\n";
+  os << indent << "NumberOfMeasuredCells: " << this->NumberOfMeasuredCells << "\n";
+  os << indent << "NumberOfInvertedCells: " << this->NumberOfInvertedCells << "\n";
+  os << indent << "NumberOfNotMeasurableCells: " << this->NumberOfNotMeasurableCells << "\n";
+  os << indent << "NumberOfOtherCells: " << this->NumberOfOtherCells << "\n";
+  os << indent << "NumberOfCappedCells: " << this->NumberOfCappedCells << "\n";
+  os << indent << "WorstCellId: " << this->WorstCellId << "\n";
+  os << indent << "WorstCellBlock: " << this->WorstCellBlock << "\n";
+  os << indent << "WorstCellRank: " << this->WorstCellRank << "\n";
 }
 
-int vtkMeshQualityMinMax::FillOutputPortInformation(int port, vtkInformation* info)
+//------------------------------------------------------------------------------
+int vtkMeshQualityMinMax::FillInputPortInformation(int, vtkInformation* info)
 {
-  const bool isTable = port == 1 || port == 2;
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), isTable ? "vtkTable" : "vtkUnstructuredGrid");
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
 
+//------------------------------------------------------------------------------
+int vtkMeshQualityMinMax::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  const char* types[] = { "vtkDataObject", "vtkTable", "vtkTable", "vtkUnstructuredGrid" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeBool vtkMeshQualityMinMax::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(request, inputVector, outputVector);
+  }
+  return this->Superclass::ProcessRequest(request, inputVector, outputVector);
+}
+
+//------------------------------------------------------------------------------
+int vtkMeshQualityMinMax::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  if (input && (!output || !output->IsA(input->GetClassName())))
+  {
+    vtkSmartPointer<vtkDataObject> made = vtk::TakeSmartPointer(input->NewInstance());
+    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  return input ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+// What one update works with: the grids on this rank, input and output side by side.
+struct vtkMeshQualityMinMax::Run
+{
+  explicit Run(vtkMeshQualityMinMax* self)
+    : Self(self)
+    , Figures(std::max(1, self->NumberOfWorstCells))
+    , Rank(self->Controller ? self->Controller->GetLocalProcessId() : 0)
+  {
+    this->Options.Measure = static_cast<meshopt::Measure>(self->QualityMeasure);
+    this->Options.Beta = self->Beta;
+    this->Options.DesiredSize = self->DesiredSize;
+    // the worst one is wanted in any case
+    this->Options.NumberOfWorstCells = std::max(1, self->NumberOfWorstCells);
+    this->Options.ComputeBound = self->ComputeBound;
+    this->Options.TargetQuality = self->TargetQuality;
+  }
+
+  // Rank and block in one number; ranks come first in ties.
+  std::int64_t PartOf(unsigned int block) const
+  {
+    return (static_cast<std::int64_t>(this->Rank) << 32) + block;
+  }
+
+  void Pass(vtkDataObject* input, vtkDataObject* output);
+  void PassBlock(vtkDataObject* input, vtkDataObject* output, unsigned int block);
+  std::string CheckOptions();
+  std::string Measure();
+  std::string MeasureBlock(const quality::Block& block);
+  void CountInBins(meshopt::QualityHistogram& histogram);
+
+  vtkMeshQualityMinMax* Self;
+  quality::Options Options;
+  quality::Figures Figures;
+  int Rank;
+  bool IsComposite = false;
+  std::vector<quality::Block> Blocks; // of the output
+};
+
+//------------------------------------------------------------------------------
+void vtkMeshQualityMinMax::Run::Pass(vtkDataObject* input, vtkDataObject* output)
+{
+  auto* from = vtkCompositeDataSet::SafeDownCast(input);
+  auto* to = vtkCompositeDataSet::SafeDownCast(output);
+  this->IsComposite = from && to;
+  if (!this->IsComposite)
+  {
+    this->PassBlock(input, output, 0);
+    return;
+  }
+  to->CopyStructure(from);
+  to->GetFieldData()->PassData(from->GetFieldData());
+  vtkSmartPointer<vtkCompositeDataIterator> it = vtk::TakeSmartPointer(from->NewIterator());
+  for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem())
+  {
+    vtkDataObject* leaf = it->GetCurrentDataObject();
+    vtkSmartPointer<vtkDataObject> copy = vtk::TakeSmartPointer(leaf->NewInstance());
+    to->SetDataSet(it, copy);
+    this->PassBlock(leaf, copy, it->GetCurrentFlatIndex());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkMeshQualityMinMax::Run::PassBlock(
+  vtkDataObject* input, vtkDataObject* output, unsigned int block)
+{
+  output->ShallowCopy(input);
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
+  {
+    this->Blocks.push_back({ this->PartOf(block), block, grid });
+  }
+  else if (auto* set = vtkDataSet::SafeDownCast(output))
+  {
+    this->Figures.Total.OtherCells += set->GetNumberOfCells();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkMeshQualityMinMax::Run::CheckOptions()
+{
+  std::vector<vtkUnstructuredGrid*> grids;
+  for (const quality::Block& block : this->Blocks)
+  {
+    grids.push_back(block.Mesh);
+  }
+  std::string error = vtkMeshOptimizeBridge::CheckArraysAreThere(this->Self, grids);
+  bool hasSizes = this->Options.DesiredSize > 0.0, hasCells = false;
+  for (const quality::Block& block : this->Blocks)
+  {
+    vtkMeshOptimizeBridge::InputArrays arrays;
+    if (error.empty())
+    {
+      error = vtkMeshOptimizeBridge::FindInputArrays(this->Self, block.Mesh, arrays);
+    }
+    hasSizes = hasSizes || arrays.Size;
+    hasCells = hasCells || block.Mesh->GetNumberOfCells() > 0;
+  }
+  if (error.empty() && hasCells && this->Options.Beta > 0.0 && !hasSizes)
+  {
+    error = "Beta is above 0, but there is neither a DesiredSize above 0 nor a size array.";
+  }
+  return error;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
+{
+  vtkMeshOptimizeBridge::InputArrays arrays;
+  vtkMeshOptimizeBridge::FindInputArrays(this->Self, block.Mesh, arrays);
+  quality::Grid grid;
+  const std::string error = grid.Read(block.Mesh, arrays, this->Options.Beta > 0.0);
+  if (!error.empty())
+  {
+    return error;
+  }
+  vtkSmartPointer<vtkDoubleArray> values = vtkSmartPointer<vtkDoubleArray>::New();
+  values->SetName("MeshQuality");
+  values->SetNumberOfValues(grid.GetNumberOfCells());
+  quality::Figures figures = quality::MeasureGrid(
+    grid, this->Options, block.Part, values->GetPointer(0));
+  if (!vtkMeshOptimizeCompat::CheckAbort(this->Self))
+  {
+    quality::MeasureSurface(grid, this->Options, values->GetPointer(0), figures);
+  }
+  this->Figures.Merge(figures);
+  block.Mesh->GetCellData()->AddArray(values);
+  block.Mesh->GetCellData()->SetActiveScalars("MeshQuality");
+  return {};
+}
+
+//------------------------------------------------------------------------------
+std::string vtkMeshQualityMinMax::Run::Measure()
+{
+  std::string error = this->CheckOptions();
+  for (std::size_t b = 0; b < this->Blocks.size() && error.empty(); ++b)
+  {
+    if (vtkMeshOptimizeCompat::CheckAbort(this->Self))
+    {
+      break;
+    }
+    error = this->MeasureBlock(this->Blocks[b]);
+    if (!error.empty() && this->IsComposite)
+    {
+      error = "Block " + std::to_string(this->Blocks[b].FlatIndex) + ": " + error;
+    }
+    this->Self->UpdateProgress(static_cast<double>(b + 1) / this->Blocks.size());
+  }
+  return error;
+}
+
+//------------------------------------------------------------------------------
+void vtkMeshQualityMinMax::Run::CountInBins(meshopt::QualityHistogram& histogram)
+{
+  for (const quality::Block& block : this->Blocks)
+  {
+    auto* values = vtkDoubleArray::SafeDownCast(block.Mesh->GetCellData()->GetArray("MeshQuality"));
+    vtkUnsignedCharArray* ghosts = block.Mesh->GetCellGhostArray();
+    const int skipped = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+    for (vtkIdType c = 0; values && c < values->GetNumberOfValues(); ++c)
+    {
+      if (!ghosts || !(ghosts->GetValue(c) & skipped))
+      {
+        histogram.add(values->GetValue(c));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkMeshQualityMinMax::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkUnstructuredGrid::GetData(outputVector, 0)->ShallowCopy(vtkUnstructuredGrid::GetData(inputVector[0]));
+  Run run(this);
+  run.Pass(vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(outputVector, 0));
+  const std::string error = run.Measure();
+  // All ranks meet here, those with an error as well.
+  const bool usable = quality::Reduce(
+    this->Controller, !error.empty(), run.Options.NumberOfWorstCells, run.Figures);
+  if (!error.empty())
+  {
+    vtkErrorMacro(<< error);
+  }
+  if (!usable)
+  {
+    return 0;
+  }
+  meshopt::QualityHistogram histogram = quality::MakeHistogram(
+    run.Options, run.Figures, this->NumberOfBins);
+  run.CountInBins(histogram);
+  quality::Reduce(this->Controller, histogram);
+
+  const quality::Sums& total = run.Figures.Total;
+  const meshopt::QualityStatistics& q = total.Quality;
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  this->MinimumQuality = q.count ? q.minimum : nothing;
+  this->MaximumQuality = q.count ? q.maximum : nothing;
+  this->MeanQuality = q.count ? q.mean : nothing;
+  this->StandardDeviation = q.count ? q.standardDeviation() : nothing;
+  this->NumberOfMeasuredCells = q.count;
+  this->NumberOfInvertedCells = q.inverted;
+  this->NumberOfNotMeasurableCells = q.invalid;
+  this->NumberOfOtherCells = total.OtherCells;
+  this->NumberOfCappedCells = total.CappedCells;
+  this->QualityBound = std::min(total.Bound, quality::GreatestQuality(run.Options, run.Figures));
+  std::vector<meshopt::WorstElement> worst = run.Figures.Worst.sorted();
+  this->WorstCellId = worst.empty() ? -1 : worst[0].id;
+  this->WorstCellBlock = worst.empty() ? -1 : static_cast<int>(worst[0].part & 0xffffffff);
+  this->WorstCellRank = worst.empty() ? -1 : static_cast<int>(worst[0].part >> 32);
+
+  worst.resize(std::min(worst.size(), static_cast<std::size_t>(this->NumberOfWorstCells)));
+  if (run.Rank == 0)
+  {
+    quality::FillSummary(run.Options, run.Figures, vtkTable::GetData(outputVector, 1));
+    quality::FillHistogram(histogram, vtkTable::GetData(outputVector, 2));
+  }
+  quality::FillWorstCells(
+    worst, run.Blocks, run.Rank, run.IsComposite, vtkUnstructuredGrid::GetData(outputVector, 3));
   return 1;
 }

@@ -132,7 +132,7 @@ double facetCap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, double enough
   const Vec<3> u = b - a, v = c - a;
   const double unit = std::sqrt(
     std::max(u.squaredNorm(), std::max(v.squaredNorm(), (v - u).squaredNorm())));
-  if (!std::isfinite(unit))
+  if (!std::isfinite(u.squaredNorm() + v.squaredNorm()))
   {
     return 1.0;
   }

@@ -1,0 +1,267 @@
+#include "vtkMeshQualityMeasure.h"
+
+#include "Metric/TensorFunctions.h"
+#include "Quality/ElementQuality.h"
+
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vtkMeshQuality
+{
+namespace
+{
+
+using meshopt::Corners;
+using meshopt::ElementMetric;
+using meshopt::Vec;
+
+constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
+
+/**
+ * The functor of the same measure for triangles.
+ */
+template <template <int> class Shape>
+Shape<2> ForTriangles(const Shape<3>&)
+{
+  return {};
+}
+
+/**
+ * The triangle in its own plane; positive unless it is flat.
+ */
+Corners<2> Unfold(const Corners<3>& x)
+{
+  const Vec<3> a = x[1] - x[0], b = x[2] - x[0];
+  const double l = a.norm();
+  if (l == 0.0)
+  {
+    return { Vec<2>(0.0, 0.0), Vec<2>(0.0, 0.0), Vec<2>(b.norm(), 0.0) };
+  }
+  return { Vec<2>(0.0, 0.0), Vec<2>(l, 0.0), Vec<2>(a.dot(b) / l, a.cross(b).norm() / l) };
+}
+
+/**
+ * Quality (2.2) of single cells.
+ */
+template <class Shape>
+class Evaluator
+{
+public:
+  Evaluator(const Grid& grid, const Options& options)
+    : Mesh(grid)
+    , DesiredSize(options.DesiredSize)
+    , IsPlain(options.Beta == 0.0 && grid.GetLogTensors().empty())
+  {
+    this->Solid.beta = options.Beta;
+    this->Flat.beta = options.Beta;
+  }
+
+  double operator()(vtkIdType cell, Kind kind) const
+  {
+    const double q = kind == Kind::Tetrahedron ? this->Tetrahedron(cell) : this->Triangle(cell);
+    return std::isfinite(q) ? q : NotANumber;
+  }
+
+private:
+  double Tetrahedron(vtkIdType cell) const
+  {
+    vtkIdType ids[4];
+    if (!this->Mesh.GetCorners(cell, 4, ids))
+    {
+      return NotANumber;
+    }
+    const Corners<3> x = { this->Mesh.GetPoint(ids[0]), this->Mesh.GetPoint(ids[1]),
+      this->Mesh.GetPoint(ids[2]), this->Mesh.GetPoint(ids[3]) };
+    if (this->IsPlain)
+    {
+      return Shape::value(x);
+    }
+    return this->Solid.value(x, this->MetricOf(ids, 4));
+  }
+
+  double Triangle(vtkIdType cell) const
+  {
+    vtkIdType ids[3];
+    if (!this->Mesh.GetCorners(cell, 3, ids))
+    {
+      return NotANumber;
+    }
+    Corners<3> x = { this->Mesh.GetPoint(ids[0]), this->Mesh.GetPoint(ids[1]),
+      this->Mesh.GetPoint(ids[2]), Vec<3>::Zero() };
+    ElementMetric<2> flat;
+    double sign = 1.0;
+    if (!this->IsPlain)
+    {
+      const ElementMetric<3> metric = this->MetricOf(ids, 3);
+      flat.desiredSize = metric.desiredSize;
+      for (int i = 0; !metric.euclidean && i < 3; ++i)
+      {
+        x[i] = metric.map * x[i];
+      }
+    }
+    Corners<2> y;
+    if (this->Mesh.IsFlat())
+    {
+      y = { Vec<2>(x[0][0], x[0][1]), Vec<2>(x[1][0], x[1][1]), Vec<2>(x[2][0], x[2][1]) };
+      // not finite in z only: still no number
+      sign += 0.0 * (x[0][2] + x[1][2] + x[2][2]);
+    }
+    else
+    {
+      y = Unfold(x);
+    }
+    return sign * this->Flat.value(y, flat);
+  }
+
+  ElementMetric<3> MetricOf(const vtkIdType* ids, int n) const
+  {
+    ElementMetric<3> metric;
+    metric.desiredSize = this->DesiredSize;
+    if (!this->Mesh.GetLogSizes().empty())
+    {
+      double sum = 0.0;
+      for (int k = 0; k < n; ++k)
+      {
+        sum += this->Mesh.GetLogSizes()[ids[k]];
+      }
+      metric.desiredSize = std::exp(sum / n);
+    }
+    if (!this->Mesh.GetLogTensors().empty())
+    {
+      meshopt::Tensor<3> sum = meshopt::Tensor<3>::Zero();
+      for (int k = 0; k < n; ++k)
+      {
+        sum += this->Mesh.GetLogTensors()[ids[k]];
+      }
+      metric.euclidean = false;
+      metric.map = meshopt::exponential<3>((sum * (0.5 / n)).eval());
+    }
+    return metric;
+  }
+
+  using Shape2 = decltype(ForTriangles(Shape{}));
+  const Grid& Mesh;
+  double DesiredSize;
+  bool IsPlain;
+  meshopt::ElementQuality<3, Shape> Solid;
+  meshopt::ElementQuality<2, Shape2> Flat;
+};
+
+/**
+ * Sums of one chunk of cells.
+ */
+struct Chunk
+{
+  meshopt::QualityStatistics Quality;
+  std::int64_t OtherCells = 0;
+  std::map<int, Sums> Regions;
+  std::vector<meshopt::WorstElement> Worst;
+};
+
+template <class Shape>
+void MeasureChunk(const Grid& grid, const Evaluator<Shape>& evaluate, std::size_t worst,
+  std::int64_t part, vtkIdType begin, vtkIdType end, double* quality, Chunk& chunk)
+{
+  std::array<double, meshopt::StatisticsChunk> counted;
+  std::int64_t n = 0;
+  meshopt::WorstElements worstCells(worst);
+  for (vtkIdType c = begin; c < end; ++c)
+  {
+    const Kind kind = grid.GetKind(c);
+    quality[c] = kind == Kind::Other ? NotANumber : evaluate(c, kind);
+    if (grid.IsGhost(c))
+    {
+      continue;
+    }
+    if (grid.HasRegions())
+    {
+      Sums& sums = chunk.Regions[grid.GetRegion(c)];
+      sums.OtherCells += kind == Kind::Other ? 1 : 0;
+      if (kind != Kind::Other)
+      {
+        sums.Quality.add(quality[c]);
+      }
+    }
+    if (kind == Kind::Other)
+    {
+      ++chunk.OtherCells;
+      continue;
+    }
+    counted[n++] = quality[c];
+    worstCells.add({ quality[c], part, c });
+  }
+  chunk.Quality.add(counted.data(), n);
+  chunk.Worst = worstCells.sorted();
+}
+
+template <class Shape>
+std::vector<Chunk> MeasureChunks(
+  const Grid& grid, const Options& options, std::int64_t part, double* quality)
+{
+  const vtkIdType length = meshopt::StatisticsChunk;
+  const vtkIdType n = grid.GetNumberOfCells();
+  std::vector<Chunk> chunks((n + length - 1) / length);
+  const Evaluator<Shape> evaluate(grid, options);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(chunks.size()), 4,
+    [&](vtkIdType first, vtkIdType last)
+    {
+      for (vtkIdType k = first; k < last; ++k)
+      {
+        MeasureChunk(grid, evaluate, options.NumberOfWorstCells, part, k * length,
+          std::min(n, (k + 1) * length), quality, chunks[k]);
+      }
+    });
+  return chunks;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void Sums::Merge(const Sums& other)
+{
+  this->Quality.merge(other.Quality);
+  this->OtherCells += other.OtherCells;
+  this->Bound = std::min(this->Bound, other.Bound);
+  this->CappedCells += other.CappedCells;
+}
+
+//------------------------------------------------------------------------------
+void Figures::Merge(const Figures& other)
+{
+  this->Total.Merge(other.Total);
+  for (const auto& region : other.Regions)
+  {
+    this->Regions[region.first].Merge(region.second);
+  }
+  this->Worst.merge(other.Worst);
+  this->HasTetrahedra |= other.HasTetrahedra;
+  this->HasTriangles |= other.HasTriangles;
+}
+
+//------------------------------------------------------------------------------
+Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part, double* quality)
+{
+  const std::vector<Chunk> chunks = meshopt::dispatch<3>(options.Measure,
+    [&](auto shape) { return MeasureChunks<decltype(shape)>(grid, options, part, quality); });
+  Figures figures(options.NumberOfWorstCells);
+  figures.HasTetrahedra = grid.HasTetrahedra();
+  figures.HasTriangles = grid.HasTriangles();
+  for (const Chunk& chunk : chunks)
+  {
+    figures.Total.Quality.merge(chunk.Quality);
+    figures.Total.OtherCells += chunk.OtherCells;
+    for (const auto& region : chunk.Regions)
+    {
+      figures.Regions[grid.GetRegions()[region.first]].Merge(region.second);
+    }
+    for (const meshopt::WorstElement& e : chunk.Worst)
+    {
+      figures.Worst.add(e);
+    }
+  }
+  return figures;
+}
+
+} // namespace vtkMeshQuality

@@ -1,0 +1,75 @@
+/**
+ * The quality of every cell of a grid, and its sums: over the grid and over each region.
+ */
+#ifndef vtkMeshQualityMeasure_h
+#define vtkMeshQualityMeasure_h
+
+#include "vtkMeshQualityGrid.h"
+
+#include "Quality/Measure.h"
+#include "Quality/Statistics.h"
+
+#include <map>
+
+namespace vtkMeshQuality
+{
+
+/**
+ * What is measured.
+ */
+struct Options
+{
+  meshopt::Measure Measure = meshopt::Measure::Shape;
+  double Beta = 0.0;
+  double DesiredSize = 0.0;
+  std::size_t NumberOfWorstCells = 10;
+  bool ComputeBound = true;
+  double TargetQuality = 0.6;
+};
+
+/**
+ * One row of the summary.
+ */
+struct Sums
+{
+  meshopt::QualityStatistics Quality;
+  std::int64_t OtherCells = 0;
+  double Bound = std::numeric_limits<double>::infinity(); ///< infinity: nothing known
+  std::int64_t CappedCells = 0;
+
+  void Merge(const Sums& other);
+};
+
+/**
+ * All that is known of one grid, of several, or of all ranks.
+ */
+struct Figures
+{
+  explicit Figures(std::size_t numberOfWorstCells)
+    : Worst(numberOfWorstCells)
+  {
+  }
+  void Merge(const Figures& other);
+
+  Sums Total;
+  std::map<long long, Sums> Regions; ///< by the value of the region array; empty without one
+  meshopt::WorstElements Worst;
+  bool HasTetrahedra = false, HasTriangles = false;
+};
+
+/**
+ * Writes the quality of each cell to `quality` (one per cell; NaN for cells that are neither triangles
+ * nor tetrahedra, that lack a point, or have a coordinate that is not finite) and sums up those that are not ghosts.
+ * `part` goes into the worst elements. The same bits for any number of threads.
+ */
+Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part, double* quality);
+
+/**
+ * Adds the certified bound of the grid's surface and the number of cells that it caps to `figures`.
+ */
+void MeasureSurface(
+  const Grid& grid, const Options& options, const double* quality, Figures& figures);
+
+} // namespace vtkMeshQuality
+
+#endif

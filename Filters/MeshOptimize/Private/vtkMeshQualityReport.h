@@ -1,0 +1,65 @@
+/**
+ * From figures to what a person reads: one set of figures for all ranks, tables, the worst cells as a grid.
+ */
+#ifndef vtkMeshQualityReport_h
+#define vtkMeshQualityReport_h
+
+#include "vtkMeshQualityMeasure.h"
+
+#include <utility>
+#include <vector>
+
+class vtkDataArray;
+class vtkMultiProcessController;
+class vtkTable;
+class vtkUnstructuredGrid;
+
+namespace vtkMeshQuality
+{
+
+/**
+ * Merges the figures of all ranks, in the order of the ranks, so that all get the same bits. Returns false if some rank
+ * says that it failed; all ranks must call this, also those that failed. A null controller: this rank only.
+ */
+bool Reduce(vtkMultiProcessController* controller, bool failed, std::size_t numberOfWorstCells,
+  Figures& figures);
+
+/**
+ * Adds up the counts of all ranks.
+ */
+void Reduce(vtkMultiProcessController* controller, meshopt::QualityHistogram& histogram);
+
+/**
+ * The greatest value that the measure can have for the cells that were seen.
+ */
+double GreatestQuality(const Options& options, const Figures& figures);
+
+/**
+ * An empty histogram for these figures: from min(0, minimum) to max(greatest possible value, maximum).
+ */
+meshopt::QualityHistogram MakeHistogram(
+  const Options& options, const Figures& figures, int numberOfBins);
+
+void FillSummary(const Options& options, const Figures& figures, vtkTable* table);
+void FillHistogram(const meshopt::QualityHistogram& histogram, vtkTable* table);
+
+/**
+ * A grid and its number, by which its worst cells are known.
+ */
+struct Block
+{
+  std::int64_t Part;
+  unsigned int FlatIndex;
+  vtkUnstructuredGrid* Mesh;
+};
+
+/**
+ * Copies those of the worst cells that are in `blocks` to `output`, worst first. `isComposite`: with
+ * an array that says from which block.
+ */
+void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
+  const std::vector<Block>& blocks, int rank, bool isComposite, vtkUnstructuredGrid* output);
+
+} // namespace vtkMeshQuality
+
+#endif

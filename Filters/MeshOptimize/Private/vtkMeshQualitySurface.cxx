@@ -1,0 +1,329 @@
+/**
+ * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without building the
+ * adjacency of all cells, and has their bound computed.
+ *
+ * Each facet gets a random-looking 64-bit key, the same from both of its cells. Both cells exclusive-or it into a
+ * number at the facet's lowest point: facets with two cells cancel out. Points whose number is not 0 have some
+ * kept facet; only the facets at those are compared one by one, which are few. A number is 0 by chance once in 2^64.
+ * The order in which numbers are combined does not matter, so that threads may do it.
+ */
+#include "vtkMeshQualityMeasure.h"
+
+#include "Boundary/SurfaceBound.h"
+
+#include "vtkSMPTools.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace vtkMeshQuality
+{
+namespace
+{
+
+using meshopt::Index;
+using meshopt::KeptSide;
+using meshopt::Vec;
+
+using Key = std::uint64_t;
+constexpr vtkIdType Length = 16384;
+
+/**
+ * A random-looking number for a number (the finalizer of splitmix64).
+ */
+Key Scramble(Key x)
+{
+  x += 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
+/**
+ * A facet at a point of the surface.
+ */
+struct Candidate
+{
+  Key Id = 0;
+  vtkIdType Cell = -1;
+  int Facet = 0;
+  bool Kept = true;
+};
+
+/**
+ * The simplices of one dimension.
+ */
+template <int D>
+class SurfaceFinder
+{
+public:
+  explicit SurfaceFinder(const Grid& grid)
+    : Mesh(grid)
+    , Numbers(grid.GetNumberOfPoints())
+  {
+  }
+
+  std::vector<Candidate> Find()
+  {
+    const vtkIdType n = this->Mesh.GetNumberOfCells();
+    const vtkIdType chunks = (n + Length - 1) / Length;
+    const bool alone = vtkSMPTools::GetEstimatedNumberOfThreads() == 1;
+    vtkSMPTools::For(0, chunks, 1,
+      [&](vtkIdType first, vtkIdType last)
+      {
+        for (vtkIdType c = first * Length; c < std::min(n, last * Length); ++c)
+        {
+          this->Combine(c, alone);
+        }
+      });
+    std::vector<std::vector<Candidate>> parts(chunks);
+    vtkSMPTools::For(0, chunks, 1,
+      [&](vtkIdType first, vtkIdType last)
+      {
+        for (vtkIdType k = first; k < last; ++k)
+        {
+          for (vtkIdType c = k * Length; c < std::min(n, (k + 1) * Length); ++c)
+          {
+            this->Collect(c, parts[k]);
+          }
+        }
+      });
+    std::vector<Candidate> all;
+    for (const auto& part : parts)
+    {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return KeepSingle(std::move(all));
+  }
+
+private:
+  struct Facets
+  {
+    std::array<Key, D + 1> Keys;
+    vtkIdType Lowest,
+      Next;       ///< the two lowest points; the facet opposite to the lowest begins at the next
+    int Opposite; ///< local number of the lowest: its facet has not got it
+  };
+
+  bool GetFacets(vtkIdType cell, Facets& f) const
+  {
+    vtkIdType ids[D + 1];
+    if (this->Mesh.GetKind(cell) != (D == 3 ? Kind::Tetrahedron : Kind::Triangle) ||
+      !this->Mesh.GetCorners(cell, D + 1, ids))
+    {
+      return false;
+    }
+    Key sum = this->Mesh.HasRegions() ? Scramble(~static_cast<Key>(this->Mesh.GetRegion(cell))) : 0;
+    Key keys[D + 1];
+    f.Opposite = 0;
+    for (int i = 0; i <= D; ++i)
+    {
+      keys[i] = Scramble(static_cast<Key>(ids[i]));
+      sum += keys[i];
+      f.Opposite = ids[i] < ids[f.Opposite] ? i : f.Opposite;
+    }
+    f.Lowest = ids[f.Opposite];
+    f.Next = -1;
+    for (int i = 0; i <= D; ++i)
+    {
+      f.Keys[i] = Scramble(sum - keys[i]);
+      f.Next = i != f.Opposite && (f.Next < 0 || ids[i] < f.Next) ? ids[i] : f.Next;
+    }
+    return true;
+  }
+
+  void Combine(vtkIdType cell, bool alone)
+  {
+    Facets f;
+    if (!this->GetFacets(cell, f))
+    {
+      return;
+    }
+    Key atLowest = 0;
+    for (int i = 0; i <= D; ++i)
+    {
+      atLowest ^= i != f.Opposite ? f.Keys[i] : 0;
+    }
+    this->Add(f.Lowest, atLowest, alone);
+    this->Add(f.Next, f.Keys[f.Opposite], alone);
+  }
+
+  void Add(vtkIdType point, Key key, bool alone)
+  {
+    std::atomic<Key>& number = this->Numbers[point];
+    if (alone)
+    {
+      number.store(number.load(std::memory_order_relaxed) ^ key, std::memory_order_relaxed);
+    }
+    else
+    {
+      number.fetch_xor(key, std::memory_order_relaxed);
+    }
+  }
+
+  void Collect(vtkIdType cell, std::vector<Candidate>& out) const
+  {
+    Facets f;
+    if (!this->GetFacets(cell, f))
+    {
+      return;
+    }
+    const bool lowest = this->Numbers[f.Lowest].load(std::memory_order_relaxed) != 0;
+    const bool next = this->Numbers[f.Next].load(std::memory_order_relaxed) != 0;
+    for (int i = 0; i <= D; ++i)
+    {
+      if (i == f.Opposite ? next : lowest)
+      {
+        out.push_back({ f.Keys[i], cell, i, true });
+      }
+    }
+  }
+
+  /**
+   * Leaves out what occurs twice or more, by a hash table with open addressing.
+   */
+  static std::vector<Candidate> KeepSingle(std::vector<Candidate> all)
+  {
+    std::size_t size = 16;
+    while (size < 2 * all.size())
+    {
+      size *= 2;
+    }
+    std::vector<std::size_t> table(size, all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      std::size_t slot = all[i].Id & (size - 1);
+      while (table[slot] != all.size() && all[table[slot]].Id != all[i].Id)
+      {
+        slot = (slot + 1) & (size - 1);
+      }
+      if (table[slot] == all.size())
+      {
+        table[slot] = i;
+      }
+      else
+      {
+        all[table[slot]].Kept = all[i].Kept = false;
+      }
+    }
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Candidate& c) { return !c.Kept; }),
+      all.end());
+    return all;
+  }
+
+  const Grid& Mesh;
+  std::vector<std::atomic<Key>> Numbers;
+};
+
+/**
+ * Points of the surface, numbered anew and in the dimension of the core.
+ */
+template <int D>
+class SurfacePoints
+{
+public:
+  explicit SurfacePoints(const Grid& grid)
+    : Mesh(grid)
+    , Numbers(grid.GetNumberOfPoints(), meshopt::None)
+  {
+  }
+  Index Number(vtkIdType p)
+  {
+    if (this->Numbers[p] == meshopt::None)
+    {
+      this->Numbers[p] = static_cast<Index>(this->Places.size());
+      Vec<D> x;
+      for (int i = 0; i < D; ++i)
+      {
+        x[i] = this->Mesh.GetPoint(p)[i];
+      }
+      this->Places.push_back(x);
+    }
+    return this->Numbers[p];
+  }
+
+  std::vector<Vec<D>> Places;
+
+private:
+  const Grid& Mesh;
+  std::vector<Index> Numbers;
+};
+
+template <int D>
+void MeasureSurfaceOf(
+  const Grid& grid, const Options& options, const double* quality, Figures& figures)
+{
+  const std::vector<Candidate> facets = SurfaceFinder<D>(grid).Find();
+  SurfacePoints<D> points(grid);
+  std::vector<std::vector<KeptSide<D>>> sides(std::max<std::size_t>(1, grid.GetRegions().size()));
+  for (const Candidate& facet : facets)
+  {
+    if (grid.IsGhost(facet.Cell))
+    {
+      continue;
+    }
+    vtkIdType ids[D + 1];
+    grid.GetCorners(facet.Cell, D + 1, ids);
+    KeptSide<D> side;
+    for (int k = 0; k < D; ++k)
+    {
+      side.nodes[k] = points.Number(ids[meshopt::Local<D>::facets[facet.Facet][k]]);
+    }
+    side.cell = static_cast<Index>(facet.Cell);
+    side.oriented = quality[facet.Cell] > 0.0;
+    sides[grid.GetRegion(facet.Cell)].push_back(side);
+  }
+  meshopt::SurfaceBoundOptions boundOptions;
+  boundOptions.measure = options.Measure;
+  boundOptions.enough = options.TargetQuality;
+  for (std::size_t r = 0; r < sides.size(); ++r)
+  {
+    const auto result = meshopt::surfaceBound<D>(
+      points.Places.data(), std::move(sides[r]), boundOptions);
+    Index lastCapped = meshopt::None; // sides of one cell follow each other
+    std::int64_t capped = 0;
+    for (std::size_t s = 0; s < result.sides.size(); ++s)
+    {
+      if (result.sideCaps[s] < options.TargetQuality && result.sides[s].cell != lastCapped)
+      {
+        lastCapped = result.sides[s].cell;
+        ++capped;
+      }
+    }
+    Sums sums;
+    sums.Bound = result.bound;
+    sums.CappedCells = capped;
+    figures.Total.Merge(sums);
+    if (grid.HasRegions() && !grid.GetRegions().empty())
+    {
+      figures.Regions[grid.GetRegions()[r]].Merge(sums);
+    }
+  }
+}
+
+} // namespace
+
+// ------------------------------------------------------------------------------
+void MeasureSurface(
+  const Grid& grid, const Options& options, const double* quality, Figures& figures)
+{
+  // With a metric that varies nothing is certain; nor is it for triangles that are not in a plane.
+  const bool known = grid.GetLogTensors().empty() && (grid.HasTetrahedra() || grid.IsFlat()) &&
+    grid.GetNumberOfPoints() < std::numeric_limits<Index>::max() &&
+    grid.GetNumberOfCells() < std::numeric_limits<Index>::max();
+  if (!options.ComputeBound || !known)
+  {
+    return;
+  }
+  if (grid.HasTetrahedra())
+  {
+    MeasureSurfaceOf<3>(grid, options, quality, figures);
+  }
+  else
+  {
+    MeasureSurfaceOf<2>(grid, options, quality, figures);
+  }
+}
+
+} // namespace vtkMeshQuality
