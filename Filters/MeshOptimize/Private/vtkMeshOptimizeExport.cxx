@@ -130,7 +130,8 @@ void ExportPoints(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D
 }
 
 /**
- * Node ids of an output cell. Cells that have not been renumbered keep the order of the grid.
+ * Node ids of an output cell. The core's order is kept, to which the qualities that it reports belong to the last bit: that
+ * of the grid but for cells that were renumbered, or taken apart and put together again.
  */
 template <int D>
 void GetOutputNodes(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh<D>& mesh,
