@@ -57,6 +57,14 @@ MeshEditor<D>::MeshEditor(Mesh& mesh)
   }
 }
 
+template <int D>
+MeshEditor<D>::MeshEditor(Mesh& mesh, std::uint32_t clock, std::uint32_t mark)
+  : mesh_(&mesh)
+  , clock_(clock)
+  , mark_(mark)
+{
+}
+
 // --- slots
 
 template <int D>
@@ -85,7 +93,9 @@ void MeshEditor<D>::growPoints(Index n)
 template <int D>
 bool MeshEditor<D>::reserveCells(std::size_t n)
 {
-  return n <= this->freeCells_.size() || this->owner_ == None;
+  const bool room = n <= this->freeCells_.size() || this->owner_ == None;
+  this->blocked_ |= !room;
+  return room;
 }
 
 template <int D>
@@ -150,6 +160,7 @@ Index MeshEditor<D>::addPoint(const Vec<D>& x)
   }
   else
   {
+    this->blocked_ = true;
     return None;
   }
   Point& point = this->mesh_->points_[p];
@@ -209,6 +220,7 @@ void MeshEditor<D>::commit(std::size_t)
   {
     this->journal_.clear();
     this->cellRecords_.clear();
+    this->linkRecords_.clear();
     this->pointRecords_.clear();
     this->slotRecords_.clear();
   }
@@ -234,6 +246,12 @@ void MeshEditor<D>::rollback(std::size_t place)
         this->mesh_->cells_[r.id] = r.cell;
         this->mesh_->cellData_[r.id] = r.data;
         this->mesh_->cellData_[r.id].mark = mark;
+        break;
+      }
+      case Entry::LinkChanged:
+      {
+        const LinkRecord r = pop(this->linkRecords_);
+        this->mesh_->cells_[Mesh::cellOf(r.handle)].adjacent[Mesh::facetOf(r.handle)] = r.adjacent;
         break;
       }
       case Entry::PointChanged:
@@ -286,6 +304,23 @@ void MeshEditor<D>::setQuality(Index c, double q)
 }
 
 template <int D>
+void MeshEditor<D>::stamp(const std::vector<Index>& cells)
+{
+  ++this->clock_;
+  for (Index c : cells)
+  {
+    for (Index p : this->mesh_->cells_[c].nodes)
+    {
+      if (this->mesh_->points_[p].stamp != this->clock_)
+      {
+        this->savePoint(p);
+        this->mesh_->points_[p].stamp = this->clock_;
+      }
+    }
+  }
+}
+
+template <int D>
 void MeshEditor<D>::collectOpenFacets(const std::vector<Index>& cavity, std::uint32_t inCavity)
 {
   this->facets_.clear();
@@ -295,7 +330,7 @@ void MeshEditor<D>::collectOpenFacets(const std::vector<Index>& cavity, std::uin
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
       const bool kept = this->mesh_->isConstrained(c, i);
-      if (h == None || !this->isMarked(Mesh::cellOf(h), inCavity))
+      if (h == None || !this->owns(Mesh::cellOf(h)) || !this->isMarked(Mesh::cellOf(h), inCavity))
       {
         this->facets_.push_back(
           { sorted<D>(this->mesh_->facet(c, i)), h, this->mesh_->parent(c), kept, false });
@@ -419,6 +454,7 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
   data.quality = quality;
   data.region = region;
   data.stamp = 0;
+  data.level = 0;
   data.flags = Mesh::CellAlive;
   for (Index p : nodes)
   {
@@ -458,12 +494,14 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   this->mesh_->cellData_[c].flags |= std::uint16_t(f.kept ? 1u << i : 0u);
   if (f.outside != None)
   {
-    const Index other = Mesh::cellOf(f.outside);
-    if (f.parent != None)
+    Index& link =
+      this->mesh_->cells_[Mesh::cellOf(f.outside)].adjacent[Mesh::facetOf(f.outside)];
+    if (f.parent != None && this->depth_ > 0) // outside of the cavity; new cells are saved already
     {
-      this->saveCell(other); // outside of the cavity; new cells are saved already
+      this->journal_.push_back(Entry::LinkChanged);
+      this->linkRecords_.push_back({ f.outside, link });
     }
-    this->mesh_->cells_[other].adjacent[Mesh::facetOf(f.outside)] = Mesh::handle(c, i);
+    link = Mesh::handle(c, i);
   }
   return f.parent;
 }
@@ -539,13 +577,17 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
     for (int i = 0; i <= D; ++i)
     {
       const Index h = cell.adjacent[i];
-      if (cell.nodes[i] == p || h == None || this->isMarked(Mesh::cellOf(h), seen))
+      if (cell.nodes[i] == p || h == None)
       {
         continue;
       }
       if (!this->owns(Mesh::cellOf(h)))
       {
-        return false;
+        return false; // not even its mark may be looked at
+      }
+      if (this->isMarked(Mesh::cellOf(h), seen))
+      {
+        continue;
       }
       this->setMark(Mesh::cellOf(h), seen);
       star.push_back(Mesh::cellOf(h));

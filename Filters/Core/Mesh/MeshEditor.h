@@ -25,7 +25,10 @@ class MeshEditor
 public:
   using Mesh = SimplexMesh<D>;
 
+  /// Scans the mesh for the latest mark and stamp; linear.
   explicit MeshEditor(Mesh& mesh);
+  /// Goes on from a clock and a mark that are not behind those of any other editor; O(1).
+  MeshEditor(Mesh& mesh, std::uint32_t clock, std::uint32_t mark);
 
   Mesh& mesh() { return *this->mesh_; }
   const Mesh& mesh() const { return *this->mesh_; }
@@ -50,8 +53,14 @@ public:
   void movePoint(Index p, const Vec<D>& x);
 
   void setQuality(Index c, double q);
-  /// CellData::stamp, the algorithms' "failed at" time; not journalled.
-  void setStamp(Index c, std::uint32_t stamp) { this->mesh_->cellData_[c].stamp = stamp; }
+  /// Stamps all points of these cells with a new time: their stars have changed.
+  void stamp(const std::vector<Index>& cells);
+  /// CellData::stamp and level, the algorithms' "failed at" time and effort; not journalled.
+  void setFailed(Index c, std::uint32_t stamp, int level)
+  {
+    this->mesh_->cellData_[c].stamp = stamp;
+    this->mesh_->cellData_[c].level = static_cast<std::uint8_t>(level);
+  }
 
   /// The time of the latest edit. Points around an edit carry it as their stamp.
   std::uint32_t clock() const { return this->clock_; }
@@ -88,11 +97,16 @@ public:
     {
       if (this->mesh_->points_[p].owner != this->owner_)
       {
+        this->blocked_ = true;
         return false;
       }
     }
     return true;
   }
+  /// True if, since the last resetBlocked(), something was refused because another editor owns it
+  /// or because the pool was empty: a failure that says nothing about the mesh.
+  bool blocked() const { return this->blocked_; }
+  void resetBlocked() { this->blocked_ = false; }
   void setPointOwner(Index p, Index owner) { this->mesh_->points_[p].owner = owner; }
   /// Dead slots that this editor may use, taken from the back.
   std::vector<Index>& freeCells() { return this->freeCells_; }
@@ -113,6 +127,7 @@ private:
   enum class Entry : std::uint8_t
   {
     CellChanged,
+    LinkChanged,
     PointChanged,
     CellTaken, // from the pool
     CellGrown,
@@ -126,6 +141,13 @@ private:
     Index id;
     Cell cell;
     CellData data;
+  };
+  /// adjacent[] of one facet. A cell at the border of what the editor owns is never saved whole:
+  /// its other facets may be another editor's.
+  struct LinkRecord
+  {
+    Index handle;
+    Index adjacent;
   };
   struct PointRecord
   {
@@ -158,15 +180,16 @@ private:
 
   Mesh* mesh_;
   Index owner_ = None;
+  mutable bool blocked_ = false;
   std::uint32_t clock_ = 0;
   std::uint32_t mark_ = 0;
   std::vector<Index> freeCells_, freePoints_;
   std::vector<Index> created_;
 
   int depth_ = 0;
-  std::uint32_t savedClock_ = 0;
   std::vector<Entry> journal_;
   std::vector<CellRecord> cellRecords_;
+  std::vector<LinkRecord> linkRecords_;
   std::vector<PointRecord> pointRecords_;
   std::vector<Index> slotRecords_;
 

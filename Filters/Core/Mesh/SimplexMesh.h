@@ -84,6 +84,7 @@ public:
     std::uint32_t stamp = 0;        ///< free for algorithms: last failed try
     mutable std::uint32_t mark = 0; ///< scratch of the MeshEditor that owns the cell
     std::uint16_t flags = 0;
+    std::uint8_t level = 0; ///< free for algorithms: effort of the last failed try
   };
 
   struct Point

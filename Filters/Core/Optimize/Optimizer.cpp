@@ -4,6 +4,7 @@
 #include "Mesh/MeshEditor.h"
 #include "Optimize/Paper1996.h"
 #include "Optimize/Statistics.h"
+#include "Optimize/WorstFirst.h"
 
 #include <chrono>
 
@@ -27,7 +28,11 @@ Report optimize(
   {
     report.stopReason = StopReason::NothingToDo;
   }
-  else if (options.algorithm == Algorithm::Paper1996)
+  else if (options.algorithm == Algorithm::WorstFirst)
+  {
+    optimizeWorstFirst<D>(editor, metric, options, control, report);
+  }
+  else
   {
     optimizePaper1996<D>(editor, metric, options, control, report);
   }

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Caps.h
+/// Which cells cannot get better because the surface is kept: they must cost nothing.
+#ifndef meshopt_Optimize_Caps_h
+#define meshopt_Optimize_Caps_h
+
+#include "Boundary/SurfaceBound.h"
+
+#include <unordered_map>
+
+namespace meshopt
+{
+/// Caps of kept facets and edges under a given quality (see SurfaceBound), for look-up.
+template <int D>
+class Caps
+{
+public:
+  /// Prepares the look-up of caps below `limit`; `known` is false where none can be certified (a
+  /// metric that varies): then nothing is capped and bound() is 1.
+  void build(const SimplexMesh<D>& mesh, Measure measure, double limit, bool known);
+
+  double bound() const { return this->bound_; }
+
+  /// True if cell c has reached a cap of one of its kept facets, up to a fraction 2e-3; or that of a
+  /// kept edge whose other cells are all better.
+  bool isCapped(const SimplexMesh<D>& mesh, Index c) const;
+
+private:
+  static constexpr double Reached = 0.998;
+
+  struct Hash
+  {
+    template <std::size_t N>
+    std::size_t operator()(const std::array<Index, N>& f) const
+    {
+      std::size_t h = 0;
+      for (Index p : f)
+      {
+        h = (h ^ std::uint32_t(p)) * 0x9e3779b97f4a7c15ull;
+        h ^= h >> 29;
+      }
+      return h;
+    }
+  };
+
+  bool isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const;
+
+  double bound_ = 1.0;
+  double largest_ = -1.0; // of all caps
+  std::unordered_map<Facet<D>, double, Hash> facets_;
+  std::unordered_map<std::array<Index, 2>, double, Hash> edges_;
+};
+
+extern template class Caps<2>;
+extern template class Caps<3>;
+}
+
+#endif

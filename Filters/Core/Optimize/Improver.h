@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Improver.h
+/// What the fast engine does about one bad cell: tries each kind of change, keeps what helps.
+#ifndef meshopt_Optimize_Improver_h
+#define meshopt_Optimize_Improver_h
+
+#include "Optimize/Options.h"
+#include "Optimize/QualityModel.h"
+#include "Reconnect/Cavity.h"
+#include "Reconnect/EdgeRemoval.h"
+#include "Reconnect/FaceRemoval.h"
+#include "Reposition/StarProblem.h"
+
+namespace meshopt
+{
+/// A change is kept if the worst of the new cells is better than the worst of the old ones by
+/// gain(): the sorted vector of all qualities rises lexicographically, so that nothing cycles.
+template <int D, class Shape>
+class Improver
+{
+public:
+  /// How far improve() goes. Each level includes those before it.
+  enum Level
+  {
+    Topology = 0,  ///< edge and face removal, node motion
+    Insertion = 1, ///< also removal and insertion of nodes
+    LookAhead = 2, ///< also several changes that pay only together
+    LongLookAhead = 3
+  };
+
+  Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Options& options);
+
+  /// Tries to improve the neighbourhood of cell t, whose quality is to rise. True if it did.
+  bool improve(Index t, int level);
+
+  /// Cells that the last successful improve() made or whose quality it changed; some may be dead.
+  const std::vector<Index>& changed() const { return this->changed_; }
+
+  /// Node motion stops at this quality: what is more than enough is not paid for.
+  void setEnough(double quality) { this->enough_ = quality; }
+  /// Net number of cells that may still be added.
+  void setGrowth(long cells) { this->growth_ = cells; }
+  long growth() const { return this->growth_; }
+  /// Guards against inputs whose cells overlap, where the usual geometric reasons do not hold.
+  void setTangled(bool tangled) { this->tangled_ = tangled; }
+
+  std::array<long, NumberOfOperations> tried{}, done{};
+
+private:
+  static constexpr double Never = -std::numeric_limits<double>::infinity();
+
+  /// Least gain that makes a change worth it, at quality q: 1e-3, less where all is tiny.
+  static double gain(double q)
+  {
+    return std::min(1e-3, std::max(1e-6, 0.01 * std::fabs(q)));
+  }
+
+  bool reconnect(Index t);
+  bool move(Index t);
+  bool moveNode(Index v);
+  bool removeNodes(Index t);
+  bool removeNode(Index v);
+  bool insert(Index t);
+  bool lookAhead(Index t, int operations);
+  bool settle(std::vector<Index>& affected, double goal, int operations);
+
+  double tryInsertion(Index t, Index p, Vec<D>& x, bool needGain);
+  void seeds(Index t, std::vector<Vec<D>>& x) const;
+  bool insertHere(Index t, Index p, const Vec<D>& x);
+  bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells);
+  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
+  void loadStar(Index v);
+  void count(Operation op, bool success)
+  {
+    ++this->tried[static_cast<int>(op)];
+    this->done[static_cast<int>(op)] += success;
+  }
+
+  MeshEditor<D>* editor_;
+  const QualityModel<D, Shape>* model_;
+  const Options* options_;
+  double enough_ = 1.0;
+  long growth_ = 0;
+  bool tangled_ = false;
+
+  std::vector<Index> changed_, star_;
+  std::vector<Simplex<D>> cells_, bestCells_;
+  std::vector<Index> bestCavity_;
+  std::vector<double> qualities_;
+  EdgeRemoval<D, Shape> edgeRemoval_;
+  FaceRemoval<Shape> faceRemoval_;
+  Cavity<D, Shape> cavity_;
+  StarProblem<D, Shape> problem_;
+};
+}
+
+#include "Optimize/Improver.hxx"
+
+#endif

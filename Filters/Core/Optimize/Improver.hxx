@@ -1,0 +1,502 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meshopt_Optimize_Improver_hxx
+#define meshopt_Optimize_Improver_hxx
+
+namespace meshopt
+{
+template <int D, class Shape>
+Improver<D, Shape>::Improver(
+  MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Options& options)
+  : editor_(&editor)
+  , model_(&model)
+  , options_(&options)
+{
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::improve(Index t, int level)
+{
+  this->changed_.clear();
+  if (this->options_->reconnect && this->reconnect(t))
+  {
+    return true;
+  }
+  if (this->options_->moveNodes && this->move(t))
+  {
+    return true;
+  }
+  if (level >= Insertion && this->options_->removeNodes && this->removeNodes(t))
+  {
+    return true;
+  }
+  if (level >= Insertion && this->options_->insertNodes && this->insert(t))
+  {
+    return true;
+  }
+  return level >= LookAhead && this->options_->insertNodes &&
+    this->lookAhead(t, level == LookAhead ? 30 : 120);
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::replace(
+  const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells)
+{
+  if (this->tangled_ && this->conflicts(cavity, cells))
+  {
+    return false;
+  }
+  this->qualities_.clear();
+  for (const Simplex<D>& c : cells)
+  {
+    this->qualities_.push_back((*this->model_)(c));
+  }
+  if (!this->editor_->replace(cavity, cells, this->qualities_))
+  {
+    return false;
+  }
+  this->growth_ -= static_cast<long>(cells.size()) - static_cast<long>(cavity.size());
+  const std::vector<Index>& created = this->editor_->created();
+  this->changed_.insert(this->changed_.end(), created.begin(), created.end());
+  return true;
+}
+
+// --- topology that keeps the points
+
+template <int D, class Shape>
+bool Improver<D, Shape>::reconnect(Index t)
+{
+  const double above = this->editor_->mesh().quality(t) + gain(this->editor_->mesh().quality(t));
+  double best = above;
+  Operation kind = Operation::EdgeRemoval;
+  this->bestCells_.clear();
+  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+  {
+    const double q = this->edgeRemoval_.propose(*this->editor_, *this->model_, t, e, best);
+    if (q > best && q > this->edgeRemoval_.ringWorst() + gain(this->edgeRemoval_.ringWorst()))
+    {
+      best = q;
+      this->edgeRemoval_.cells(this->bestCells_);
+      this->bestCavity_ = this->edgeRemoval_.cavity();
+    }
+  }
+  this->count(Operation::EdgeRemoval, !this->bestCells_.empty());
+  if constexpr (D == 3)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const double q = this->faceRemoval_.propose(*this->editor_, *this->model_, t, i, best);
+      if (q > best && q > this->faceRemoval_.oldWorst() + gain(this->faceRemoval_.oldWorst()))
+      {
+        best = q;
+        this->bestCells_ = this->faceRemoval_.cells();
+        this->bestCavity_ = this->faceRemoval_.cavity();
+        kind = Operation::FaceRemoval;
+      }
+    }
+    this->count(Operation::FaceRemoval, kind == Operation::FaceRemoval);
+  }
+  return !this->bestCells_.empty() && this->replace(this->bestCavity_, this->bestCells_);
+}
+
+/// In a tangled mesh an edge or a facet between points of the cavity may exist elsewhere already.
+template <int D, class Shape>
+bool Improver<D, Shape>::conflicts(
+  const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const
+{
+  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  const auto inCavity = [&](Index c) {
+    return std::find(cavity.begin(), cavity.end(), c) != cavity.end();
+  };
+  const auto has = [](const Simplex<D>& cell, Index p) {
+    return std::find(cell.begin(), cell.end(), p) != cell.end();
+  };
+  std::vector<Index> star;
+  for (const Simplex<D>& cell : cells)
+  {
+    for (const auto& e : Local<D>::edges)
+    {
+      const Index a = cell[e[0]], b = cell[e[1]];
+      const bool old = std::any_of(cavity.begin(), cavity.end(),
+        [&](Index c) { return has(mesh.nodes(c), a) && has(mesh.nodes(c), b); });
+      if (old || !mesh.isPointAlive(a) || !mesh.isPointAlive(b))
+      {
+        continue;
+      }
+      mesh.star(a, star);
+      if (std::any_of(star.begin(), star.end(), [&](Index c) { return has(mesh.nodes(c), b); }))
+      {
+        return true;
+      }
+    }
+    for (int i = 0; D == 3 && i <= D; ++i)
+    {
+      Facet<D> f;
+      for (int k = 0; k < D; ++k)
+      {
+        f[k] = cell[Local<D>::facets[i][k]];
+      }
+      const auto hasFacet = [&](Index c) {
+        return std::all_of(f.begin(), f.end(), [&](Index p) { return has(mesh.nodes(c), p); });
+      };
+      if (std::any_of(cavity.begin(), cavity.end(), hasFacet) || !mesh.isPointAlive(f[0]))
+      {
+        continue;
+      }
+      mesh.star(f[0], star);
+      if (std::any_of(
+            star.begin(), star.end(), [&](Index c) { return !inCavity(c) && hasFacet(c); }))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// --- node motion
+
+template <int D, class Shape>
+void Improver<D, Shape>::loadStar(Index v)
+{
+  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  this->problem_.clear(this->model_->quality, this->model_->plain);
+  for (Index c : this->star_)
+  {
+    const Facet<D> f = mesh.facet(c, mesh.localIndex(c, v));
+    std::array<int, D> local;
+    for (int k = 0; k < D; ++k)
+    {
+      local[k] = this->problem_.addPoint(f[k], mesh.point(f[k]));
+    }
+    this->problem_.addFacet(local);
+    if (!this->model_->plain)
+    {
+      this->problem_.addFacetMetric(this->model_->metric->element(mesh.nodes(c)));
+    }
+  }
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::move(Index t)
+{
+  bool moved = false;
+  const Simplex<D> nodes = this->editor_->mesh().nodes(t);
+  for (Index v : nodes)
+  {
+    moved |= !this->editor_->mesh().isFixed(v) && this->moveNode(v);
+  }
+  return moved;
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::moveNode(Index v)
+{
+  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  if (!this->editor_->star(v, this->star_))
+  {
+    return false;
+  }
+  double old = std::numeric_limits<double>::infinity();
+  for (Index c : this->star_)
+  {
+    old = std::min(old, mesh.quality(c));
+  }
+  this->loadStar(v);
+  const Vec<D> before = mesh.point(v);
+  Vec<D> x = before;
+  const double now =
+    this->problem_.maximize(x, std::max(this->enough_, old + 2 * gain(old)), 0.5 * gain(old));
+  const bool better = now > old + gain(old);
+  this->count(Operation::NodeMotion, better);
+  if (!better)
+  {
+    return false;
+  }
+  const std::size_t place = this->editor_->begin();
+  this->editor_->movePoint(v, x);
+  bool holds = true;
+  if (!this->model_->plain)
+  {
+    this->model_->metric->resample(v, x);
+  }
+  for (std::size_t k = 0; k < this->star_.size(); ++k)
+  {
+    const Index c = this->star_[k];
+    const double q = (*this->model_)(mesh.nodes(c));
+    holds &= q > old;
+    this->editor_->setQuality(c, q);
+  }
+  if (!holds)
+  {
+    this->editor_->rollback(place);
+    if (!this->model_->plain)
+    {
+      this->model_->metric->resample(v, before);
+    }
+    return false;
+  }
+  this->editor_->stamp(this->star_);
+  this->editor_->commit(place);
+  this->changed_.insert(this->changed_.end(), this->star_.begin(), this->star_.end());
+  return true;
+}
+
+// --- nodes that go
+
+template <int D, class Shape>
+bool Improver<D, Shape>::removeNodes(Index t)
+{
+  const Simplex<D> nodes = this->editor_->mesh().nodes(t);
+  for (Index v : nodes)
+  {
+    if (!this->editor_->mesh().isFixed(v) && this->removeNode(v))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Contraction of v to one of its neighbours u: the link of v, less the facets at u, joined to u.
+template <int D, class Shape>
+bool Improver<D, Shape>::removeNode(Index v)
+{
+  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  if (!this->editor_->star(v, this->star_))
+  {
+    return false;
+  }
+  double old = std::numeric_limits<double>::infinity();
+  std::vector<Index> ring;
+  std::vector<Facet<D>> link;
+  for (Index c : this->star_)
+  {
+    old = std::min(old, mesh.quality(c));
+    link.push_back(mesh.facet(c, mesh.localIndex(c, v)));
+    ring.insert(ring.end(), link.back().begin(), link.back().end());
+  }
+  std::sort(ring.begin(), ring.end());
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  double best = old + gain(old);
+  this->bestCells_.clear();
+  for (Index u : ring)
+  {
+    double worst = std::numeric_limits<double>::infinity();
+    this->cells_.clear();
+    for (const Facet<D>& f : link)
+    {
+      if (std::find(f.begin(), f.end(), u) != f.end())
+      {
+        continue;
+      }
+      Simplex<D> cell;
+      std::copy(f.begin(), f.end(), cell.begin());
+      cell[D] = u;
+      worst = std::min(worst, (*this->model_)(cell));
+      if (!(worst > best))
+      {
+        break;
+      }
+      this->cells_.push_back(cell);
+    }
+    if (worst > best && !this->cells_.empty())
+    {
+      best = worst;
+      this->bestCells_ = this->cells_;
+    }
+  }
+  this->count(Operation::EdgeContraction, !this->bestCells_.empty());
+  return !this->bestCells_.empty() && this->replace(this->star_, this->bestCells_);
+}
+
+// --- nodes that come
+
+/// Barycentre, facet barycentres, edge midpoints; the latter pulled in by 10 %.
+template <int D, class Shape>
+void Improver<D, Shape>::seeds(Index t, std::vector<Vec<D>>& x) const
+{
+  const Corners<D> c = this->editor_->mesh().corners(t);
+  Vec<D> centre = c[0];
+  for (int i = 1; i <= D; ++i)
+  {
+    centre += c[i];
+  }
+  centre /= D + 1;
+  x.assign(1, centre);
+  for (int i = 0; D == 3 && i <= D; ++i)
+  {
+    const Vec<D> f = (Vec<D>(centre * (D + 1)) - c[i]) / D;
+    x.push_back(f + 0.1 * (centre - f));
+  }
+  for (const auto& e : Local<D>::edges)
+  {
+    const Vec<D> m = 0.5 * (c[e[0]] + c[e[1]]);
+    x.push_back(m + 0.1 * (centre - m));
+  }
+}
+
+/// The cavity for a node that starts at x and is then put at its best place there. Leaves the
+/// cavity in cavity_ and the node's place in x.
+template <int D, class Shape>
+double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGain)
+{
+  double q = Never;
+  for (int round = 0; round < 2; ++round)
+  {
+    this->editor_->movePoint(p, x);
+    if (!this->model_->plain)
+    {
+      this->model_->metric->resample(p, x);
+    }
+    q = this->cavity_.grow(*this->editor_, *this->model_, t, p, x, {});
+    if (!(q > 0.0))
+    {
+      return Never;
+    }
+    const double old = this->cavity_.oldWorst();
+    this->problem_.clear(this->model_->quality, this->model_->plain);
+    for (const Facet<D>& f : this->cavity_.facets())
+    {
+      std::array<int, D> local;
+      for (int k = 0; k < D; ++k)
+      {
+        local[k] = this->problem_.addPoint(f[k], this->editor_->mesh().point(f[k]));
+      }
+      this->problem_.addFacet(local);
+      if (!this->model_->plain)
+      {
+        Simplex<D> cell;
+        std::copy(f.begin(), f.end(), cell.begin());
+        cell[D] = p;
+        this->problem_.addFacetMetric(this->model_->metric->element(cell));
+      }
+    }
+    q = this->problem_.maximize(x, std::max(this->enough_, old + 2 * gain(old)), 0.5 * gain(old));
+    if (!needGain || q > old + gain(old))
+    {
+      break;
+    }
+    if (q < 0.5 * old)
+    {
+      break; // hopeless: a second round gains little
+    }
+  }
+  return q;
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::insertHere(Index, Index p, const Vec<D>& x)
+{
+  if (static_cast<long>(this->cavity_.facets().size()) -
+      static_cast<long>(this->cavity_.cells().size()) >
+    this->growth_)
+  {
+    return false;
+  }
+  this->editor_->movePoint(p, x);
+  if (!this->model_->plain)
+  {
+    this->model_->metric->resample(p, x);
+  }
+  this->cells_.clear();
+  for (const Facet<D>& f : this->cavity_.facets())
+  {
+    Simplex<D> cell;
+    std::copy(f.begin(), f.end(), cell.begin());
+    cell[D] = p;
+    this->cells_.push_back(cell);
+  }
+  return this->replace(this->cavity_.cells(), this->cells_);
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::insert(Index t)
+{
+  std::vector<Vec<D>> x;
+  this->seeds(t, x);
+  const std::size_t place = this->editor_->begin();
+  const Index p = this->editor_->addPoint(x[0]);
+  bool done = false;
+  for (std::size_t k = 0; k < x.size() && p != None && !done; ++k)
+  {
+    const double q = this->tryInsertion(t, p, x[k], true);
+    const double old = this->cavity_.oldWorst();
+    done = q > old + gain(old) && this->insertHere(t, p, x[k]);
+  }
+  this->count(Operation::NodeInsertion, done);
+  done ? this->editor_->commit(place) : this->editor_->rollback(place);
+  return done;
+}
+
+// --- look-ahead
+
+/// Inserts a node even without gain, then improves what it spoiled, worst first. Kept if all that
+/// was touched ends better than the cell that started it; otherwise undone, bit for bit.
+template <int D, class Shape>
+bool Improver<D, Shape>::lookAhead(Index t, int operations)
+{
+  std::vector<Vec<D>> x;
+  this->seeds(t, x);
+  const double old = this->editor_->mesh().quality(t);
+  const double goal = old + gain(old);
+  const long growth = this->growth_;
+  for (Vec<D>& seed : x)
+  {
+    const std::size_t place = this->editor_->begin();
+    const Index p = this->editor_->addPoint(seed);
+    std::vector<Index> affected;
+    bool done = false;
+    this->changed_.clear();
+    if (p != None && this->tryInsertion(t, p, seed, false) > 0.3 * old &&
+      this->insertHere(t, p, seed))
+    {
+      affected = this->changed_;
+      done = this->settle(affected, goal, operations);
+    }
+    if (done)
+    {
+      this->editor_->commit(place);
+      this->changed_ = affected;
+      this->count(Operation::LookAhead, true);
+      return true;
+    }
+    this->editor_->rollback(place);
+    this->growth_ = growth;
+  }
+  this->changed_.clear();
+  this->count(Operation::LookAhead, false);
+  return false;
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::settle(std::vector<Index>& affected, double goal, int operations)
+{
+  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  while (true)
+  {
+    Index worst = None;
+    for (Index c : affected)
+    {
+      if (mesh.isAlive(c) && !(mesh.quality(c) > goal) &&
+        (worst == None || mesh.quality(c) < mesh.quality(worst) ||
+          (mesh.quality(c) == mesh.quality(worst) && c < worst)))
+      {
+        worst = c;
+      }
+    }
+    if (worst == None)
+    {
+      return true;
+    }
+    if (--operations < 0 || !this->improve(worst, Topology))
+    {
+      return false;
+    }
+    affected.insert(affected.end(), this->changed_.begin(), this->changed_.end());
+    std::sort(affected.begin(), affected.end());
+    affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+  }
+}
+}
+
+#endif
