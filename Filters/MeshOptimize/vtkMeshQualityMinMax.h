@@ -128,7 +128,7 @@ public:
   ///@{
   /**
    * Whether the surface is found and its bound computed. Default on. Off, Bound is the value of the regular
-   * element and CappedCells is 0; that saves about half of the time.
+   * element and CappedCells is 0; that saves about two thirds of the time.
    */
   vtkSetMacro(ComputeBound, bool);
   vtkGetMacro(ComputeBound, bool);
