@@ -1,0 +1,413 @@
+// vtkMeshOptimizeFilter and what is not a plain mesh of tetrahedra: planes, mixed cells, blocks, precision.
+#include "MeshOptimizeFilterTesting.h"
+
+#include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPartitionedDataSet.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPolyData.h"
+
+using namespace Testing;
+
+namespace
+{
+
+double SignedArea(vtkUnstructuredGrid* grid, vtkIdType cell, int axis)
+{
+  const std::vector<vtkIdType> ids = CellPoints(grid, cell);
+  const Point a = GetPoint(grid, ids[0]), b = GetPoint(grid, ids[1]), c = GetPoint(grid, ids[2]);
+  const int i = (axis + 1) % 3, k = (axis + 2) % 3;
+  return 0.5 * ((b[i] - a[i]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[i] - a[i]));
+}
+
+/**
+ * Triangles in any plane; the sense of rotation of the input is kept.
+ */
+void TestPlanes()
+{
+  using Map = std::function<Point(double, double)>;
+  const std::vector<Map> maps = {
+    [](double u, double v) { return Point{ { u, v, 0.3 } }; },
+    [](double u, double v) { return Point{ { v, u, -1e3 } }; }, // clockwise
+    [](double u, double v) { return Point{ { 0.1, u, v } }; },
+    [](double u, double v) { return Point{ { u, 2.0, v } }; },
+    [](double u, double v) { return Point{ { u, v, 0.5 * u - 0.7 * v + 3.0 } }; },
+    [](double u, double v) { return Point{ { u + v, u - v, 1e4 + u } }; },
+  };
+  std::vector<double> reached;
+  for (const Map& map : maps)
+  {
+    Grid input = MakeSquare(8, 0.35, map);
+    vtkNew<vtkMeshOptimizeFilter> filter;
+    Messages messages(filter);
+    filter->SetInputData(input);
+    filter->Update();
+    vtkUnstructuredGrid* output = filter->GetOutput();
+    CHECK(messages.Errors.empty() && messages.Warnings.empty());
+    CHECK(filter->GetNumberOfOperations() > 0);
+    CHECK(filter->GetWorstQualityAfter() > filter->GetWorstQualityBefore() + 0.05);
+    CHECK(MinimumOf(output->GetCellData()->GetArray("MeshQuality")) ==
+      filter->GetWorstQualityAfter());
+    CHECK(KeptFacets(input) == KeptFacets(output));
+    reached.push_back(filter->GetWorstQualityAfter());
+
+    // In the plane, and turning as before. (Every plane here has an area seen along one axis.)
+    int axis = 0;
+    while (std::abs(SignedArea(input, 0, axis)) < 1e-6)
+    {
+      ++axis;
+    }
+    double before = 0.0, after = 0.0;
+    for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+    {
+      before += SignedArea(input, c, axis);
+    }
+    for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+    {
+      CHECK(SignedArea(output, c, axis) * before > 0.0);
+      after += SignedArea(output, c, axis);
+    }
+    CHECK(std::abs(after - before) < 1e-11 * std::abs(before));
+  }
+  // The first four are the same square, seen the same way or from behind.
+  for (int i = 1; i < 4; ++i)
+  {
+    CHECK(std::abs(reached[i] - reached[0]) < 0.02);
+  }
+}
+
+/**
+ * The out of plane coordinate of moved points is exact where the plane is parallel to two axes.
+ */
+void TestFlatPlaneIsExact()
+{
+  Grid input = MakeSquare(6, 0.35, [](double u, double v) { return Point{ { u, 0.1, v } }; });
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  for (vtkIdType p = 0; p < filter->GetOutput()->GetNumberOfPoints(); ++p)
+  {
+    CHECK(GetPoint(filter->GetOutput(), p)[1] == 0.1);
+  }
+}
+
+/**
+ * In the plane, lines are kept as edges and quads stay.
+ */
+void TestLinesInPlane()
+{
+  Grid input = MakeSquare(8, 0.0, [](double u, double v) { return Point{ { u, v + 0.3 * u, 0 } }; });
+  std::set<std::pair<Point, Point>> wanted;
+  for (vtkIdType j = 0; j < 8; ++j) // an oblique path through the middle: the long diagonals
+  {
+    AddCell(input, VTK_LINE, { 10 * j, 10 * j + 10 });
+    wanted.insert({ GetPoint(input, 10 * j), GetPoint(input, 10 * j + 10) });
+  }
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->SetTargetQuality(1.0);
+  const auto countEdges = [&]() {
+    vtkUnstructuredGrid* output = filter->GetOutput();
+    std::set<std::pair<Point, Point>> found;
+    for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+    {
+      const std::vector<vtkIdType> ids = CellPoints(output, c);
+      for (std::size_t i = 0; ids.size() == 3 && i < 9; ++i)
+      {
+        const std::pair<Point, Point> edge{ GetPoint(output, ids[i / 3]), GetPoint(output, ids[i % 3]) };
+        if (wanted.count(edge))
+        {
+          found.insert(edge);
+        }
+      }
+    }
+    return found.size();
+  };
+  filter->Update();
+  CHECK(filter->GetNumberOfOperations() > 0);
+  CHECK(countEdges() == wanted.size());
+  CHECK(filter->GetOutput()->GetCellType(filter->GetOutput()->GetNumberOfCells() - 1) != VTK_EMPTY_CELL);
+  // Without the lines they go: the check above can fail.
+  filter->SetInputData(
+    MakeSquare(8, 0.0, [](double u, double v) { return Point{ { u, v + 0.3 * u, 0 } }; }));
+  filter->Update();
+  CHECK(countEdges() < wanted.size());
+}
+
+/**
+ * A box of tetrahedra with one cell of nearly every other kind on it.
+ */
+Grid MixedBox()
+{
+  Grid grid = MakeGrid({});
+  Grid box = MakeBox(4, 0.28);
+  grid->GetPoints()->DeepCopy(box->GetPoints());
+  const auto id = [](vtkIdType i, vtkIdType j, vtkIdType k) { return i + 5 * (j + 5 * k); };
+  AddCell(grid, VTK_VERTEX, { id(2, 2, 2) });
+  AddCell(grid, VTK_LINE, { id(1, 1, 1), id(2, 2, 2) });              // a long edge in the inside
+  AddCell(grid, VTK_TRIANGLE, { id(1, 1, 2), id(2, 1, 2), id(2, 2, 3) }); // a face in the inside
+  for (vtkIdType c = 0; c < box->GetNumberOfCells(); ++c)
+  {
+    AddCell(grid, VTK_TETRA, CellPoints(box, c));
+    if (c == 100)
+    {
+      AddCell(grid, VTK_TRIANGLE, { id(0, 0, 0), id(1, 0, 0), id(1, 1, 0) }); // on the surface
+      AddCell(grid, VTK_QUAD, { id(0, 0, 0), id(1, 0, 0), id(1, 1, 0), id(0, 1, 0) });
+    }
+  }
+  // A hexahedron, a wedge, a pyramid and a polyhedron on the upper side.
+  const vtkIdType first = grid->GetNumberOfPoints();
+  for (int k = 0; k < 5; ++k)
+  {
+    grid->GetPoints()->InsertNextPoint(0.25 * (k % 2), 0.25 * (k / 2), 1.25);
+  }
+  const vtkIdType a = id(0, 0, 4), b = id(1, 0, 4), c = id(1, 1, 4), d = id(0, 1, 4);
+  AddCell(grid, VTK_HEXAHEDRON, { a, b, c, d, first, first + 1, first + 3, first + 2 });
+  AddCell(grid, VTK_WEDGE, { d, c, id(0, 2, 4), first + 2, first + 3, first + 4 });
+  AddCell(grid, VTK_PYRAMID, { id(2, 2, 4), id(3, 2, 4), id(3, 3, 4), id(2, 3, 4), first });
+  const vtkIdType e = first + 1;
+  const std::vector<vtkIdType> faces = { 4, 3, b, c, e, 3, c, d, e, 3, d, b, e, 3, b, d, c };
+  vtkNew<vtkIdList> stream;
+  for (const vtkIdType value : faces)
+  {
+    stream->InsertNextId(value);
+  }
+  grid->InsertNextCell(VTK_POLYHEDRON, stream);
+  return grid;
+}
+
+std::vector<Point> Corners(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  std::vector<Point> x;
+  for (const vtkIdType p : CellPoints(grid, cell))
+  {
+    x.push_back(GetPoint(grid, p));
+  }
+  return x;
+}
+
+/**
+ * Other cells: the same types, corners and order, as if nothing had happened.
+ */
+std::vector<std::pair<int, std::vector<Point>>> Others(vtkUnstructuredGrid* grid)
+{
+  std::vector<std::pair<int, std::vector<Point>>> others;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (grid->GetCellType(c) != VTK_TETRA)
+    {
+      others.emplace_back(grid->GetCellType(c), Corners(grid, c));
+    }
+  }
+  return others;
+}
+
+bool HasInTetrahedra(vtkUnstructuredGrid* grid, const std::vector<Point>& simplex)
+{
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (grid->GetCellType(c) == VTK_TETRA)
+    {
+      std::size_t found = 0;
+      const std::vector<Point> corners = Corners(grid, c);
+      for (const Point& x : simplex)
+      {
+        found += std::count(corners.begin(), corners.end(), x);
+      }
+      if (found == simplex.size())
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+void TestMixedCells()
+{
+  Grid input = MixedBox();
+  CHECK(HasInTetrahedra(input, Corners(input, 1)) && HasInTetrahedra(input, Corners(input, 2)));
+  vtkNew<vtkIntArray> id;
+  id->SetName("id");
+  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  {
+    id->InsertNextValue(static_cast<int>(c));
+  }
+  input->GetCellData()->AddArray(id);
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  Messages messages(filter);
+  filter->SetInputData(input);
+  filter->SetTargetQuality(1.0);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  CHECK(messages.Errors.empty() && messages.Warnings.empty());
+  CHECK(filter->GetNumberOfOperations() > 0);
+  CHECK(Others(input) == Others(output));
+  CHECK(HasInTetrahedra(output, Corners(input, 1))); // the edge
+  CHECK(HasInTetrahedra(output, Corners(input, 2))); // the face
+
+  vtkNew<vtkIdList> before, after;
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    const bool isOther = output->GetCellType(c) != VTK_TETRA;
+    const vtkIdType source = static_cast<vtkIdType>(output->GetCellData()->GetArray("id")->GetComponent(c, 0));
+    CHECK(output->GetCellType(c) == input->GetCellType(source));
+    CHECK(isOther == std::isnan(output->GetCellData()->GetArray("MeshQuality")->GetComponent(c, 0)));
+    if (output->GetCellType(c) == VTK_POLYHEDRON)
+    {
+      output->GetFaceStream(c, after);
+      input->GetFaceStream(source, before);
+    }
+  }
+  CHECK(before->GetNumberOfIds() == 17 && after->GetNumberOfIds() == 17);
+  for (vtkIdType face = 0; face < 4; ++face)
+  {
+    for (vtkIdType k = 2; k < 5 && after->GetNumberOfIds() == 17; ++k)
+    {
+      CHECK(GetPoint(output, after->GetId(4 * face + k)) == GetPoint(input, before->GetId(4 * face + k)));
+    }
+  }
+
+  // Without the line and the triangle, edge and face go: the checks above can fail.
+  Grid bare = MakeBox(4, 0.28);
+  filter->SetInputData(bare);
+  filter->Update();
+  CHECK(!HasInTetrahedra(filter->GetOutput(), Corners(input, 1)) ||
+    !HasInTetrahedra(filter->GetOutput(), Corners(input, 2)));
+}
+
+/**
+ * Hexahedra with triangles on them: nothing to optimize, nothing changes. Quadratic tetrahedra: the same, with a warning.
+ */
+void TestNothingToOptimize()
+{
+  Grid hexahedra = MakeGrid({});
+  hexahedra->GetPoints()->DeepCopy(MakeBox(1, 0)->GetPoints());
+  AddCell(hexahedra, VTK_HEXAHEDRON, { 0, 1, 3, 2, 4, 5, 7, 6 });
+  AddCell(hexahedra, VTK_TRIANGLE, { 0, 1, 3 });
+  AddCell(hexahedra, VTK_TRIANGLE, { 0, 4, 5 }); // not in one plane: no matter
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  Messages messages(filter);
+  filter->SetInputData(hexahedra);
+  filter->Update();
+  CHECK(messages.Errors.empty() && messages.Warnings.empty());
+  CHECK(filter->GetStopReason() == vtkMeshOptimizeFilter::NothingToDo);
+  CHECK(Others(hexahedra) == Others(filter->GetOutput()));
+  CHECK(std::isnan(
+    filter->GetOutput()->GetCellData()->GetArray("MeshQuality")->GetComponent(0, 0)));
+
+  Grid quadratic = MakeBox(3, 0.28);
+  for (int k = 0; k < 10; ++k)
+  {
+    quadratic->GetPoints()->InsertNextPoint(2 + (k == 1), 2 + (k == 2), 2 + (k == 3));
+  }
+  const vtkIdType p = 64;
+  AddCell(quadratic, VTK_QUADRATIC_TETRA,
+    { p, p + 1, p + 2, p + 3, p + 4, p + 5, p + 6, p + 7, p + 8, p + 9 });
+  filter->SetInputData(quadratic);
+  filter->Update();
+  CHECK(messages.Errors.empty());
+  CHECK(messages.Warnings.size() == 1 && messages.Warnings[0].find("1 quadratic") != std::string::npos);
+  CHECK(Others(quadratic) == Others(filter->GetOutput()));
+  CHECK(filter->GetNumberOfOperations() > 0); // the linear ones were optimized
+}
+
+/**
+ * Single precision: double where something moved, with the surface at the very same places.
+ */
+void TestPrecision()
+{
+  Grid input = MakeBox(4, 0.28, VTK_FLOAT);
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  CHECK(filter->GetNumberOfOperations() > 0);
+  CHECK(filter->GetOutput()->GetPoints()->GetDataType() == VTK_DOUBLE);
+  CHECK(KeptFacets(input) == KeptFacets(filter->GetOutput()));
+  Grid good = MakeBox(1, 0, VTK_FLOAT);
+  filter->SetInputData(good);
+  filter->Update();
+  CHECK(filter->GetOutput()->GetPoints()->GetDataType() == VTK_FLOAT);
+}
+
+void CheckBlocks(vtkDataObject* input, const std::function<vtkDataObject*(vtkDataObject*, int)>& leaf)
+{
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  Messages messages(filter);
+  filter->SetInputDataObject(input);
+  filter->SetSizeArray("");
+  filter->Update();
+  CHECK(messages.Errors.empty() && messages.Warnings.empty());
+  vtkDataObject* output = filter->GetOutputDataObject(0);
+  CHECK(std::string(output->GetClassName()) == input->GetClassName());
+  double worstBefore = 1.0, worstAfter = 1.0;
+  vtkIdType operations = 0;
+  for (const int i : { 0, 1 })
+  {
+    vtkNew<vtkMeshOptimizeFilter> alone;
+    alone->SetInputDataObject(leaf(input, i));
+    alone->Update();
+    auto grid = vtkUnstructuredGrid::SafeDownCast(leaf(output, i));
+    CHECK(grid && SameGrid(grid, alone->GetOutput()));
+    worstBefore = std::min(worstBefore, alone->GetWorstQualityBefore());
+    worstAfter = std::min(worstAfter, alone->GetWorstQualityAfter());
+    operations += alone->GetNumberOfOperations();
+  }
+  CHECK(filter->GetWorstQualityBefore() == worstBefore);
+  CHECK(filter->GetWorstQualityAfter() == worstAfter);
+  CHECK(filter->GetNumberOfOperations() == operations && operations > 0);
+  CHECK(vtkPolyData::SafeDownCast(leaf(output, 2)) != nullptr); // passed through
+  auto history = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
+  std::set<int> blocks;
+  for (vtkIdType row = 0; row < history->GetNumberOfRows(); ++row)
+  {
+    blocks.insert(history->GetValueByName(row, "Block").ToInt());
+  }
+  CHECK(blocks.size() == 2);
+
+  // And back to a plain grid with the same filter.
+  filter->SetInputDataObject(leaf(input, 0));
+  filter->Update();
+  CHECK(filter->GetOutput() != nullptr && filter->GetOutput()->GetNumberOfCells() > 0);
+}
+
+void TestBlocks()
+{
+  Grid volume = MakeBox(4, 0.28);
+  Grid plane = MakeSquare(6, 0.35, [](double u, double v) { return Point{ { u, v, 0 } }; });
+  auto other = vtkSmartPointer<vtkPolyData>::New();
+
+  vtkNew<vtkMultiBlockDataSet> inner, blocks;
+  inner->SetBlock(0, plane);
+  blocks->SetBlock(0, volume);
+  blocks->SetBlock(1, inner);
+  blocks->SetBlock(2, other);
+  blocks->SetBlock(3, nullptr);
+  CheckBlocks(blocks, [](vtkDataObject* tree, int i) {
+    auto multi = vtkMultiBlockDataSet::SafeDownCast(tree);
+    return i == 1 ? vtkMultiBlockDataSet::SafeDownCast(multi->GetBlock(1))->GetBlock(0)
+                  : multi->GetBlock(i);
+  });
+
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  collection->SetPartition(0, 0, volume);
+  collection->SetPartition(0, 1, plane);
+  collection->SetPartition(1, 0, other);
+  CheckBlocks(collection, [](vtkDataObject* tree, int i) -> vtkDataObject* {
+    return vtkPartitionedDataSetCollection::SafeDownCast(tree)->GetPartition(i / 2, i % 2);
+  });
+}
+
+} // namespace
+
+int main(int, char*[])
+{
+  TestPlanes();
+  TestFlatPlaneIsExact();
+  TestLinesInPlane();
+  TestMixedCells();
+  TestNothingToOptimize();
+  TestPrecision();
+  TestBlocks();
+  return Testing::Failures;
+}

@@ -1,0 +1,366 @@
+// Data arrays through vtkMeshOptimizeFilter: values, names, types, attributes, ids, ghosts.
+#include "MeshOptimizeFilterTesting.h"
+
+#include "vtkDataSetAttributes.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
+#include "vtkIntArray.h"
+#include "vtkLongLongArray.h"
+#include "vtkSMPTools.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+using namespace Testing;
+
+namespace
+{
+
+template <class Array>
+vtkSmartPointer<Array> NewArray(const char* name, int components = 1)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  return array;
+}
+
+double Linear(const Point& x)
+{
+  return 3.0 + 2.0 * x[0] - 5.0 * x[1] + 0.25 * x[2];
+}
+
+/**
+ * Point arrays of many kinds on a box.
+ */
+Grid BoxWithPointData()
+{
+  Grid grid = MakeBox(6, 0.3);
+  auto constant = NewArray<vtkDoubleArray>("constant");
+  auto linear = NewArray<vtkDoubleArray>("linear", 3);
+  auto single = NewArray<vtkFloatArray>("single");
+  auto half = NewArray<vtkIntArray>("half"); // 0 left, 1 right of the middle
+  auto label = NewArray<vtkStringArray>("label");
+  auto index = NewArray<vtkLongLongArray>("index");
+  linear->SetComponentName(0, "u");
+  linear->SetComponentName(2, "w");
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    const Point x = GetPoint(grid, p);
+    constant->InsertNextValue(0.1);
+    linear->InsertNextTuple3(Linear(x), -Linear(x), x[0]);
+    single->InsertNextValue(static_cast<float>(Linear(x)));
+    half->InsertNextValue(x[0] > 0.5);
+    label->InsertNextValue("point " + std::to_string(p));
+    index->InsertNextValue((1LL << 60) + p);
+  }
+  vtkPointData* data = grid->GetPointData();
+  data->SetScalars(constant);
+  data->SetVectors(linear);
+  data->AddArray(single);
+  data->AddArray(half);
+  data->AddArray(label);
+  data->AddArray(index);
+  return grid;
+}
+
+/**
+ * Input id of each output point that is where a point of the input was, else -1.
+ */
+std::vector<vtkIdType> FindUnmoved(vtkUnstructuredGrid* before, vtkUnstructuredGrid* after)
+{
+  std::map<Point, vtkIdType> ids;
+  for (vtkIdType p = 0; p < before->GetNumberOfPoints(); ++p)
+  {
+    ids[GetPoint(before, p)] = p;
+  }
+  std::vector<vtkIdType> unmoved;
+  for (vtkIdType p = 0; p < after->GetNumberOfPoints(); ++p)
+  {
+    const auto found = ids.find(GetPoint(after, p));
+    unmoved.push_back(found == ids.end() ? -1 : found->second);
+  }
+  return unmoved;
+}
+
+void CheckShape(vtkDataSetAttributes* before, vtkDataSetAttributes* after)
+{
+  for (int i = 0; i < before->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* a = before->GetAbstractArray(i);
+    vtkAbstractArray* b = after->GetAbstractArray(a->GetName());
+    CHECK(b != nullptr && b != a);
+    if (b)
+    {
+      CHECK(b->GetDataType() == a->GetDataType());
+      CHECK(b->GetNumberOfComponents() == a->GetNumberOfComponents());
+      for (int k = 0; k < a->GetNumberOfComponents(); ++k)
+      {
+        const char *nameA = a->GetComponentName(k), *nameB = b->GetComponentName(k);
+        CHECK(std::string(nameA ? nameA : "-") == (nameB ? nameB : "-"));
+      }
+    }
+  }
+}
+
+void TestPointData()
+{
+  Grid input = BoxWithPointData();
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  vtkPointData *before = input->GetPointData(), *after = output->GetPointData();
+  CheckShape(before, after);
+  CHECK(after->GetNumberOfArrays() == before->GetNumberOfArrays());
+  CHECK(after->GetScalars() == after->GetArray("constant"));
+  CHECK(after->GetVectors() == after->GetArray("linear"));
+
+  const std::vector<vtkIdType> unmoved = FindUnmoved(input, output);
+  int moved = 0;
+  std::set<std::string> labels;
+  for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+  {
+    const Point x = GetPoint(output, p);
+    moved += unmoved[p] < 0;
+    CHECK(after->GetArray("constant")->GetComponent(p, 0) == 0.1);
+    const double* tuple = after->GetArray("linear")->GetTuple3(p);
+    CHECK(std::abs(tuple[0] - Linear(x)) < 1e-12 && std::abs(tuple[1] + Linear(x)) < 1e-12);
+    CHECK(std::abs(tuple[2] - x[0]) < 1e-12);
+    CHECK(std::abs(after->GetArray("single")->GetComponent(p, 0) - Linear(x)) < 1e-6);
+    const double half = after->GetArray("half")->GetComponent(p, 0);
+    CHECK(std::abs(x[0] - 0.5) < 0.15 || half == (x[0] > 0.5));
+    labels.insert(after->GetAbstractArray("label")->GetVariantValue(p).ToString());
+    if (unmoved[p] >= 0)
+    {
+      for (int i = 0; i < before->GetNumberOfArrays(); ++i)
+      {
+        vtkAbstractArray* a = before->GetAbstractArray(i);
+        for (int k = 0; k < a->GetNumberOfComponents(); ++k)
+        {
+          const int n = a->GetNumberOfComponents();
+          CHECK(after->GetAbstractArray(i)->GetVariantValue(n * p + k) ==
+            a->GetVariantValue(n * unmoved[p] + k));
+        }
+      }
+    }
+  }
+  CHECK(moved > 20);
+  CHECK(labels.count("") == 0 && labels.size() > 200);
+
+  // Nothing mutable is shared: writing to the output leaves the input alone.
+  after->GetArray("constant")->Fill(7.0);
+  output->GetPoints()->SetPoint(0, 9, 9, 9);
+  CHECK(before->GetArray("constant")->GetComponent(0, 0) == 0.1);
+  CHECK(GetPoint(input, 0)[0] != 9);
+}
+
+/**
+ * A NaN far away from a moved point does not reach it.
+ */
+void TestNaN()
+{
+  Grid input = MakeBox(4, 0.28);
+  auto array = NewArray<vtkDoubleArray>("holes");
+  array->SetNumberOfTuples(input->GetNumberOfPoints());
+  array->Fill(1.0);
+  array->SetValue(0, std::numeric_limits<double>::quiet_NaN());
+  input->GetPointData()->AddArray(array);
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  vtkDataArray* after = filter->GetOutput()->GetPointData()->GetArray("holes");
+  CHECK(std::isnan(after->GetComponent(0, 0)));
+  int holes = 0;
+  for (vtkIdType p = 0; p < after->GetNumberOfTuples(); ++p)
+  {
+    holes += std::isnan(after->GetComponent(p, 0));
+  }
+  CHECK(holes < 4);
+}
+
+/**
+ * New cells take the data of an input cell in whose place they stand: their centres are near it.
+ */
+void TestCellData()
+{
+  Grid input = MakeBox(6, 0.28);
+  auto id = NewArray<vtkIntArray>("id");
+  auto name = NewArray<vtkStringArray>("name");
+  auto stress = NewArray<vtkFloatArray>("stress", 6);
+  auto old = NewArray<vtkIntArray>("MeshQuality"); // something else of that name
+  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  {
+    id->InsertNextValue(static_cast<int>(c));
+    name->InsertNextValue("cell " + std::to_string(c));
+    stress->InsertNextTuple6(c, 1, 2, 3, 4, 5);
+    old->InsertNextValue(1);
+  }
+  input->GetCellData()->SetScalars(id);
+  input->GetCellData()->AddArray(name);
+  input->GetCellData()->SetTensors(stress);
+  input->GetCellData()->AddArray(old);
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  vtkCellData* after = output->GetCellData();
+  CHECK(after->GetNumberOfArrays() == 4);
+  CHECK(after->GetScalars() == after->GetArray("id"));
+  CHECK(after->GetTensors() == after->GetArray("stress"));
+  CHECK(after->GetArray("MeshQuality")->GetDataType() == VTK_DOUBLE);
+  CHECK(after->GetArray("id")->GetDataType() == VTK_INT);
+  double farthest = 0.0;
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    const vtkIdType parent = static_cast<vtkIdType>(after->GetArray("id")->GetComponent(c, 0));
+    CHECK(after->GetAbstractArray("name")->GetVariantValue(c).ToString() ==
+      "cell " + std::to_string(parent));
+    CHECK(after->GetArray("stress")->GetComponent(c, 0) == parent);
+    Point a{ { 0, 0, 0 } }, b{ { 0, 0, 0 } };
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        a[k] += 0.25 * GetPoint(output, CellPoints(output, c)[i])[k];
+        b[k] += 0.25 * GetPoint(input, CellPoints(input, parent)[i])[k];
+      }
+    }
+    farthest = std::max(farthest, std::hypot(std::hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]));
+  }
+  CHECK(farthest < 2.0 / 6.0);
+}
+
+void TestFieldData()
+{
+  Grid input = MakeBox(2, 0.2);
+  auto time = NewArray<vtkDoubleArray>("TimeValue");
+  time->InsertNextValue(4.5);
+  auto title = NewArray<vtkStringArray>("title");
+  title->InsertNextValue("a box");
+  auto reason = NewArray<vtkIntArray>("StopReason"); // will be taken over
+  reason->InsertNextValue(3);
+  input->GetFieldData()->AddArray(time);
+  input->GetFieldData()->AddArray(title);
+  input->GetFieldData()->AddArray(reason);
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  vtkFieldData* after = filter->GetOutput()->GetFieldData();
+  CHECK(SameArray(time, after->GetAbstractArray("TimeValue")));
+  CHECK(SameArray(title, after->GetAbstractArray("title")));
+  CHECK(after->GetAbstractArray("TimeValue") != time);
+  CHECK(after->GetAbstractArray("StopReason")->GetDataType() == VTK_STRING);
+  CHECK(SameArray(reason, input->GetFieldData()->GetAbstractArray("StopReason")));
+}
+
+/**
+ * Global ids: survivors keep theirs, new ones have -1, and nothing is active. Pedigree ids stay active.
+ */
+void TestIds()
+{
+  Grid input = MakeBox(5, 0.3);
+  auto global = NewArray<vtkIdTypeArray>("global");
+  auto pedigree = NewArray<vtkIdTypeArray>("pedigree");
+  auto globalCell = NewArray<vtkIdTypeArray>("globalCell");
+  for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)
+  {
+    global->InsertNextValue(1000 + p);
+    pedigree->InsertNextValue(2000 + p);
+  }
+  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  {
+    globalCell->InsertNextValue(3000 + c);
+  }
+  input->GetPointData()->SetGlobalIds(global);
+  input->GetPointData()->SetPedigreeIds(pedigree);
+  input->GetCellData()->SetGlobalIds(globalCell);
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  vtkPointData* after = output->GetPointData();
+  CHECK(after->GetGlobalIds() == nullptr && output->GetCellData()->GetGlobalIds() == nullptr);
+  CHECK(after->GetPedigreeIds() == after->GetArray("pedigree"));
+  std::set<double> seen;
+  int fresh = 0;
+  for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+  {
+    const double id = after->GetArray("global")->GetComponent(p, 0);
+    const double origin = after->GetArray("pedigree")->GetComponent(p, 0);
+    CHECK(id == -1 ? ++fresh > 0 : seen.insert(id).second && origin == id + 1000);
+    CHECK(origin >= 2000);
+  }
+  int freshCells = 0;
+  seen.clear();
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    const double id = output->GetCellData()->GetArray("globalCell")->GetComponent(c, 0);
+    CHECK(id == -1 ? ++freshCells > 0 : seen.insert(id).second);
+  }
+  CHECK(freshCells > 0);
+}
+
+/**
+ * Ghost cells come out as they went in, once each, and what touches them stays; new points are no ghosts.
+ */
+void TestGhosts()
+{
+  Grid input = MakeBox(5, 0.28);
+  auto ghost = NewArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName());
+  auto ghostPoint = NewArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName());
+  ghostPoint->SetNumberOfTuples(input->GetNumberOfPoints());
+  ghostPoint->FillValue(0);
+  std::vector<std::vector<Point>> wanted;
+  const auto corners = [](vtkUnstructuredGrid* grid, vtkIdType c) {
+    std::vector<Point> x;
+    for (const vtkIdType p : CellPoints(grid, c))
+    {
+      x.push_back(GetPoint(grid, p));
+    }
+    return x;
+  };
+  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  {
+    const bool isGhost = c >= 4 * 150;
+    ghost->InsertNextValue(isGhost ? vtkDataSetAttributes::DUPLICATECELL : 0);
+    if (isGhost)
+    {
+      wanted.push_back(corners(input, c));
+    }
+  }
+  input->GetCellData()->AddArray(ghost);
+  input->GetPointData()->AddArray(ghostPoint);
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  filter->SetInputData(input);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  CHECK(filter->GetNumberOfOperations() > 0);
+  vtkUnsignedCharArray* after = output->GetCellGhostArray();
+  CHECK(after != nullptr);
+  std::vector<std::vector<Point>> found;
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    CHECK(!std::isnan(output->GetCellData()->GetArray("MeshQuality")->GetComponent(c, 0)));
+    if (after->GetValue(c) != 0)
+    {
+      found.push_back(corners(output, c));
+    }
+  }
+  CHECK(found == wanted);
+  CHECK(KeptFacets(input) == KeptFacets(output)); // ghosts and the others still fit together
+}
+
+} // namespace
+
+int main(int, char*[])
+{
+  TestPointData();
+  TestNaN();
+  TestCellData();
+  TestFieldData();
+  TestIds();
+  TestGhosts();
+  return Testing::Failures;
+}
