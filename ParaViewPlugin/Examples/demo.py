@@ -96,6 +96,11 @@ def show_mesh(quality, title, view):
     view.CameraParallelScale = 0.64 * (bounds[5] - bounds[4])
 
 
+def histogram(quality, column):
+    """A column of the histogram table, output 2 of MeshQualityMinMax."""
+    return vtk_to_numpy(servermanager.Fetch(quality, idx=2).GetColumnByName(column))
+
+
 def bars(qualities, counts, width, height, decades):
     """The histogram as rectangles in a box of width x height; heights are logarithmic, so that one bad element shows."""
     points, polygons, colours = vtkPoints(), vtkCellArray(), vtkDoubleArray()
@@ -120,8 +125,7 @@ def bars(qualities, counts, width, height, decades):
 def show_histogram(quality, title, view, decades):
     """Bars over the quality; the view counts in pixels of an 800 x 460 picture."""
     left, bottom, width, height = 90, 60, 690, 340
-    table = servermanager.Fetch(OutputPort(quality, 2))
-    columns = [vtk_to_numpy(table.GetColumnByName(name)) for name in ("Quality", "Count")]
+    columns = [histogram(quality, name) for name in ("BinCenter", "Count")]
     source = TrivialProducer()
     source.GetClientSideObject().SetOutput(bars(*columns, width, height, decades))
     display = Show(source, view)
@@ -159,8 +163,7 @@ def picture(before, after, rows, path):
     AssignViewToLayout(right_chart, layout, lower_right + 1)
     layout.SetSize(1600, 1280)
 
-    counts = [vtk_to_numpy(servermanager.Fetch(OutputPort(q, 2)).GetColumnByName("Count")) for q in (before, after)]
-    decades = np.log10(np.max(counts)) + 0.25
+    decades = np.log10(max(np.max(histogram(quality, "Count")) for quality in (before, after))) + 0.25
     for quality, row, name, view, chart in (
             (before, rows[0], "before", left, left_chart), (after, rows[1], "after", right, right_chart)):
         show_mesh(quality, f"{name}: worst element {row['worst quality']}", view)
@@ -194,7 +197,7 @@ def main():
     before, row_before = measure(reader)
     after, row_after = measure(optimize)
     print_table(row_before, row_after)
-    print(f"what the surface allows at most: {optimize.QualityBound:.4f}")
+    print(f"what the surface allows at most: {before.QualityBound:.4f}")
     print(f"optimizer: {optimize.OptimizeSeconds:.1f} s, {optimize.NumberOfOperations:,} operations; {optimize.StopReason}")
 
     mesh_path = os.path.join(options.folder, "optimized.vtu")

@@ -19,12 +19,12 @@ check(abs(low - quality.MinimumQuality) < 1e-12 and abs(high - quality.MaximumQu
 check(low <= quality.MeanQuality <= high, "mean", quality.MeanQuality)
 check(0 < quality.QualityBound <= 1, "bound", quality.QualityBound)
 for port, kind in ((1, "vtkTable"), (2, "vtkTable"), (3, "vtkUnstructuredGrid")):
-    data = servermanager.Fetch(simple.OutputPort(quality, port))
+    data = servermanager.Fetch(quality, idx=port)
     check(data.IsA(kind), "port", port, "holds", data.GetClassName())
-check(servermanager.Fetch(simple.OutputPort(quality, 3)).GetNumberOfCells() == 10, "ten worst cells")
+check(servermanager.Fetch(quality, idx=3).GetNumberOfCells() == 10, "ten worst cells")
 quality.NumberOfWorstCells = 3
 quality.UpdatePipeline()
-check(servermanager.Fetch(simple.OutputPort(quality, 3)).GetNumberOfCells() == 3, "three worst cells")
+check(servermanager.Fetch(quality, idx=3).GetNumberOfCells() == 3, "three worst cells")
 
 optimize = simple.MeshOptimize(Input=source)
 for name in ("RegionArray", "FixedPointArray", "SizeArray", "MetricArray"):
@@ -38,7 +38,7 @@ check(optimize.WorstQualityAfter >= optimize.WorstQualityBefore, "worst fell")
 check(optimize.WorstQualityAfter > 2 * max(low, 0), "hardly better:", low, optimize.WorstQualityAfter)
 check(optimize.WorstQualityAfter <= optimize.QualityBound + 1e-12, "above its bound")
 check(len(optimize.StopReason) > 3, "stop reason", repr(optimize.StopReason))
-history = servermanager.Fetch(simple.OutputPort(optimize, 1))
+history = servermanager.Fetch(optimize, idx=1)
 check(history.IsA("vtkTable") and history.GetNumberOfRows() > 0, "history is empty")
 check(source.GetDataInformation().GetNumberOfCells() == cells_before, "the input changed")
 
