@@ -92,6 +92,28 @@ void TestFlatPlaneIsExact()
 }
 
 /**
+ * One large triangle that is numbered against all others is the one that is renumbered.
+ */
+void TestLargeReversedTriangle()
+{
+  Grid input = MakeSquare(8, 0.2, [](double u, double v) { return Point{ { u, v, u + v } }; });
+  const vtkIdType p = input->GetPoints()->InsertNextPoint(-3, 0, -3);
+  AddCell(input, VTK_TRIANGLE, { 0, 9, p });
+  vtkNew<vtkMeshOptimizeFilter> filter;
+  Messages messages(filter);
+  filter->SetInputData(input);
+  filter->Update();
+  CHECK(filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) == 0);
+  Grid reversed = MakeSquare(8, 0.2, [](double u, double v) { return Point{ { u, v, u + v } }; });
+  reversed->GetPoints()->InsertNextPoint(-3, 0, -3);
+  AddCell(reversed, VTK_TRIANGLE, { 9, 0, p });
+  filter->SetInputData(reversed);
+  filter->Update();
+  CHECK(filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) == 1);
+  CHECK(messages.Errors.empty() && messages.Warnings.size() == 1);
+}
+
+/**
  * In the plane, lines are kept as edges and quads stay.
  */
 void TestLinesInPlane()
@@ -143,7 +165,7 @@ Grid MixedBox()
   Grid box = MakeBox(4, 0.28);
   grid->GetPoints()->DeepCopy(box->GetPoints());
   const auto id = [](vtkIdType i, vtkIdType j, vtkIdType k) { return i + 5 * (j + 5 * k); };
-  AddCell(grid, VTK_VERTEX, { id(2, 2, 2) });
+  AddCell(grid, VTK_VERTEX, { id(3, 3, 1) });
   AddCell(grid, VTK_LINE, { id(1, 1, 1), id(2, 2, 2) });              // a long edge in the inside
   AddCell(grid, VTK_TRIANGLE, { id(1, 1, 2), id(2, 1, 2), id(2, 2, 3) }); // a face in the inside
   for (vtkIdType c = 0; c < box->GetNumberOfCells(); ++c)
@@ -404,6 +426,7 @@ int main(int, char*[])
 {
   TestPlanes();
   TestFlatPlaneIsExact();
+  TestLargeReversedTriangle();
   TestLinesInPlane();
   TestMixedCells();
   TestNothingToOptimize();
