@@ -15,6 +15,7 @@ namespace meshopt
 namespace
 {
 constexpr double LeastGain = 1e-3; // of the worst quality in one alternation, as a fraction
+constexpr int LookAheads = 20;     // elements that get one, when nothing else gains
 
 template <int D>
 class Paper1996
@@ -35,7 +36,8 @@ public:
 private:
   using Counts = std::array<long, NumberOfOperations>;
 
-  void reconnectAll();
+  bool alternate(int lookAhead);
+  void reconnectAll(int lookAhead);
   void repositionAll();
   void record(const char* stage, const Counts& tried, const Counts& done);
   void touchMoved(const std::vector<Vec<D>>& before);
@@ -49,7 +51,6 @@ private:
   Progress progress_;
   ReconnectionMemory<D> memory_;
   bool limitReached_ = false;
-  long gained_ = 0; // operations done in this alternation
   long steps_ = 0, expectedSteps_ = 1;
   std::chrono::steady_clock::time_point passBegin_ = std::chrono::steady_clock::now();
 };
@@ -79,10 +80,6 @@ void Paper1996<D>::record(const char* stage, const Counts& tried, const Counts& 
   row.stage = stage;
   row.tried = tried;
   row.done = done;
-  for (long n : done)
-  {
-    this->gained_ += n;
-  }
   const auto now = std::chrono::steady_clock::now();
   row.seconds = std::chrono::duration<double>(now - this->passBegin_).count();
   this->passBegin_ = now;
@@ -108,12 +105,13 @@ Operation operationOf(Filling kind)
 }
 
 template <int D>
-void Paper1996<D>::reconnectAll()
+void Paper1996<D>::reconnectAll(int lookAhead)
 {
   const Options& o = this->options_;
   ReconnectionParameters parameters;
   parameters.target = o.targetQuality;
   parameters.naiveSearch = o.naiveSearch;
+  parameters.lookAhead = o.moveNodes ? lookAhead : 0;
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
   allow(Filling::RingNode, o.reconnect);
@@ -123,9 +121,10 @@ void Paper1996<D>::reconnectAll()
   allow(Filling::NewCentre, o.insertNodes);
   allow(Filling::Midpoint, o.insertNodes);
 
+  const char* stage = lookAhead > 0 ? "look-ahead" : "reconnection";
   const ReconnectionResult result = reconnect<D>(this->editor_, this->metric_, o.measure, o.beta,
     parameters, this->memory_,
-    [this](double worst) { return this->keepGoing("reconnection", worst); });
+    [this, stage](double worst) { return this->keepGoing(stage, worst); });
   Counts tried{}, done{};
   for (int k = 0; k < NumberOfFillings; ++k)
   {
@@ -133,7 +132,9 @@ void Paper1996<D>::reconnectAll()
     tried[op] += result.tried[k];
     done[op] += result.done[k];
   }
-  this->record("reconnection", tried, done);
+  tried[static_cast<int>(Operation::LookAhead)] = result.aheadTried;
+  done[static_cast<int>(Operation::LookAhead)] = result.aheadDone;
+  this->record(stage, tried, done);
 }
 
 // Elements around nodes that have moved are reconnected again.
@@ -192,43 +193,47 @@ void Paper1996<D>::repositionAll()
   this->record("repositioning", tried, done);
 }
 
+// One alternation: reconnection, then repositioning. True if the worst quality has risen.
+template <int D>
+bool Paper1996<D>::alternate(int lookAhead)
+{
+  const Options& o = this->options_;
+  const double before = this->worst();
+  if (o.reconnect || o.removeNodes || o.insertNodes)
+  {
+    this->reconnectAll(lookAhead);
+  }
+  if (o.moveNodes && !this->progress_.cancelled() && this->worst() < o.targetQuality)
+  {
+    this->repositionAll();
+  }
+  return this->worst() > before + LeastGain * std::abs(before);
+}
+
 template <int D>
 StopReason Paper1996<D>::run()
 {
   const Options& o = this->options_;
-  const bool reconnects = o.reconnect || o.removeNodes || o.insertNodes;
   this->expectedSteps_ = std::max(1L, 4 * this->report_.history.back().belowTarget);
+  bool rises = true; // in the last alternation
   for (int k = 0; k < o.maximumNumberOfAlternations; ++k)
   {
-    const double before = this->worst();
-    this->gained_ = 0;
-    if (before >= o.targetQuality)
-    {
-      return StopReason::TargetReached;
-    }
-    if (reconnects)
-    {
-      this->reconnectAll();
-    }
-    if (o.moveNodes && !this->progress_.cancelled() && this->worst() < o.targetQuality)
-    {
-      this->repositionAll();
-    }
-    if (this->progress_.cancelled())
-    {
-      return StopReason::Aborted;
-    }
     if (this->worst() >= o.targetQuality)
     {
       return StopReason::TargetReached;
     }
-    const bool rises = this->worst() > before + LeastGain * std::abs(before);
-    if (this->gained_ == 0 || !rises)
+    const bool looksAhead = !rises;
+    rises = this->alternate(looksAhead ? LookAheads : 0);
+    if (this->progress_.cancelled())
+    {
+      return StopReason::Aborted;
+    }
+    if (looksAhead && !rises)
     {
       return this->limitReached_ ? StopReason::IterationLimit : StopReason::NoFurtherGain;
     }
   }
-  return StopReason::IterationLimit;
+  return this->worst() >= o.targetQuality ? StopReason::TargetReached : StopReason::IterationLimit;
 }
 }
 

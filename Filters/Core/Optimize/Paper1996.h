@@ -5,8 +5,9 @@
 /// Reference: Buscaglia, Dari, Zavattieri (1996), opening of section 2: "The optimization sequence starts with
 /// a connectivity optimization, followed by repositioning the nodes at optimal locations for that
 /// structure, and so on."
-/// What it leaves open: the sequence ends when the target is reached, when a whole alternation has
-/// raised the worst quality by less than a fraction 1e-3, or after a number of alternations.
+/// What it leaves open: when an alternation has raised the worst quality by less than a fraction 1e-3, the next one
+/// gives the 20 worst elements a look-ahead (LookAhead.h, a departure). The sequence ends when that does not help either, when the target is
+/// reached, or after a number of alternations.
 #ifndef meshopt_Optimize_Paper1996_h
 #define meshopt_Optimize_Paper1996_h
 

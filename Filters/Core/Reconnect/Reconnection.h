@@ -22,9 +22,8 @@
 ///    it has no more elements of zero or negative quality. So the sorted vector of qualities rises
 ///    lexicographically, and the iteration ends.
 ///  - Candidates come in the order: worst element, those that share an edge with it, those that share a node; each
-///    group by (quality, id). Only elements under the target are candidates. For each: edge clusters with ring nodes, node
-///    clusters with boundary nodes, node clusters with the centre, edge clusters with the midpoint; so nodes are
-///    inserted only where nothing else helps.
+///    group by (quality, id). Only elements under the target are candidates. For the order of fillings see
+///    ElementClusters::forEach.
 ///  - A cluster is tried on behalf of its worst element only. For the others it would be in vain: their turn comes
 ///    after that element's, in which the cluster was tried as it still is.
 ///  - A worst element that no cluster improves is set aside, and the next worst is taken; it comes back
@@ -37,63 +36,39 @@
 #include "Mesh/MeshEditor.h"
 #include "Metric/NodalMetric.h"
 #include "Quality/ElementQuality.h"
+#include "Reconnect/Filling.h"
 
 #include <array>
 #include <functional>
 
 namespace meshopt
 {
-/// The operations of figure 1 and, in 3D, their analogues at the surface.
-enum class Filling
-{
-  RingNode = 0, ///< interior edge cluster, a ring node: the edge goes
-  OpenRing,     ///< cluster at kept facets, one of its points: points and kept facets stay
-  BoundaryNode, ///< node cluster, a boundary node: the node goes
-  Centre,       ///< node cluster, its centre: the node is moved there
-  NewCentre,    ///< node cluster at kept facets, its centre: a node comes
-  Midpoint,     ///< edge cluster, midpoint: a node comes
-  Count
-};
-inline constexpr int NumberOfFillings = static_cast<int>(Filling::Count);
-
 struct ReconnectionParameters
 {
   double target = 1.0;     ///< elements of this quality or a better one are left alone
   double leastGain = 1e-3; ///< of the worst quality of a cluster, as a fraction of it
   std::array<bool, NumberOfFillings> allowed{ true, true, true, true, true, true };
   bool naiveSearch = false; ///< see WorstQueue
+  /// When all is set aside: so many of the worst elements get a look-ahead (LookAhead.h), and the iteration goes on
+  /// if one gains. 0: none, as in the paper.
+  int lookAhead = 0;
 };
 
 struct ReconnectionResult
 {
-  /// By Filling. Tried counts (cluster, kind) pairs.
+  /// By Filling: fillings tried virtually, and really made.
   std::array<long, NumberOfFillings> tried{}, done{};
+  long aheadTried = 0, aheadDone = 0; ///< fillings tried, and kept, by the look-ahead
   bool cancelled = false;
   long total() const
   {
-    long sum = 0;
+    long sum = this->aheadDone;
     for (long n : this->done)
     {
       sum += n;
     }
     return sum;
   }
-};
-
-/// Which elements have been tried without success since their surroundings last changed. Kept from one pass to the
-/// next, so that only what has changed in between is tried again.
-template <int D>
-struct ReconnectionMemory
-{
-  std::uint32_t time = 0;
-  std::vector<std::uint32_t> failed;  ///< per cell slot: when its clusters were tried in vain; 0: never
-  std::vector<std::uint32_t> changed; ///< per point slot: last change in its star
-
-  /// Makes room for the mesh as it is.
-  void resize(const SimplexMesh<D>& mesh);
-  /// To be told that node p has moved, or something in its star: all of its star's elements are tried again.
-  void touch(Index p) { this->changed[p] = this->time; }
-  bool isFresh(const SimplexMesh<D>& mesh, Index c) const;
 };
 
 /// Runs the iteration of section 2.3. Qualities of the mesh's cells must be up to date, and are kept
@@ -104,8 +79,6 @@ ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Meas
   double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence = nullptr);
 
-extern template struct ReconnectionMemory<2>;
-extern template struct ReconnectionMemory<3>;
 extern template ReconnectionResult reconnect<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
   const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&,
   std::vector<Index>*);

@@ -2,9 +2,7 @@
 #include "Reposition/GlobalAlgorithm.h"
 
 #include "Mesh/WorstQueue.h"
-
-#include <cmath>
-#include <limits>
+#include "Reposition/ClusterSolver.h"
 
 namespace meshopt
 {
@@ -17,11 +15,8 @@ public:
   GlobalAlgorithm(MeshEditor<D>& editor, NodalMetric<D>& metric,
     const ElementQuality<D, Shape>& quality, const RepositionParameters& parameters)
     : editor_(editor)
-    , metric_(metric)
-    , quality_(quality)
     , parameters_(parameters)
-    , gatherer_(editor)
-    , local_(quality, parameters.local)
+    , solver_(editor, metric, quality, parameters.local, parameters.leastGain)
     , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
   {
   }
@@ -30,25 +25,13 @@ public:
 
 private:
   void initialize();
-  void setMetrics();
   bool solve(Index worst);
-  bool accept();
-  bool isGain(double before, double after) const
-  {
-    return after > before + this->parameters_.leastGain * std::abs(before);
-  }
 
   MeshEditor<D>& editor_;
-  NodalMetric<D>& metric_;
-  ElementQuality<D, Shape> quality_;
   RepositionParameters parameters_;
-  ClusterGatherer<D> gatherer_;
-  LocalAlgorithm<D, Shape> local_;
+  ClusterSolver<D, Shape> solver_;
   WorstQueue<D> queue_;
   std::vector<std::uint8_t> movable_;
-  Cluster<D> cluster_;
-  std::vector<double> oldQuality_;
-  std::vector<ElementMetric<D>> metrics_;
 };
 
 template <int D, class Shape>
@@ -63,94 +46,19 @@ void GlobalAlgorithm<D, Shape>::initialize()
   this->queue_.fill();
 }
 
-// The metric of each element, frozen while the cluster is solved; a single one where it is the same everywhere.
-template <int D, class Shape>
-void GlobalAlgorithm<D, Shape>::setMetrics()
-{
-  const SimplexMesh<D>& mesh = this->editor_.mesh();
-  this->metrics_.clear();
-  const std::size_t count = this->metric_.isTrivial() ? 1 : this->cluster_.cells.size();
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    this->metrics_.push_back(this->metric_.element(mesh.nodes(this->cluster_.cells[k])));
-  }
-}
-
 template <int D, class Shape>
 bool GlobalAlgorithm<D, Shape>::solve(Index worst)
 {
-  this->gatherer_.gather(
-    worst, this->parameters_.neighborhoodLevel, this->movable_, this->cluster_);
-  this->setMetrics();
-  this->oldQuality_ = this->cluster_.quality;
-  const LocalResult result = this->local_.solve(this->cluster_, this->metrics_);
-  if (!this->isGain(result.before, result.after))
+  if (!this->solver_.solve(worst, this->parameters_.neighborhoodLevel, this->movable_))
   {
     return false;
   }
-  const std::size_t place = this->editor_.begin();
-  for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
-  {
-    const Index p = this->cluster_.points[k];
-    if (this->cluster_.x[k] != this->editor_.mesh().point(p))
-    {
-      this->editor_.movePoint(p, this->cluster_.x[k]);
-    }
-  }
-  if (!this->accept())
-  {
-    this->editor_.rollback(place);
-    for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
-    {
-      const Index p = this->cluster_.points[k];
-      this->metric_.resample(p, this->editor_.mesh().point(p));
-    }
-    return false;
-  }
-  this->editor_.commit(place);
-  for (std::size_t k = 0; k < this->cluster_.cells.size(); ++k)
-  {
-    if (this->cluster_.quality[k] != this->oldQuality_[k])
-    {
-      this->queue_.push(this->cluster_.cells[k]);
-    }
-  }
-  return true;
-}
-
-// Sets the qualities of the cluster; with a metric that varies, those in the metric as it is now.
-template <int D, class Shape>
-bool GlobalAlgorithm<D, Shape>::accept()
-{
-  Cluster<D>& cluster = this->cluster_;
-  if (!this->metric_.isTrivial())
-  {
-    for (int k = 0; k < cluster.numberOfMoving; ++k)
-    {
-      this->metric_.resample(cluster.points[k], cluster.x[k]);
-    }
-    double before = std::numeric_limits<double>::infinity(), after = before;
-    bool inverts = false;
-    for (std::size_t k = 0; k < cluster.cells.size(); ++k)
-    {
-      const Index c = cluster.cells[k];
-      const double q = this->quality_.value(
-        cluster.corners(static_cast<int>(k)), this->metric_.element(this->editor_.mesh().nodes(c)));
-      cluster.quality[k] = q;
-      before = std::min(before, this->oldQuality_[k]);
-      after = q < after || q != q ? q : after;
-      inverts = inverts || (!(q > 0.0) && this->oldQuality_[k] > 0.0);
-    }
-    if (inverts || !this->isGain(before, after))
-    {
-      return false;
-    }
-  }
+  const Cluster<D>& cluster = this->solver_.cluster();
   for (std::size_t k = 0; k < cluster.cells.size(); ++k)
   {
-    if (cluster.quality[k] != this->oldQuality_[k])
+    if (cluster.quality[k] != this->solver_.oldQuality()[k])
     {
-      this->editor_.setQuality(cluster.cells[k], cluster.quality[k]);
+      this->queue_.push(cluster.cells[k]);
     }
   }
   return true;
