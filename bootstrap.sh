@@ -20,7 +20,7 @@ packages=(
   g++ cmake ninja-build paraview-dev python3-paraview libeigen3-dev
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev liblzma-dev liblz4-dev
   qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools
-  xvfb xauth libgl1-mesa-dri)
+  xvfb libgl1-mesa-dri)
 test_packages=(libgtest-dev)
 
 usage() { sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
@@ -63,16 +63,34 @@ export PYTHONPATH='$python_dir'"\${PYTHONPATH:+:\$PYTHONPATH}"
 END
 }
 
+# Runs a command on a display of its own. The server finds a free number itself: xvfb-run -a can collide with another
+# that starts at the same moment.
+with_display() {
+  local number_file server status=0
+  number_file=$(mktemp)
+  Xvfb -displayfd 9 -screen 0 1600x1280x24 -nolisten tcp 9> "$number_file" > /dev/null 2>&1 &
+  server=$!
+  for _ in $(seq 100); do
+    [ -s "$number_file" ] && break
+    sleep 0.1
+  done
+  [ -s "$number_file" ] || { echo "Xvfb does not start" >&2; exit 1; }
+  DISPLAY=:$(cat "$number_file") "$@" || status=$?
+  kill "$server"
+  rm -f "$number_file"
+  return $status
+}
+
 run_demo() {
   mkdir -p "$output_dir"
   eval "$(print_env)"
-  xvfb-run -a pvpython "$source_dir/ParaViewPlugin/Examples/demo.py" "$source_dir/Data/crack40.vtu" "$output_dir"
+  with_display pvpython "$source_dir/ParaViewPlugin/Examples/demo.py" "$source_dir/Data/crack40.vtu" "$output_dir"
 }
 
 run_tests() {
   # OpenMPI refuses to run as root unless told twice.
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-  (cd "$build_dir" && xvfb-run -a ctest --output-on-failure --parallel "$(nproc)")
+  with_display ctest --test-dir "$build_dir" --output-on-failure --parallel "$(nproc)"
 }
 
 case "${1:-}" in

@@ -93,7 +93,7 @@ def show_mesh(quality, title, view):
     view.CameraPosition = [centre[0] - 1.2, centre[1] - 4.0, centre[2] + 1.2]
     view.CameraViewUp = [0, 0, 1]
     view.CameraParallelProjection = 1
-    view.CameraParallelScale = 0.64 * (bounds[5] - bounds[4])
+    view.CameraParallelScale = 0.64 * max(bounds[5] - bounds[4], 1.13 * (bounds[1] - bounds[0]))
 
 
 def histogram(quality, column):
@@ -172,10 +172,10 @@ def picture(before, after, rows, path):
     bar.Title, bar.ComponentTitle = "MeshQuality", ""
     bar.TitleColor = bar.LabelColor = INK
     bar.Orientation, bar.WindowLocation = "Vertical", "Any Location"
-    bar.Position, bar.ScalarBarLength = [0.86, 0.2], 0.5
+    bar.Position, bar.ScalarBarLength = [0.88, 0.2], 0.5
     bar.AutomaticLabelFormat, bar.LabelFormat, bar.RangeLabelFormat = 0, "%.1f", "%.1f"
     bar.Visibility = 1
-    SaveScreenshot(path, layout, ImageResolution=[1600, 1280], SeparatorWidth=0)
+    SaveScreenshot(path, layout, ImageResolution=[1600, 1280], SeparatorWidth=0, CompressionLevel="9")
 
 
 def main():

@@ -1,9 +1,10 @@
 """What the paraview tests share: the plugin, a mesh made in the script, and a check that speaks."""
+import itertools
 import os
 
 from paraview import simple
 from vtkmodules.vtkCommonCore import vtkMinimalStandardRandomSequence, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkDelaunay3D
 
 OUTPUT = os.environ["MESHOPTIMIZE_OUTPUT"]
@@ -38,6 +39,39 @@ def random_mesh(points=300, seed=1996):
     delaunay.Update()
     grid = vtkUnstructuredGrid()
     grid.DeepCopy(delaunay.GetOutput())
+    return grid
+
+
+def jittered_box(n=8, seed=1996):
+    """n x n x n cubes of six tetrahedra with interior points pushed about: bad inside, good on the surface."""
+    sequence = vtkMinimalStandardRandomSequence()
+    sequence.SetSeed(seed)
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for k in range(n + 1):
+        for j in range(n + 1):
+            for i in range(n + 1):
+                xyz = [i / n, j / n, k / n]
+                if 0 < i < n and 0 < j < n and 0 < k < n:
+                    for axis in range(3):
+                        xyz[axis] += 0.55 / n * (sequence.GetValue() - 0.5)
+                        sequence.Next()
+                points.InsertNextPoint(xyz)
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(points)
+    grid.Allocate(6 * n ** 3)
+    step = (1, n + 1, (n + 1) ** 2)
+    for k in range(n):
+        for j in range(n):
+            for i in range(n):
+                corner = i + j * step[1] + k * step[2]
+                for order in itertools.permutations(range(3)):
+                    path = [corner]
+                    for axis in order:
+                        path.append(path[-1] + step[axis])
+                    if order in ((0, 2, 1), (1, 0, 2), (2, 1, 0)):  # odd: turn it round
+                        path[1], path[2] = path[2], path[1]
+                    grid.InsertNextCell(VTK_TETRA, 4, path)
     return grid
 
 
