@@ -255,12 +255,14 @@ std::string vtkMeshOptimizeFilter::OptimizeAll(
     return error;
   }
   bridge::StartHistory(history, isComposite);
+  bridge::Deadline deadline(this->TimeLimit);
+  request.TimeLimit = &deadline;
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
     request.Control =
-      bridge::MakeControl(this, request.Options.numberOfThreads, first, last);
+      bridge::MakeControl(this, request.Options.numberOfThreads, first, last, deadline);
     bridge::Outcome one;
     error = bridge::OptimizeGrid(tasks[i].Input, request, tasks[i].Output, one);
     if (!error.empty())

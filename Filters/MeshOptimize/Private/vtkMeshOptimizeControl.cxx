@@ -18,13 +18,27 @@ int ResolveNumberOfThreads(int wanted)
   return wanted > 0 ? wanted : std::max(available, 1);
 }
 
-meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last)
+Deadline::Deadline(double seconds)
+  : Start(std::chrono::steady_clock::now())
+  , Seconds(seconds)
+{
+}
+
+bool Deadline::HasPassed()
+{
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Start;
+  this->Seen = this->Seconds > 0.0 && spent.count() >= this->Seconds;
+  return this->Seen;
+}
+
+meshopt::Control MakeControl(
+  vtkAlgorithm* filter, int numberOfThreads, double first, double last, Deadline& deadline)
 {
   meshopt::Control control;
-  control.progress = [=](double fraction, const std::string& text) {
+  control.progress = [=, &deadline](double fraction, const std::string& text) {
     filter->SetProgressText(text.c_str());
     filter->UpdateProgress(first + (last - first) * std::min(1.0, std::max(0.0, fraction)));
-    return !vtkMeshOptimizeCompat::CheckAbort(filter);
+    return !vtkMeshOptimizeCompat::CheckAbort(filter) && !deadline.HasPassed();
   };
   if (numberOfThreads > 1)
   {

@@ -2,6 +2,7 @@
 
 #include "vtkMeshOptimizeArrays.h"
 #include "vtkMeshOptimizeCells.h"
+#include "vtkMeshOptimizeControl.h"
 #include "vtkMeshOptimizeExport.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeImport.h"
@@ -44,6 +45,10 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
   outcome.NumberOfReorientedCells = mesh.numberOfReorientedCells();
   outcome.NumberOfCellsBefore = mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(mesh, metric, request.Options, request.Control);
+  if (outcome.Report.stopReason == meshopt::StopReason::Aborted && request.TimeLimit->WasSeen())
+  {
+    outcome.Report.stopReason = meshopt::StopReason::TimeLimit;
+  }
   outcome.NumberOfCells = mesh.countCells();
   for (const meshopt::PassRecord& row : outcome.Report.history)
   {

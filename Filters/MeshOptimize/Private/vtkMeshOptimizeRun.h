@@ -16,6 +16,8 @@ class vtkUnstructuredGrid;
 namespace vtkMeshOptimizeBridge
 {
 
+class Deadline;
+
 /**
  * What is wanted.
  */
@@ -24,6 +26,7 @@ struct Request
   vtkAlgorithm* Filter = nullptr; ///< knows the names of the input arrays
   meshopt::Options Options;
   meshopt::Control Control;
+  const Deadline* TimeLimit = nullptr; ///< tells an abort by the clock from one by the user
 };
 
 /**

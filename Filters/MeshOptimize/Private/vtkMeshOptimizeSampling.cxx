@@ -4,8 +4,6 @@
 
 #include "vtkUnstructuredGrid.h"
 
-#include <Eigen/LU>
-
 #include <limits>
 
 namespace vtkMeshOptimizeBridge
@@ -16,33 +14,6 @@ using meshopt::Index;
 
 namespace
 {
-
-/**
- * Weights from ratios of volumes are poor in flat cells. One step of refinement makes sum w_i x_i equal to x to
- * rounding, so that linear fields come out right in any cell.
- */
-template <int D>
-void RefineWeights(const Background<D>& background, const meshopt::Vec<D>& x,
-  meshopt::Location<D>& place)
-{
-  meshopt::Tensor<D> edges;
-  meshopt::Vec<D> rest = x - background.point(place.nodes[0]);
-  for (int i = 1; i <= D; ++i)
-  {
-    edges.col(i - 1) = background.point(place.nodes[i]) - background.point(place.nodes[0]);
-    rest -= place.weights[i] * edges.col(i - 1);
-  }
-  const Eigen::FullPivLU<meshopt::Tensor<D>> lu(edges);
-  if (lu.isInvertible())
-  {
-    const meshopt::Vec<D> change = lu.solve(rest);
-    for (int i = 1; i <= D; ++i)
-    {
-      place.weights[i] += change[i - 1];
-    }
-    place.weights[0] -= change.sum();
-  }
-}
 
 template <int D>
 Sample MakeSample(
@@ -91,11 +62,7 @@ std::vector<Sample> SampleInput(const Background<D>& background, const OutputMap
     // Cells of the background are those of the input: a new point is near the parent of its cell.
     const Index hint = slot < mesh.numberOfInputPoints() ? background.cellOfPoint(slot)
                                                          : mesh.parent(mesh.cellOfPoint(slot));
-    meshopt::Location<D> place = background.locate(mesh.point(slot), hint);
-    if (place.distance == 0.0)
-    {
-      RefineWeights(background, mesh.point(slot), place);
-    }
+    const meshopt::Location<D> place = background.locate(mesh.point(slot), hint);
     samples.push_back(MakeSample(background, mesh.point(slot), place));
   }
   return samples;

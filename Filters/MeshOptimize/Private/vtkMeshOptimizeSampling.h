@@ -16,7 +16,7 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * A place in the input: corners of a cell, and their weights. They sum to 1 and are not negative, but for rounding.
+ * A place in the input: corners of a cell, and their weights, which sum to 1; none is negative.
  * Corners that are not needed have weight 0.
  */
 struct Sample
@@ -28,8 +28,8 @@ struct Sample
 };
 
 /**
- * The input mesh as it was, to look points up in: that of the metric if it has one, else built anew, which costs time only where
- * it is needed and no memory during the optimization.
+ * The input mesh as it was, to look points up in: that of the metric if it has one, else built anew,
+ * which costs time only where it is needed, and no memory during the optimization.
  */
 template <int D>
 std::shared_ptr<const meshopt::Background<D>> FindBackground(vtkUnstructuredGrid* grid,
