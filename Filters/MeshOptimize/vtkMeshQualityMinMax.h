@@ -38,7 +38,7 @@
  * The result is the same, to the last bit, for any number of threads.
  *
  * @par Reference
- * G. C. Buscaglia, E. A. Dari, F. H. Zavattieri, "On mesh optimization for finite element analysis" (1996),
+ * G. C. Buscaglia, E. A. Dari, P. D. Zavattieri, "Mesh optimization: some results in 3D elasticity" (1996),
  * equations (2.1) to (2.3).
  *
  * @sa vtkMeshOptimizeFilter
