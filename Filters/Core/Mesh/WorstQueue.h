@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -33,10 +34,12 @@ public:
   void fill()
   {
     this->heap_.clear();
+    this->queued_.assign(this->mesh_->numberOfCellSlots(), NotQueued);
     for (Index c = 0; c < this->mesh_->numberOfCellSlots() && !this->naive_; ++c)
     {
       if (this->isCandidate(c))
       {
+        this->queued_[c] = this->mesh_->quality(c);
         this->heap_.emplace_back(this->mesh_->quality(c), c);
       }
     }
@@ -45,9 +48,19 @@ public:
 
   void push(Index c)
   {
-    if (!this->naive_ && this->isCandidate(c))
+    if (this->naive_ || !this->isCandidate(c))
     {
-      this->heap_.emplace_back(this->mesh_->quality(c), c);
+      return;
+    }
+    if (c >= static_cast<Index>(this->queued_.size()))
+    {
+      this->queued_.resize(this->mesh_->numberOfCellSlots(), NotQueued);
+    }
+    const double q = this->mesh_->quality(c);
+    if (this->queued_[c] != q)
+    {
+      this->queued_[c] = q;
+      this->heap_.emplace_back(q, c);
       std::push_heap(this->heap_.begin(), this->heap_.end(), std::greater<>());
     }
   }
@@ -67,6 +80,10 @@ public:
       {
         return c;
       }
+      if (this->queued_[c] == q)
+      {
+        this->queued_[c] = NotQueued;
+      }
       std::pop_heap(this->heap_.begin(), this->heap_.end(), std::greater<>());
       this->heap_.pop_back();
     }
@@ -74,6 +91,8 @@ public:
   }
 
 private:
+  static constexpr double NotQueued = std::numeric_limits<double>::infinity();
+
   bool isCandidate(Index c) const
   {
     return this->mesh_->isAlive(c) && this->mesh_->quality(c) < this->limit_;
@@ -98,6 +117,7 @@ private:
   double limit_;
   bool naive_;
   std::vector<std::pair<double, Index>> heap_;
+  std::vector<double> queued_; // per cell: the quality under which it was pushed last, if still in
 };
 }
 
