@@ -9,6 +9,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -275,28 +276,8 @@ void vtkMeshQualityMinMax::Run::CountInBins(meshopt::QualityHistogram& histogram
 }
 
 //------------------------------------------------------------------------------
-int vtkMeshQualityMinMax::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+void vtkMeshQualityMinMax::StoreFigures(const Run& run)
 {
-  Run run(this);
-  run.Pass(vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(outputVector, 0));
-  const std::string error = run.Measure();
-  // All ranks meet here, those with an error as well.
-  const bool usable = quality::Reduce(
-    this->Controller, !error.empty(), run.Options.NumberOfWorstCells, run.Figures);
-  if (!error.empty())
-  {
-    vtkErrorMacro(<< error);
-  }
-  if (!usable)
-  {
-    return 0;
-  }
-  meshopt::QualityHistogram histogram = quality::MakeHistogram(
-    run.Options, run.Figures, this->NumberOfBins);
-  run.CountInBins(histogram);
-  quality::Reduce(this->Controller, histogram);
-
   const quality::Sums& total = run.Figures.Total;
   const meshopt::QualityStatistics& q = total.Quality;
   const double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -310,18 +291,55 @@ int vtkMeshQualityMinMax::RequestData(
   this->NumberOfOtherCells = total.OtherCells;
   this->NumberOfCappedCells = total.CappedCells;
   this->QualityBound = std::min(total.Bound, quality::GreatestQuality(run.Options, run.Figures));
-  std::vector<meshopt::WorstElement> worst = run.Figures.Worst.sorted();
+  const std::vector<meshopt::WorstElement> worst = run.Figures.Worst.sorted();
   this->WorstCellId = worst.empty() ? -1 : worst[0].id;
   this->WorstCellBlock = worst.empty() ? -1 : static_cast<int>(worst[0].part & 0xffffffff);
   this->WorstCellRank = worst.empty() ? -1 : static_cast<int>(worst[0].part >> 32);
+}
 
-  worst.resize(std::min(worst.size(), static_cast<std::size_t>(this->NumberOfWorstCells)));
+//------------------------------------------------------------------------------
+void vtkMeshQualityMinMax::FillOutputs(Run& run, vtkInformationVector* outputVector)
+{
+  meshopt::QualityHistogram histogram = quality::MakeHistogram(
+    run.Options, run.Figures, this->NumberOfBins);
+  run.CountInBins(histogram);
+  quality::Reduce(this->Controller, histogram);
   if (run.Rank == 0)
   {
     quality::FillSummary(run.Options, run.Figures, vtkTable::GetData(outputVector, 1));
     quality::FillHistogram(histogram, vtkTable::GetData(outputVector, 2));
   }
+  std::vector<meshopt::WorstElement> worst = run.Figures.Worst.sorted();
+  worst.resize(std::min(worst.size(), static_cast<std::size_t>(this->NumberOfWorstCells)));
   quality::FillWorstCells(
     worst, run.Blocks, run.Rank, run.IsComposite, vtkUnstructuredGrid::GetData(outputVector, 3));
+}
+
+//------------------------------------------------------------------------------
+int vtkMeshQualityMinMax::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  Run run(this);
+  run.Pass(vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(outputVector, 0));
+  const std::string error = run.Measure();
+  // All ranks meet here, those with an error as well.
+  const bool usable = quality::Reduce(
+    this->Controller, !error.empty(), run.Options.NumberOfWorstCells, run.Figures);
+  if (!usable)
+  {
+    run.Figures = quality::Figures(1);
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkDataObject::GetData(outputVector, port)->Initialize();
+    }
+    // Returning 0 would make the executive add an error of its own.
+    vtkErrorMacro(<< (error.empty() ? "Another rank has an error." : error));
+  }
+  this->SetErrorCode(usable ? vtkErrorCode::NoError : vtkErrorCode::UserError);
+  this->StoreFigures(run);
+  if (usable)
+  {
+    this->FillOutputs(run, outputVector);
+  }
   return 1;
 }

@@ -32,8 +32,9 @@
  *  - 2, points: desired size h*, one component, positive; used if Beta > 0;
  *  - 3, points: metric tensor, symmetric positive definite, 6 components (XX YY ZZ XY YZ XZ) or 9. For
  *    triangles in a plane z = constant only XX, YY, XY count.
- * An array that is asked for and missing or not usable is an error, and so is Beta > 0 without a size. A broken mesh is
- * not: it is measured as it is.
+ * An array that is asked for and missing or not usable is an error (one message, empty
+ * outputs, error code vtkErrorCode::UserError), and so is Beta > 0 without a size. A broken mesh is not: it is
+ * measured as it is.
  *
  * The result is the same, to the last bit, for any number of threads.
  *
@@ -211,6 +212,8 @@ private:
   void operator=(const vtkMeshQualityMinMax&) = delete;
 
   struct Run;
+  void StoreFigures(const Run& run);
+  void FillOutputs(Run& run, vtkInformationVector* outputVector);
 
   int QualityMeasure = Shape;
   double Beta = 0.0;

@@ -58,6 +58,7 @@ struct ApexProblem
   {
     double z = std::cbrt(p[N - 1]);
     double s = this->sum(p);
+    double lastRest = 1e30;
     for (int iteration = 0; iteration < 60; ++iteration)
     {
       const double lambda = z / s;
@@ -82,7 +83,15 @@ struct ApexProblem
       const Point step = h.llt().solve(slope);
       if (!this->advance(step, p, z, s))
       {
-        return lambda + rest;
+        // z / s is as great as rounding lets it be seen; steps may still make the slope smaller
+        if (rest > 0.5 * lastRest || p[N - 1] + step[N - 1] <= 0.0)
+        {
+          return lambda + std::min(rest, lastRest);
+        }
+        lastRest = rest;
+        p += step;
+        z = std::cbrt(p[N - 1]);
+        s = this->sum(p);
       }
     }
     return 1e30;

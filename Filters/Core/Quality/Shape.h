@@ -171,7 +171,7 @@ struct MeanRatioShape
     else
     {
       const double s = sumOfSquaredEdges(x);
-      const double r = std::cbrt(0.5 * volumeDeterminant(x));
+      const double r = cubeRoot(0.5 * volumeDeterminant(x));
       return s == 0.0 ? 0.0 : 12.0 * r * std::fabs(r) / s;
     }
   }
@@ -190,7 +190,7 @@ struct MeanRatioShape
       {
         return setZero<3>(g);
       }
-      const double r = std::cbrt(0.5 * det); // (3 V)^(1/3)
+      const double r = cubeRoot(0.5 * det); // (3 V)^(1/3)
       const double q = 12.0 * r * std::fabs(r) / s;
       // d (r |r|) = 2 |r| dr, and dr = d det / (6 r^2)
       const double slope = 4.0 / (std::max(std::fabs(r), 6e-5 * std::sqrt(s)) * s);
@@ -370,7 +370,7 @@ struct MinimumAngleShape
   {
     double sine, cosine;
     AngleKernel<D>::least(x, sine, cosine);
-    return std::atan2(sine, cosine) * degree;
+    return angle(sine, cosine);
   }
   static double gradient(const Corners<D>& x, std::array<Vec<D>, D + 1>& g)
   {
@@ -385,10 +385,15 @@ struct MinimumAngleShape
     {
       ga *= degree;
     }
-    return std::atan2(sine, cosine) * degree;
+    return angle(sine, cosine);
   }
 
 private:
+  /// In degrees; atan2() would give a number for infinite arguments too.
+  static double angle(double sine, double cosine)
+  {
+    return std::atan2(sine, cosine) * degree + 0.0 * (sine + cosine);
+  }
   static constexpr double degree = 57.295779513082323;
 };
 }

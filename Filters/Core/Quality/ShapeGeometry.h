@@ -63,6 +63,16 @@ inline Eigen::Matrix<double, D, 1, Eigen::DontAlign> sumOfDifferences(
   return s;
 }
 
+/// Cube root that keeps its bits when x is scaled by a power of eight, which std::cbrt() does not.
+inline double cubeRoot(double x)
+{
+  int exponent;
+  const double mantissa = std::frexp(x, &exponent);
+  const int shift = exponent + 3000; // not negative for any double, 0 included
+  const int third = shift / 3;
+  return std::ldexp(std::cbrt(std::ldexp(mantissa, shift - 3 * third)), third - 1000);
+}
+
 /// D! times the signed volume.
 inline double volumeDeterminant(const Corners<2>& x)
 {

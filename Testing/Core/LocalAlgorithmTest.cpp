@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The local algorithm on clusters whose optimum is known.
+#include "Reposition/LocalAlgorithm.h"
+#include "TestMeshes.h"
+
+using namespace meshopt;
+
+namespace
+{
+// One free node, joined to the edges of a regular hexagon or to the faces of a regular octahedron.
+template <int D>
+MeshInput<D> star();
+
+template <>
+MeshInput<2> star<2>()
+{
+  MeshInput<2> in;
+  in.points.emplace_back(0.0, 0.0);
+  for (int k = 0; k < 6; ++k)
+  {
+    in.points.emplace_back(std::cos(k * M_PI / 3.0), std::sin(k * M_PI / 3.0));
+    in.cells.push_back({ 0, 1 + k, 1 + (k + 1) % 6 });
+  }
+  return in;
+}
+
+template <>
+MeshInput<3> star<3>()
+{
+  MeshInput<3> in;
+  in.points = { { 0, 0, 0 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 },
+    { 0, 0, -1 } };
+  for (int x : { 1, 2 })
+  {
+    for (int y : { 3, 4 })
+    {
+      for (int z : { 5, 6 })
+      {
+        const bool even = (x == 1) == ((y == 3) == (z == 5));
+        in.cells.push_back(even ? Simplex<3>{ 0, x, y, z } : Simplex<3>{ 0, x, z, y });
+      }
+    }
+  }
+  return in;
+}
+
+template <int D>
+Cluster<D> clusterOf(SimplexMesh<D>& mesh, Index cell, int level)
+{
+  MeshEditor<D> editor(mesh);
+  const ElementQuality<D, MeanEdgeShape<D>> quality{ 0.0 };
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    editor.setQuality(c, quality.value(mesh.corners(c), ElementMetric<D>{}));
+  }
+  std::vector<std::uint8_t> movable;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    movable.push_back(!mesh.isFixed(p));
+  }
+  ClusterGatherer<D> gatherer(editor);
+  Cluster<D> cluster;
+  gatherer.gather(cell, level, movable, cluster);
+  return cluster;
+}
+
+template <int D>
+LocalResult solve(Cluster<D>& cluster, double epsilon = 0.02)
+{
+  LocalParameters parameters;
+  parameters.epsilon = epsilon;
+  LocalAlgorithm<D, MeanEdgeShape<D>> local({ 0.0 }, parameters);
+  return local.solve(cluster, { ElementMetric<D>{} });
+}
+
+// S is quasi-concave in one node: from every start the centre is found.
+template <int D>
+void centreFromAnywhere(double optimum)
+{
+  TestRandom random(5);
+  for (int run = 0; run < 50; ++run)
+  {
+    MeshInput<D> in = star<D>();
+    for (int d = 0; d < D; ++d)
+    {
+      in.points[0][d] = 0.45 * random();
+    }
+    SimplexMesh<D> mesh = buildMesh(in);
+    Cluster<D> cluster = clusterOf(mesh, 0, 0);
+    ASSERT_EQ(cluster.numberOfMoving, 1);
+    ASSERT_EQ(cluster.cells.size(), in.cells.size());
+    const LocalResult result = solve(cluster, 1e-4);
+    EXPECT_GE(result.after, result.before);
+    EXPECT_NEAR(result.after, optimum, 2e-3);
+    EXPECT_LT(cluster.x[0].norm(), 2e-2);
+    for (std::size_t k = 1; k < cluster.points.size(); ++k)
+    {
+      EXPECT_EQ(cluster.x[k], mesh.point(cluster.points[k]));
+    }
+  }
+}
+}
+
+TEST(LocalAlgorithm, FindsTheCentreOfAHexagon) { centreFromAnywhere<2>(1.0); }
+
+TEST(LocalAlgorithm, FindsTheCentreOfAnOctahedron)
+{
+  const double p = 3.0 + 3.0 * std::sqrt(2.0);
+  centreFromAnywhere<3>(1296.0 * std::sqrt(2.0) / 6.0 / (p * p * p));
+}
+
+TEST(LocalAlgorithm, PutsAnOutsideNodeBack)
+{
+  MeshInput<3> in = star<3>();
+  in.points[0] = Vec<3>(0.7, 0.6, 0.1); // outside: some cells are inverted
+  SimplexMesh<3> mesh;
+  ASSERT_FALSE(SimplexMesh<3>::build(in, mesh));
+  Cluster<3> cluster = clusterOf(mesh, 0, 0);
+  const LocalResult result = solve(cluster);
+  EXPECT_LT(result.before, 0.0);
+  EXPECT_GT(result.after, 0.5);
+}
+
+TEST(LocalAlgorithm, NothingWorseAndQualitiesTrue)
+{
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(4, 0.3, seed));
+    Cluster<3> cluster = clusterOf(mesh, 6 * 21, 1);
+    EXPECT_GT(cluster.numberOfMoving, 8);
+    const LocalResult result = solve(cluster);
+    EXPECT_GT(result.after, result.before);
+    const ElementQuality<3, MeanEdgeShape<3>> quality{ 0.0 };
+    double worst = 1.0;
+    for (std::size_t k = 0; k < cluster.cells.size(); ++k)
+    {
+      EXPECT_EQ(
+        cluster.quality[k], quality.value(cluster.corners(static_cast<int>(k)), ElementMetric<3>{}));
+      worst = std::min(worst, cluster.quality[k]);
+    }
+    EXPECT_EQ(worst, result.after);
+  }
+}
+
+TEST(LocalAlgorithm, StationaryAtTheOptimum)
+{
+  SimplexMesh<2> mesh = buildMesh(star<2>());
+  Cluster<2> cluster = clusterOf(mesh, 0, 0);
+  const LocalResult result = solve(cluster);
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_EQ(result.after, result.before);
+}
+
+TEST(ClusterGatherer, NeighbourhoodsGrowByLevel)
+{
+  SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(6, 0.1));
+  const Index cell = 6 * (3 * 36 + 3 * 6 + 3);
+  const Cluster<3> zero = clusterOf(mesh, cell, 0), one = clusterOf(mesh, cell, 1);
+  EXPECT_EQ(zero.numberOfMoving, 4);
+  EXPECT_GT(one.numberOfMoving, 20);
+  EXPECT_EQ(std::set<Index>(one.cells.begin(), one.cells.end()).size(), one.cells.size());
+  for (const Simplex<3>& nodes : one.nodes) // every cell has a moving node
+  {
+    EXPECT_LT(*std::min_element(nodes.begin(), nodes.end()), one.numberOfMoving);
+  }
+}

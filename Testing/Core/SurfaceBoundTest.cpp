@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The certified bound: against brute force, against the table of known values, and against meshes that exist.
+#include "Boundary/SurfaceBound.h"
+#include "Boundary/ApexBound.h"
+#include "Quality/Shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace meshopt;
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+/// Best S over the apex, by trying ever smaller steps: a lower bound of the cap.
+double bruteFacet(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c)
+{
+  const Vec<3> n = (b - a).cross(c - a);
+  const double l = std::max((b - a).norm(), std::max((c - b).norm(), (a - c).norm()));
+  Vec<3> p = (a + b + c) / 3.0 + n.normalized() * (0.6 * l);
+  double q = MeanEdgeShape<3>::value({ a, b, c, p });
+  for (double h = 0.3 * l; h > 1e-9 * l; h *= 0.5)
+  {
+    for (bool better = true; better;)
+    {
+      better = false;
+      for (int d = 0; d < 6; ++d)
+      {
+        Vec<3> r = p;
+        r[d / 2] += d % 2 ? h : -h;
+        const double s = MeanEdgeShape<3>::value({ a, b, c, r });
+        if (s > q)
+        {
+          q = s;
+          p = r;
+          better = true;
+        }
+      }
+    }
+  }
+  return q;
+}
+
+/// A cube of n^3 small ones with 6 tetrahedra each; inner nodes are moved at random.
+MeshInput<3> cube(int n, double move, unsigned seed)
+{
+  MeshInput<3> in;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-move, move);
+  for (int k = 0; k <= n; ++k)
+  {
+    for (int j = 0; j <= n; ++j)
+    {
+      for (int i = 0; i <= n; ++i)
+      {
+        Vec<3> x(i, j, k);
+        if (i % n && j % n && k % n)
+        {
+          x += Vec<3>(shift(random), shift(random), shift(random));
+        }
+        in.points.push_back(x / n);
+      }
+    }
+  }
+  const int paths[6][3] = { { 1, 3, 0 }, { 5, 1, 0 }, { 3, 2, 0 }, { 2, 6, 0 }, { 4, 5, 0 },
+    { 6, 4, 0 } };
+  for (int k = 0; k < n; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        const auto id = [&](int c)
+        {
+          return static_cast<Index>(
+            i + (c & 1) + (n + 1) * (j + ((c >> 1) & 1) + (n + 1) * (k + (c >> 2))));
+        };
+        for (const auto& p : paths)
+        {
+          in.cells.push_back({ id(0), id(p[0]), id(p[1]), id(7) });
+        }
+      }
+    }
+  }
+  return in;
+}
+
+double worst(const SimplexMesh<3>& mesh)
+{
+  double q = 1.0;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    q = std::min(q, MeanEdgeShape<3>::value(mesh.corners(c)));
+  }
+  return q;
+}
+
+/// Two facets that share an edge of length 1, regular, at the angle theta.
+SurfaceBound<3> hinge(double theta, double off = std::sqrt(0.75))
+{
+  const Vec<3> points[4] = { Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), Vec<3>(0.5, off, 0),
+    Vec<3>(0.5, off * std::cos(theta), off * std::sin(theta)) };
+  return surfaceBound<3>(points, { { { 0, 1, 2 }, 0, 0, true }, { { 1, 0, 3 }, 0, 0, true } });
+}
+}
+
+TEST(FacetCap, AgainstBruteForce)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int k = 0; k < 300; ++k)
+  {
+    Vec<3> x[3];
+    for (Vec<3>& p : x)
+    {
+      p = Vec<3>(u(random), u(random), u(random));
+    }
+    if (k % 3 == 0) // needles, down to 1 : 1000
+    {
+      x[1] = x[0] + std::pow(10.0, -1.5 + 1.5 * u(random)) * (x[1] - x[0]);
+    }
+    if (k % 3 == 1) // caps
+    {
+      x[2] = 0.4 * x[0] + 0.6 * x[1] + std::pow(10.0, -1.5 + 1.5 * u(random)) * (x[2] - x[0]);
+    }
+    const double brute = bruteFacet(x[0], x[1], x[2]);
+    Vec<3> apex;
+    const double cap = facetCap(x[0], x[1], x[2], std::numeric_limits<double>::infinity(), &apex);
+    EXPECT_GE(cap, brute * (1.0 - 1e-12)) << "not an upper bound";
+    EXPECT_LE(cap, brute * (1.0 + 1e-5)) << "not sharp";
+    EXPECT_NEAR(MeanEdgeShape<3>::value({ x[0], x[1], x[2], apex }), cap, 1e-9);
+    EXPECT_NEAR(facetCap(x[2], x[1], x[0]), cap, 1e-9) << "order of nodes";
+    const double quick = facetCap(x[0], x[1], x[2], 0.5 * cap);
+    EXPECT_GE(quick, 0.5 * cap * (1.0 - 1e-12));
+    EXPECT_LE(quick, cap * (1.0 + 1e-12));
+  }
+}
+
+TEST(FacetCap, SpecialFacets)
+{
+  const Vec<3> a(0, 0, 0), b(1, 0, 0), c(0.5, std::sqrt(0.75), 0);
+  EXPECT_NEAR(facetCap(a, b, c), 1.0, 1e-12);
+  EXPECT_EQ(facetCap(a, b, a), 0.0);
+  EXPECT_EQ(facetCap(a, b, Vec<3>(3, 0, 0)), 0.0);
+  EXPECT_EQ(facetCap(a, b, Vec<3>(0, std::nan(""), 0)), 1.0) << "nothing known";
+  EXPECT_EQ(facetCap(Vec<3>(std::nan(""), 0, 0), b, c), 1.0);
+}
+
+TEST(EdgeBound, TableOfKnownValues)
+{
+  const double table[][2] = { { 5, .155 }, { 10, .295 }, { 20, .530 }, { 30, .712 }, { 45, .894 },
+    { 60, .983 }, { 70.5, 1.0 }, { 90, .951 }, { 110, .816 }, { 120, .725 }, { 140, .508 },
+    { 160, .261 }, { 170, .132 } };
+  for (const auto& row : table)
+  {
+    EXPECT_NEAR(angleCap(row[0] * pi / 180.0), row[1], 6e-4) << row[0] << " degrees";
+  }
+}
+
+TEST(EdgeBound, NoTetrahedronWithThisAngleIsBetter)
+{
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  double closest = 1.0;
+  for (int k = 0; k < 200000; ++k)
+  {
+    const double phi = 0.02 + 3.1 * std::fabs(u(random));
+    const double r = 0.9 + 0.5 * u(random), s = 0.9 + 0.5 * u(random);
+    const Vec<3> x[4] = { Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), Vec<3>(0.5 + 0.3 * u(random), r, 0),
+      Vec<3>(0.5 + 0.3 * u(random), s * std::cos(phi), s * std::sin(phi)) };
+    const double q = MeanEdgeShape<3>::value({ x[0], x[1], x[2], x[3] });
+    ASSERT_LE(q, angleCap(phi) * (1.0 + 1e-12));
+    closest = std::min(closest, angleCap(phi) - q);
+  }
+  EXPECT_LT(closest, 0.005);
+}
+
+TEST(EdgeBound, RegularFacetsGiveTheTable)
+{
+  // one tetrahedron fills a small angle best; at 141 degrees two regular ones fit exactly
+  for (double degrees : { 5.0, 10.0, 30.0, 60.0 })
+  {
+    EXPECT_NEAR(hinge(degrees * pi / 180.0).bound, angleCap(degrees * pi / 180.0), 5e-3);
+  }
+  EXPECT_NEAR(hinge(2.0 * std::acos(1.0 / 3.0)).bound, 1.0, 1e-6);
+  EXPECT_GT(hinge(350.0 * pi / 180.0).bound, 0.99);
+  EXPECT_EQ(hinge(0.0).bound, hinge(2.0 * pi).bound) << "folded onto each other: all around";
+}
+
+TEST(EdgeBound, NoFillingByOneOrTwoIsBetter)
+{
+  // brute force over the shared apex of two tetrahedra, and the one that both facets span
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  for (int k = 0; k < 15; ++k)
+  {
+    const double theta = 0.5 + u(random), r = 0.6 + 0.8 * u(random), s = 0.6 + 0.8 * u(random);
+    const Vec<3> a(0, 0, 0), b(1, 0, 0), c(u(random), r, 0);
+    const Vec<3> d(u(random), s * std::cos(theta), s * std::sin(theta));
+    double best = MeanEdgeShape<3>::value({ a, b, c, d });
+    for (int j = 0; j < 4000; ++j)
+    {
+      const double phi = theta * u(random), t = 0.4 + 1.2 * u(random);
+      const Vec<3> p(u(random), t * std::cos(phi), t * std::sin(phi));
+      best = std::max(best,
+        std::min(MeanEdgeShape<3>::value({ a, b, c, p }), MeanEdgeShape<3>::value({ a, b, p, d })));
+    }
+    const Vec<3> points[4] = { a, b, c, d };
+    const double bound =
+      surfaceBound<3>(points, { { { 0, 1, 2 }, 0, 0, true }, { { 1, 0, 3 }, 0, 0, true } }).bound;
+    EXPECT_GE(bound, best);
+  }
+}
+
+TEST(SurfaceBound, NoMeshIsAboveItsBound)
+{
+  for (unsigned seed = 0; seed < 8; ++seed)
+  {
+    SimplexMesh<3> mesh;
+    ASSERT_FALSE(SimplexMesh<3>::build(cube(4, 0.3, seed), mesh));
+    const SurfaceBound<3> bound = surfaceBound(mesh);
+    EXPECT_GE(bound.bound, worst(mesh));
+    EXPECT_EQ(bound.sides.size(), 6u * 16u * 2u);
+    for (std::size_t s = 0; s < bound.sides.size(); ++s)
+    {
+      EXPECT_GE(bound.sideCaps[s], MeanEdgeShape<3>::value(mesh.corners(bound.sides[s].cell)));
+    }
+    const std::vector<double> caps = bound.cellCaps(mesh.numberOfCellSlots());
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      EXPECT_GE(caps[c], MeanEdgeShape<3>::value(mesh.corners(c))) << "false cap of cell " << c;
+    }
+  }
+}
+
+TEST(SurfaceBound, EveryTetrahedronAloneIsItsOwnBound)
+{
+  // all four facets kept, all six angles: k = 1 is what there is, so no bound may be below it
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int k = 0; k < 200; ++k)
+  {
+    MeshInput<3> in;
+    for (int p = 0; p < 4; ++p)
+    {
+      in.points.emplace_back(u(random), u(random), u(random));
+    }
+    in.cells.push_back({ 0, 1, 2, 3 });
+    SimplexMesh<3> mesh;
+    ASSERT_FALSE(SimplexMesh<3>::build(in, mesh));
+    EXPECT_GE(surfaceBound(mesh).bound, worst(mesh));
+  }
+}
+
+TEST(SurfaceBound, QuickRunsGiveTheSameBound)
+{
+  SimplexMesh<3> mesh;
+  MeshInput<3> in = cube(4, 0.3, 1);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(-0.08, 0.08);
+  for (Vec<3>& p : in.points) // surface too
+  {
+    p += Vec<3>(u(random), u(random), u(random));
+  }
+  ASSERT_FALSE(SimplexMesh<3>::build(in, mesh));
+  SurfaceBoundOptions options;
+  const SurfaceBound<3> exact = surfaceBound(mesh, options);
+  options.enough = 0.6;
+  const SurfaceBound<3> quick = surfaceBound(mesh, options);
+  EXPECT_NEAR(quick.bound, exact.bound, 2e-7);
+  for (std::size_t s = 0; s < exact.sideCaps.size(); ++s)
+  {
+    EXPECT_LE(quick.sideCaps[s], exact.sideCaps[s] * (1.0 + 1e-12));
+    EXPECT_EQ(quick.sideCaps[s] < 0.6, exact.sideCaps[s] < 0.6);
+  }
+  options.listEdgesBelow = 0.7;
+  const SurfaceBound<3> listed = surfaceBound(mesh, options);
+  EXPECT_NEAR(listed.bound, exact.bound, 2e-7);
+  for (const EdgeBound& edge : listed.edges)
+  {
+    EXPECT_LT(edge.cap, 0.7);
+    EXPECT_LT(edge.a, edge.b);
+  }
+}
+
+TEST(SurfaceBound, InterfacesAreKeptOnBothSides)
+{
+  MeshInput<3> in = cube(2, 0.0, 1);
+  in.regions.resize(in.cells.size());
+  std::size_t interfaceSides = 2 * 2 * 2 *
+    2; // a plane of 2 x 2 squares, two triangles each, two sides
+  for (std::size_t c = 0; c < in.cells.size(); ++c)
+  {
+    double x = 0.0;
+    for (Index p : in.cells[c])
+    {
+      x += in.points[p][0] / 4.0;
+    }
+    in.regions[c] = x > 0.5;
+  }
+  SimplexMesh<3> mesh;
+  ASSERT_FALSE(SimplexMesh<3>::build(in, mesh));
+  const SurfaceBound<3> bound = surfaceBound(mesh);
+  EXPECT_EQ(bound.sides.size(), 6u * 4u * 2u + interfaceSides);
+  EXPECT_GE(bound.bound, worst(mesh));
+}
+
+TEST(SurfaceBound, OtherMeasures)
+{
+  SimplexMesh<3> mesh;
+  ASSERT_FALSE(SimplexMesh<3>::build(cube(3, 0.3, 2), mesh));
+  SurfaceBoundOptions options;
+  for (Measure m : { Measure::VolumeLength, Measure::MeanRatio })
+  {
+    options.measure = m;
+    const SurfaceBound<3> bound = surfaceBound(mesh, options);
+    // right isosceles triangles: 4 sqrt(3) A / sum l^2 = sqrt(3) / 2
+    const double expected = m == Measure::VolumeLength ? std::sqrt(0.75) : std::cbrt(0.75);
+    EXPECT_NEAR(bound.bound, expected, 1e-12);
+    for (std::size_t s = 0; s < bound.sides.size(); ++s)
+    {
+      const Corners<3> x = mesh.corners(bound.sides[s].cell);
+      const double q = m == Measure::VolumeLength ? VolumeLengthShape<3>::value(x)
+                                                  : MeanRatioShape<3>::value(x);
+      EXPECT_LE(q, bound.sideCaps[s] * (1.0 + 1e-12));
+    }
+  }
+  options.measure = Measure::MinimumSine;
+  EXPECT_EQ(surfaceBound(mesh, options).bound, regularValue<3>(Measure::MinimumSine));
+}
+
+TEST(SurfaceBound, PlaneCorner)
+{
+  // a corner of 20 degrees between edges of length 1 and 0.5: one triangle has it all, or several share it
+  const double theta = 20.0 * pi / 180.0;
+  MeshInput<2> in;
+  in.points = { Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(0.5 * std::cos(theta), 0.5 * std::sin(theta)) };
+  in.cells = { { 0, 1, 2 } };
+  SimplexMesh<2> mesh;
+  ASSERT_FALSE(SimplexMesh<2>::build(in, mesh));
+  const double alone = MeanEdgeShape<2>::value(mesh.corners(0));
+  const double corner20 = std::max(alone, angleCap2(0.5 * theta));
+  EXPECT_NEAR(surfaceBound(mesh).bound, corner20, 1e-9);
+  // the isosceles triangle is the best with its angle
+  EXPECT_NEAR(angleCap2(pi / 3.0), 1.0, 1e-15);
+  for (double r = 0.5; r < 2.0; r += 0.01)
+  {
+    EXPECT_LE(MeanEdgeShape<2>::value(
+                { Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(r * std::cos(theta), r * std::sin(theta)) }),
+      angleCap2(theta) * (1.0 + 1e-14));
+  }
+}
