@@ -30,7 +30,8 @@ struct QualityStatistics
   double squares = 0.0;                                      ///< sum of (value - mean)^2
 
   void add(double value);
-  /// Adds n values in two passes over them, which is faster than one by one (and not the same bits).
+  /// Adds n values in two passes over them, which is faster than one by one (and not the same
+  /// bits).
   void add(const double* values, std::int64_t n);
   /// Adds another set's; by Chan, Golub, LeVeque (1979), which does not cancel where the spread is
   /// small.
