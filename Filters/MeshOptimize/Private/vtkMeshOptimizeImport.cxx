@@ -13,35 +13,6 @@ using meshopt::MeshInput;
 namespace
 {
 
-template <int D>
-void ImportPoints(vtkUnstructuredGrid* grid, const Frame<D>& frame, MeshInput<D>& input)
-{
-  const vtkIdType n = grid->GetNumberOfPoints();
-  input.points.resize(static_cast<std::size_t>(n));
-  for (vtkIdType p = 0; p < n; ++p)
-  {
-    double x[3];
-    grid->GetPoint(p, x);
-    input.points[p] = frame.ToCore(x);
-  }
-}
-
-template <int D>
-void ImportSimplices(vtkUnstructuredGrid* grid, const Cells& cells, MeshInput<D>& input)
-{
-  input.cells.resize(cells.Simplices.size());
-  for (std::size_t k = 0; k < cells.Simplices.size(); ++k)
-  {
-    vtkIdType n = 0;
-    const vtkIdType* ids = nullptr;
-    grid->GetCellPoints(cells.Simplices[k], n, ids);
-    for (int i = 0; i <= D; ++i)
-    {
-      input.cells[k][i] = static_cast<Index>(ids[i]);
-    }
-  }
-}
-
 /**
  * Points of cells that pass through, and those of the caller's mask.
  */
@@ -113,12 +84,37 @@ void ImportKept(vtkUnstructuredGrid* grid, const Cells& cells, MeshInput<D>& inp
 } // namespace
 
 template <int D>
+MeshInput<D> ImportGeometry(
+  vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, const Frame<D>& frame)
+{
+  MeshInput<D> input;
+  const vtkIdType numberOfPoints = grid->GetNumberOfPoints();
+  input.points.resize(static_cast<std::size_t>(numberOfPoints));
+  for (vtkIdType p = 0; p < numberOfPoints; ++p)
+  {
+    double x[3];
+    grid->GetPoint(p, x);
+    input.points[p] = frame.ToCore(x);
+  }
+  input.cells.resize(simplices.size());
+  for (std::size_t k = 0; k < simplices.size(); ++k)
+  {
+    vtkIdType n = 0;
+    const vtkIdType* ids = nullptr;
+    grid->GetCellPoints(simplices[k], n, ids);
+    for (int i = 0; i <= D; ++i)
+    {
+      input.cells[k][i] = static_cast<Index>(ids[i]);
+    }
+  }
+  return input;
+}
+
+template <int D>
 MeshInput<D> ImportMesh(
   vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays, const Frame<D>& frame)
 {
-  MeshInput<D> input;
-  ImportPoints(grid, frame, input);
-  ImportSimplices(grid, cells, input);
+  MeshInput<D> input = ImportGeometry(grid, cells.Simplices, frame);
   input.regions = ReadRegions(arrays.Region, cells);
   ImportFixedPoints(cells, arrays.FixedPoints, input);
   ImportKept(grid, cells, input);
@@ -145,6 +141,10 @@ std::string BuildMesh(vtkUnstructuredGrid* grid, const Cells& cells, const Input
   return message;
 }
 
+template meshopt::MeshInput<2> ImportGeometry<2>(
+  vtkUnstructuredGrid*, const std::vector<vtkIdType>&, const Frame<2>&);
+template meshopt::MeshInput<3> ImportGeometry<3>(
+  vtkUnstructuredGrid*, const std::vector<vtkIdType>&, const Frame<3>&);
 template meshopt::MeshInput<2> ImportMesh<2>(
   vtkUnstructuredGrid*, const Cells&, const InputArrays&, const Frame<2>&);
 template meshopt::MeshInput<3> ImportMesh<3>(

@@ -14,8 +14,15 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Point ids of the core are those of the grid (points that no simplex uses are there as well and stay as they are); its
- * cell k is cells.Simplices[k].
+ * Points and simplices only. Point ids of the core are those of the grid (points that no simplex uses are there as well
+ * and stay as they are); its cell k is simplices[k].
+ */
+template <int D>
+meshopt::MeshInput<D> ImportGeometry(
+  vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, const Frame<D>& frame);
+
+/**
+ * Points and simplices with what must be kept: regions, fixed points, and what other cells touch.
  */
 template <int D>
 meshopt::MeshInput<D> ImportMesh(

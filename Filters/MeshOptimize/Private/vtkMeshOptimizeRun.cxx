@@ -68,7 +68,7 @@ void Export(vtkUnstructuredGrid* input, const Cells& cells, const Frame<D>& fram
   std::vector<Sample> samples;
   if (input->GetPointData()->GetNumberOfArrays() > 0 && !map.SampledPoints.empty())
   {
-    samples = SampleInput(*FindBackground(input, cells, frame, metric.background()), map, mesh);
+    samples = SampleInput(input, cells, frame, map, mesh);
   }
   TransferPointData(input->GetPointData(), map, samples, output->GetPointData());
   TransferCellData(input->GetCellData(), map, output->GetCellData());

@@ -4,6 +4,9 @@
 
 #include "vtkUnstructuredGrid.h"
 
+#include "Metric/Background.h"
+
+#include <algorithm>
 #include <limits>
 
 namespace vtkMeshOptimizeBridge
@@ -11,9 +14,72 @@ namespace vtkMeshOptimizeBridge
 
 using meshopt::Background;
 using meshopt::Index;
+using meshopt::SimplexMesh;
 
 namespace
 {
+
+/**
+ * Core ids, ascending, of the simplices of the input that are gone or have a node that moved.
+ */
+template <int D>
+std::vector<Index> ListChangedSimplices(
+  const Cells& cells, const OutputMap& map, const SimplexMesh<D>& mesh)
+{
+  std::vector<char> hasMoved(mesh.numberOfPointSlots(), 0), isKept(cells.Simplices.size(), 0);
+  for (const vtkIdType id : map.SampledPoints)
+  {
+    hasMoved[map.PointToSlot[id]] = 1;
+  }
+  for (vtkIdType c = 0; c < map.NumberOfOldCells; ++c)
+  {
+    const Index slot = map.CellToSlot[c];
+    if (slot != meshopt::None)
+    {
+      const auto& nodes = mesh.nodes(slot);
+      isKept[slot] = std::none_of(
+        nodes.begin(), nodes.end(), [&](Index p) { return hasMoved[p] != 0; });
+    }
+  }
+  std::vector<Index> changed;
+  for (std::size_t k = 0; k < isKept.size(); ++k)
+  {
+    if (!isKept[k])
+    {
+      changed.push_back(static_cast<Index>(k));
+    }
+  }
+  return changed;
+}
+
+template <int D>
+Background<D> MakeBackground(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
+  const std::vector<Index>& changed)
+{
+  std::vector<vtkIdType> simplices(changed.size());
+  std::transform(changed.begin(), changed.end(), simplices.begin(),
+    [&](Index k) { return cells.Simplices[k]; });
+  SimplexMesh<D> mesh;
+  SimplexMesh<D>::build(ImportGeometry(grid, simplices, frame), mesh); // went well with all of them
+  return Background<D>(mesh);
+}
+
+/**
+ * A cell of the background near the point in slot p: one of its own, or the parent of a new one.
+ */
+template <int D>
+Index FindHint(const Background<D>& background, const std::vector<Index>& changed,
+  const SimplexMesh<D>& mesh, Index p)
+{
+  if (p < mesh.numberOfInputPoints())
+  {
+    return background.cellOfPoint(p);
+  }
+  const Index parent = mesh.parent(mesh.cellOfPoint(p));
+  const auto found = std::lower_bound(changed.begin(), changed.end(), parent);
+  return found != changed.end() && *found == parent ? static_cast<Index>(found - changed.begin())
+                                                    : meshopt::None;
+}
 
 template <int D>
 Sample MakeSample(
@@ -38,43 +104,26 @@ Sample MakeSample(
 } // namespace
 
 template <int D>
-std::shared_ptr<const Background<D>> FindBackground(vtkUnstructuredGrid* grid, const Cells& cells,
-  const Frame<D>& frame, std::shared_ptr<const Background<D>> existing)
+std::vector<Sample> SampleInput(vtkUnstructuredGrid* grid, const Cells& cells,
+  const Frame<D>& frame, const OutputMap& map, const SimplexMesh<D>& mesh)
 {
-  if (existing)
-  {
-    return existing;
-  }
-  meshopt::SimplexMesh<D> mesh;
-  BuildMesh(grid, cells, InputArrays(), frame, mesh); // has gone well before
-  return std::make_shared<const Background<D>>(mesh);
-}
-
-template <int D>
-std::vector<Sample> SampleInput(const Background<D>& background, const OutputMap& map,
-  const meshopt::SimplexMesh<D>& mesh)
-{
+  const std::vector<Index> changed = ListChangedSimplices(cells, map, mesh);
+  const Background<D> background = MakeBackground(grid, cells, frame, changed);
   std::vector<Sample> samples;
   samples.reserve(map.SampledPoints.size());
-  for (vtkIdType id : map.SampledPoints)
+  for (const vtkIdType id : map.SampledPoints)
   {
-    const Index slot = map.PointToSlot[id];
-    // Cells of the background are those of the input: a new point is near the parent of its cell.
-    const Index hint = slot < mesh.numberOfInputPoints() ? background.cellOfPoint(slot)
-                                                         : mesh.parent(mesh.cellOfPoint(slot));
-    const meshopt::Location<D> place = background.locate(mesh.point(slot), hint);
-    samples.push_back(MakeSample(background, mesh.point(slot), place));
+    const Index p = map.PointToSlot[id];
+    const meshopt::Location<D> place =
+      background.locate(mesh.point(p), FindHint(background, changed, mesh, p));
+    samples.push_back(MakeSample(background, mesh.point(p), place));
   }
   return samples;
 }
 
-template std::shared_ptr<const Background<2>> FindBackground<2>(vtkUnstructuredGrid*, const Cells&,
-  const Frame<2>&, std::shared_ptr<const Background<2>>);
-template std::shared_ptr<const Background<3>> FindBackground<3>(vtkUnstructuredGrid*, const Cells&,
-  const Frame<3>&, std::shared_ptr<const Background<3>>);
-template std::vector<Sample> SampleInput<2>(
-  const Background<2>&, const OutputMap&, const meshopt::SimplexMesh<2>&);
-template std::vector<Sample> SampleInput<3>(
-  const Background<3>&, const OutputMap&, const meshopt::SimplexMesh<3>&);
+template std::vector<Sample> SampleInput<2>(vtkUnstructuredGrid*, const Cells&, const Frame<2>&,
+  const OutputMap&, const SimplexMesh<2>&);
+template std::vector<Sample> SampleInput<3>(vtkUnstructuredGrid*, const Cells&, const Frame<3>&,
+  const OutputMap&, const SimplexMesh<3>&);
 
 } // namespace vtkMeshOptimizeBridge

@@ -6,10 +6,7 @@
 
 #include "vtkMeshOptimizeExport.h"
 
-#include "Metric/Background.h"
-
 #include <array>
-#include <memory>
 #include <vector>
 
 namespace vtkMeshOptimizeBridge
@@ -28,20 +25,14 @@ struct Sample
 };
 
 /**
- * The input mesh as it was, to look points up in: that of the metric if it has one, else built anew,
- * which costs time only where it is needed, and no memory during the optimization.
- */
-template <int D>
-std::shared_ptr<const meshopt::Background<D>> FindBackground(vtkUnstructuredGrid* grid,
-  const Cells& cells, const Frame<D>& frame,
-  std::shared_ptr<const meshopt::Background<D>> existing);
-
-/**
  * Finds each of map.SampledPoints in the input mesh; points outside take the nearest place.
+ *
+ * It is looked for among the simplices that are not in the output as they were: these fill the very
+ * part of space that the changed cells of the output fill. So the cost is that of what has changed.
  */
 template <int D>
-std::vector<Sample> SampleInput(const meshopt::Background<D>& background, const OutputMap& map,
-  const meshopt::SimplexMesh<D>& mesh);
+std::vector<Sample> SampleInput(vtkUnstructuredGrid* grid, const Cells& cells,
+  const Frame<D>& frame, const OutputMap& map, const meshopt::SimplexMesh<D>& mesh);
 
 } // namespace vtkMeshOptimizeBridge
 
