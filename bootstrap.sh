@@ -64,11 +64,12 @@ END
 }
 
 # Runs a command on a display of its own. The server finds a free number itself: xvfb-run -a can collide with another
-# that starts at the same moment.
+# that starts at the same moment. -noreset: else the server starts anew whenever its last client leaves, and a program
+# that connects just then is refused.
 with_display() {
   local number_file server status=0
   number_file=$(mktemp)
-  Xvfb -displayfd 9 -screen 0 1600x1280x24 -nolisten tcp 9> "$number_file" > /dev/null 2>&1 &
+  Xvfb -displayfd 9 -screen 0 1600x1280x24 -noreset -nolisten tcp 9> "$number_file" > /dev/null 2>&1 &
   server=$!
   for _ in $(seq 100); do
     [ -s "$number_file" ] && break
