@@ -35,7 +35,7 @@ def image(path):
     reader = vtkPNGReader()
     reader.SetFileName(path)
     reader.Update()
-    return reader
+    return reader.GetOutput()
 
 
 if os.environ.get("MESHOPTIMIZE_ACCEPT_BASELINES") == "1":
@@ -44,8 +44,8 @@ if os.environ.get("MESHOPTIMIZE_ACCEPT_BASELINES") == "1":
     print("accepted", baseline)
 else:
     difference = vtkImageDifference()
-    difference.SetInputConnection(image(picture).GetOutputPort())
-    difference.SetImageConnection(image(baseline).GetOutputPort())
+    difference.SetInputData(image(picture))
+    difference.SetImageData(image(baseline))
     difference.Update()
     error = difference.GetThresholdedError()
     print(f"difference {error:.2f}, allowed {TOLERANCE}")
