@@ -71,6 +71,7 @@ public:
   std::size_t begin();
   /// Keeps what was done since `place`. The journal is emptied when the outermost one commits.
   void commit(std::size_t place);
+  bool inTransaction() const { return this->depth_ > 0; }
   /// Undoes what was done since `place`, in reverse, bit for bit.
   void rollback(std::size_t place);
 

@@ -4,6 +4,7 @@
 #ifndef meshopt_Optimize_Improver_h
 #define meshopt_Optimize_Improver_h
 
+#include "Boundary/ApexBound.h"
 #include "Optimize/Options.h"
 #include "Optimize/QualityModel.h"
 #include "Reconnect/Cavity.h"
@@ -36,8 +37,14 @@ public:
   /// Cells that the last successful improve() made or whose quality it changed; some may be dead.
   const std::vector<Index>& changed() const { return this->changed_; }
 
-  /// Node motion stops at this quality: what is more than enough is not paid for.
-  void setEnough(double quality) { this->enough_ = quality; }
+  /// Node motion stops a little above `quality`: what is more than enough is not paid for.
+  /// Insertion must not make more cells under `guard` than it removes: otherwise many cells that
+  /// are hardly better come for one that is worst. -1: no such guard.
+  void setTarget(double quality, double guard)
+  {
+    this->target_ = quality;
+    this->guard_ = guard;
+  }
   /// Net number of cells that may still be added.
   void setGrowth(long cells) { this->growth_ = cells; }
   long growth() const { return this->growth_; }
@@ -52,8 +59,19 @@ private:
   /// Least gain that makes a change worth it, at quality q: 1e-3, less where all is tiny.
   static double gain(double q)
   {
-    return std::min(1e-3, std::max(1e-6, 0.01 * std::fabs(q)));
+    return std::min(1e-3, std::max(1e-7, 0.002 * std::fabs(q)));
   }
+
+  /// A place to go back to.
+  struct Place
+  {
+    std::size_t journal, samples;
+    long growth, bad;
+  };
+  Place begin();
+  void commit(const Place& place);
+  void rollback(const Place& place);
+  void place(Index p, const Vec<D>& x, Index near);
 
   bool reconnect(Index t);
   bool move(Index t);
@@ -66,10 +84,13 @@ private:
 
   double tryInsertion(Index t, Index p, Vec<D>& x, bool needGain);
   void seeds(Index t, std::vector<Vec<D>>& x) const;
+  long badBalance() const;
   bool insertHere(Index t, Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells);
   bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
+  double enough() const { return this->target_ + 0.02; }
+  bool isBad(double q) const { return q < this->guard_; }
   void count(Operation op, bool success)
   {
     ++this->tried[static_cast<int>(op)];
@@ -79,10 +100,13 @@ private:
   MeshEditor<D>* editor_;
   const QualityModel<D, Shape>* model_;
   const Options* options_;
-  double enough_ = 1.0;
+  double target_ = 1.0;
+  double guard_ = -1.0;
+  long bad_ = 0; ///< cells under guard_ made, less those removed, since the construction
   long growth_ = 0;
   bool tangled_ = false;
 
+  std::vector<std::pair<Index, typename NodalMetric<D>::Sample>> samples_; ///< before the moves
   std::vector<Index> changed_, star_;
   std::vector<Simplex<D>> cells_, bestCells_;
   std::vector<Index> bestCavity_;

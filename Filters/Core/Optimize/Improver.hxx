@@ -29,12 +29,59 @@ bool Improver<D, Shape>::improve(Index t, int level)
   {
     return true;
   }
+  if (this->growth_ <= 0)
+  {
+    return false; // what is left nearly always adds cells
+  }
   if (level >= Insertion && this->options_->insertNodes && this->insert(t))
   {
     return true;
   }
   return level >= LookAhead && this->options_->insertNodes &&
     this->lookAhead(t, level == LookAhead ? 30 : 120);
+}
+
+// --- transactions: the editor's, and with it the metric at the points that moved
+
+template <int D, class Shape>
+typename Improver<D, Shape>::Place Improver<D, Shape>::begin()
+{
+  return { this->editor_->begin(), this->samples_.size(), this->growth_, this->bad_ };
+}
+
+template <int D, class Shape>
+void Improver<D, Shape>::commit(const Place& place)
+{
+  this->editor_->commit(place.journal);
+  if (!this->editor_->inTransaction())
+  {
+    this->samples_.clear();
+  }
+}
+
+template <int D, class Shape>
+void Improver<D, Shape>::rollback(const Place& place)
+{
+  this->editor_->rollback(place.journal);
+  while (this->samples_.size() > place.samples)
+  {
+    this->model_->metric->setSample(this->samples_.back().first, this->samples_.back().second);
+    this->samples_.pop_back();
+  }
+  this->growth_ = place.growth;
+  this->bad_ = place.bad;
+}
+
+/// Puts p at x, and samples the metric there; within a transaction. `near` is a point close by.
+template <int D, class Shape>
+void Improver<D, Shape>::place(Index p, const Vec<D>& x, Index near)
+{
+  this->editor_->movePoint(p, x);
+  if (!this->model_->plain)
+  {
+    this->samples_.emplace_back(p, this->model_->metric->sample(p));
+    this->model_->metric->resample(p, x, near);
+  }
 }
 
 template <int D, class Shape>
@@ -50,10 +97,20 @@ bool Improver<D, Shape>::replace(
   {
     this->qualities_.push_back((*this->model_)(c));
   }
+  long bad = 0;
+  for (double q : this->qualities_)
+  {
+    bad += this->isBad(q);
+  }
+  for (Index c : cavity)
+  {
+    bad -= this->isBad(this->editor_->mesh().quality(c));
+  }
   if (!this->editor_->replace(cavity, cells, this->qualities_))
   {
     return false;
   }
+  this->bad_ += bad;
   this->growth_ -= static_cast<long>(cells.size()) - static_cast<long>(cavity.size());
   const std::vector<Index>& created = this->editor_->created();
   this->changed_.insert(this->changed_.end(), created.begin(), created.end());
@@ -202,41 +259,35 @@ bool Improver<D, Shape>::moveNode(Index v)
     old = std::min(old, mesh.quality(c));
   }
   this->loadStar(v);
-  const Vec<D> before = mesh.point(v);
-  Vec<D> x = before;
+  Vec<D> x = mesh.point(v);
   const double now =
-    this->problem_.maximize(x, std::max(this->enough_, old + 2 * gain(old)), 0.5 * gain(old));
+    this->problem_.maximize(x, std::max(this->enough(), old + 2 * gain(old)), 0.5 * gain(old));
   const bool better = now > old + gain(old);
   this->count(Operation::NodeMotion, better);
   if (!better)
   {
     return false;
   }
-  const std::size_t place = this->editor_->begin();
-  this->editor_->movePoint(v, x);
+  const Place start = this->begin();
+  this->place(v, x, v);
   bool holds = true;
-  if (!this->model_->plain)
-  {
-    this->model_->metric->resample(v, x);
-  }
+  long bad = 0;
   for (std::size_t k = 0; k < this->star_.size(); ++k)
   {
     const Index c = this->star_[k];
     const double q = (*this->model_)(mesh.nodes(c));
     holds &= q > old;
+    bad += this->isBad(q) - this->isBad(mesh.quality(c));
     this->editor_->setQuality(c, q);
   }
   if (!holds)
   {
-    this->editor_->rollback(place);
-    if (!this->model_->plain)
-    {
-      this->model_->metric->resample(v, before);
-    }
+    this->rollback(start);
     return false;
   }
+  this->bad_ += bad;
   this->editor_->stamp(this->star_);
-  this->editor_->commit(place);
+  this->commit(start);
   this->changed_.insert(this->changed_.end(), this->star_.begin(), this->star_.end());
   return true;
 }
@@ -322,7 +373,24 @@ void Improver<D, Shape>::seeds(Index t, std::vector<Vec<D>>& x) const
     centre += c[i];
   }
   centre /= D + 1;
-  x.assign(1, centre);
+  x.clear();
+  for (int i = 0; i <= D; ++i)
+  {
+    if constexpr (D == 3)
+    {
+      // where the cell's kept facet has its best fourth node, and half way there
+      if (this->editor_->mesh().isConstrained(t, i))
+      {
+        const Facet<3> f = this->editor_->mesh().facet(t, i);
+        Vec<3> apex;
+        facetCap(this->editor_->mesh().point(f[0]), this->editor_->mesh().point(f[1]),
+          this->editor_->mesh().point(f[2]), std::numeric_limits<double>::infinity(), &apex);
+        x.push_back(apex);
+        x.push_back(0.5 * (apex + c[i]));
+      }
+    }
+  }
+  x.push_back(centre);
   for (int i = 0; D == 3 && i <= D; ++i)
   {
     const Vec<D> f = (Vec<D>(centre * (D + 1)) - c[i]) / D;
@@ -343,11 +411,7 @@ double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGa
   double q = Never;
   for (int round = 0; round < 2; ++round)
   {
-    this->editor_->movePoint(p, x);
-    if (!this->model_->plain)
-    {
-      this->model_->metric->resample(p, x);
-    }
+    this->place(p, x, this->editor_->mesh().nodes(t)[0]);
     q = this->cavity_.grow(*this->editor_, *this->model_, t, p, x, {});
     if (!(q > 0.0))
     {
@@ -371,7 +435,7 @@ double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGa
         this->problem_.addFacetMetric(this->model_->metric->element(cell));
       }
     }
-    q = this->problem_.maximize(x, std::max(this->enough_, old + 2 * gain(old)), 0.5 * gain(old));
+    q = this->problem_.maximize(x, std::max(this->enough(), old + 2 * gain(old)), 0.5 * gain(old));
     if (!needGain || q > old + gain(old))
     {
       break;
@@ -393,11 +457,7 @@ bool Improver<D, Shape>::insertHere(Index, Index p, const Vec<D>& x)
   {
     return false;
   }
-  this->editor_->movePoint(p, x);
-  if (!this->model_->plain)
-  {
-    this->model_->metric->resample(p, x);
-  }
+  this->place(p, x, this->cavity_.facets()[0][0]);
   this->cells_.clear();
   for (const Facet<D>& f : this->cavity_.facets())
   {
@@ -409,22 +469,41 @@ bool Improver<D, Shape>::insertHere(Index, Index p, const Vec<D>& x)
   return this->replace(this->cavity_.cells(), this->cells_);
 }
 
+/// Bad cells of the insertion last tried, less those of its cavity.
+template <int D, class Shape>
+long Improver<D, Shape>::badBalance() const
+{
+  long bad = 0;
+  for (double q : this->problem_.values())
+  {
+    bad += this->isBad(q);
+  }
+  for (Index c : this->cavity_.cells())
+  {
+    bad -= this->isBad(this->editor_->mesh().quality(c));
+  }
+  return bad;
+}
+
 template <int D, class Shape>
 bool Improver<D, Shape>::insert(Index t)
 {
   std::vector<Vec<D>> x;
   this->seeds(t, x);
-  const std::size_t place = this->editor_->begin();
+  const Place start = this->begin();
   const Index p = this->editor_->addPoint(x[0]);
   bool done = false;
   for (std::size_t k = 0; k < x.size() && p != None && !done; ++k)
   {
     const double q = this->tryInsertion(t, p, x[k], true);
     const double old = this->cavity_.oldWorst();
-    done = q > old + gain(old) && this->insertHere(t, p, x[k]);
+    if (q > old + gain(old) && this->badBalance() <= 0)
+    {
+      done = this->insertHere(t, p, x[k]);
+    }
   }
   this->count(Operation::NodeInsertion, done);
-  done ? this->editor_->commit(place) : this->editor_->rollback(place);
+  done ? this->commit(start) : this->rollback(start);
   return done;
 }
 
@@ -439,10 +518,9 @@ bool Improver<D, Shape>::lookAhead(Index t, int operations)
   this->seeds(t, x);
   const double old = this->editor_->mesh().quality(t);
   const double goal = old + gain(old);
-  const long growth = this->growth_;
   for (Vec<D>& seed : x)
   {
-    const std::size_t place = this->editor_->begin();
+    const Place start = this->begin();
     const Index p = this->editor_->addPoint(seed);
     std::vector<Index> affected;
     bool done = false;
@@ -451,17 +529,16 @@ bool Improver<D, Shape>::lookAhead(Index t, int operations)
       this->insertHere(t, p, seed))
     {
       affected = this->changed_;
-      done = this->settle(affected, goal, operations);
+      done = this->settle(affected, goal, operations) && this->bad_ <= start.bad;
     }
     if (done)
     {
-      this->editor_->commit(place);
+      this->commit(start);
       this->changed_ = affected;
       this->count(Operation::LookAhead, true);
       return true;
     }
-    this->editor_->rollback(place);
-    this->growth_ = growth;
+    this->rollback(start);
   }
   this->changed_.clear();
   this->count(Operation::LookAhead, false);
@@ -471,6 +548,7 @@ bool Improver<D, Shape>::lookAhead(Index t, int operations)
 template <int D, class Shape>
 bool Improver<D, Shape>::settle(std::vector<Index>& affected, double goal, int operations)
 {
+  const int level = operations > 30 ? Insertion : Topology;
   const SimplexMesh<D>& mesh = this->editor_->mesh();
   while (true)
   {
@@ -488,7 +566,7 @@ bool Improver<D, Shape>::settle(std::vector<Index>& affected, double goal, int o
     {
       return true;
     }
-    if (--operations < 0 || !this->improve(worst, Topology))
+    if (--operations < 0 || !this->improve(worst, level))
     {
       return false;
     }

@@ -22,6 +22,11 @@ constexpr int MaximumPasses = 10;    // of one stage
 constexpr Index CellsPerChunk = 20000; // fewer make borders too long
 constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
 constexpr int MaximumChunks = 256;
+constexpr std::size_t PolishedCells = 10;
+constexpr int PolishRounds = 10;
+/// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
+constexpr long Patience[] = { 1000000, 50, 20, 20 };
+constexpr long PatientTries = 200; // before that is looked at
 /// Tries of one chunk between two looks at progress, by level: some tenth of a second.
 constexpr long Tries[] = { 20000, 4000, 400, 100 };
 
@@ -43,7 +48,7 @@ private:
     MeshEditor<D> editor;
     Improver<D, Shape> improver;
     Queue queue;
-    long kept = 0; // changes
+    long kept = 0, tries = 0; // in this pass
 
     Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Options& options)
       : editor(root.mesh(), root.clock(), root.lastMark())
@@ -55,12 +60,15 @@ private:
   std::vector<double> stages() const;
   int highestLevel() const;
   bool stage(double target);
+  bool polish(double target);
   void pass(double target, int level, const std::vector<Index>& bad);
   void collect(double target, int level, std::vector<Index>& bad, long& capped) const;
   void distribute(double target, int level, const std::vector<Index>& bad);
   void work(Worker& worker, double target, int level);
   void gather();
   bool worthTrying(Index c, int level) const;
+  /// How hard a try is: those without guard are the hardest.
+  int rank(int level) const { return level + (this->guard_ ? 0 : 4); }
   bool keepGoing(double target);
   bool outOfTime() const;
   void record(double target, int pass);
@@ -80,7 +88,9 @@ private:
   std::vector<std::unique_ptr<Worker>> workers_;
   int numberOfChunks_ = 0;
   int variant_ = 0;
+  bool guard_ = true;
   long growth_ = 0, kept_ = 0;
+  long reserve_ = 0; ///< of the growth, for polish()
   std::array<long, NumberOfOperations> tried_{}, done_{};
   double stageDone_ = 0.0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -138,6 +148,7 @@ void WorstFirst<D, Shape>::run()
   const std::vector<double> stages = this->stages();
   this->growth_ = static_cast<long>(
     this->options_.growthBudget * static_cast<double>(this->mesh().countCells()));
+  this->reserve_ = this->growth_ / 10;
   this->caps_.build(
     this->mesh(), this->options_.measure, stages.back(), this->metric_.isTrivial());
   this->report_.bound = this->caps_.bound();
@@ -148,24 +159,68 @@ void WorstFirst<D, Shape>::run()
     this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
     const double before = this->report_.history.back().worst;
     more = this->stage(stages[k]);
+    if (more && k == 0)
+    {
+      more = this->polish(stages[k]);
+    }
     // Past the target, two stages that did not lift the worst cell are the end.
     const bool stuck = this->report_.history.back().worst < before + 1e-3;
     idle = stages[k] > this->options_.targetQuality + 1e-9 && stuck ? idle + 1 : 0;
     more &= idle < 2;
   }
+  if (more)
+  {
+    this->polish(this->options_.targetQuality);
+  }
   this->report_.stopReason = this->reason();
+}
+
+/// The few worst cells once more, now at the price of others becoming bad; again as long as that
+/// lifts the worst one.
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::polish(double target)
+{
+  bool more = true;
+  this->guard_ = false;
+  for (int round = 0; round < PolishRounds && more; ++round)
+  {
+    std::vector<double> worst;
+    for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+    {
+      if (this->mesh().isAlive(c) && this->mesh().quality(c) < target &&
+        !this->caps_.isCapped(this->mesh(), c))
+      {
+        worst.push_back(this->mesh().quality(c));
+      }
+    }
+    if (worst.empty())
+    {
+      break;
+    }
+    const std::size_t k = std::min<std::size_t>(PolishedCells, worst.size()) - 1;
+    std::nth_element(worst.begin(), worst.begin() + k, worst.end());
+    const double before = this->report_.history.back().worst;
+    more = this->stage(std::nextafter(worst[k], 1.0));
+    if (!(this->report_.history.back().worst > before + 1e-3 * std::fabs(before)))
+    {
+      break;
+    }
+  }
+  this->guard_ = true;
+  return more;
 }
 
 template <int D, class Shape>
 bool WorstFirst<D, Shape>::stage(double target)
 {
   std::vector<Index> bad;
-  for (int pass = 0; pass < MaximumPasses; ++pass)
+  const int highest = this->guard_ ? this->highestLevel() : Improver<D, Shape>::LongLookAhead;
+  for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
   {
-    const int level = std::min(pass, this->highestLevel());
+    const int level = std::min(pass, highest);
     long capped = 0;
     this->collect(target, level, bad, capped);
-    if (bad.empty() && level == this->highestLevel())
+    if (bad.empty() && level == highest)
     {
       break;
     }
@@ -180,7 +235,7 @@ bool WorstFirst<D, Shape>::stage(double target)
     {
       return false;
     }
-    if (level == this->highestLevel() &&
+    if (level == highest &&
       this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / 2000) &&
       this->report_.history.back().worst < before + 1e-3)
     {
@@ -194,7 +249,7 @@ template <int D, class Shape>
 bool WorstFirst<D, Shape>::worthTrying(Index c, int level) const
 {
   const auto& data = this->mesh().cellData(c);
-  if (data.stamp == 0 || data.level < level)
+  if (data.stamp == 0 || data.level < this->rank(level))
   {
     return true;
   }
@@ -271,10 +326,11 @@ void WorstFirst<D, Shape>::distribute(double target, int, const std::vector<Inde
     w.editor.setLastMark(this->editor_.lastMark());
     take(freeCells, n > 1 ? cellRoom : freeCells.size(), w.editor.freeCells());
     take(freePoints, n > 1 ? pointRoom : freePoints.size(), w.editor.freePoints());
-    w.improver.setGrowth(this->growth_ / n);
+    w.improver.setGrowth(
+      (this->growth_ - (this->guard_ ? this->reserve_ : 0)) / n);
     w.improver.setTangled(this->report_.invertedBefore > 0);
-    w.improver.setEnough(target + 0.02);
-    w.kept = 0;
+    w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
+    w.kept = w.tries = 0;
   }
   if (!this->metric_.isTrivial())
   {
@@ -315,7 +371,7 @@ void WorstFirst<D, Shape>::gather()
     }
     w.queue = Queue();
   }
-  this->growth_ = left + this->growth_ % this->numberOfChunks_;
+  this->growth_ = left + (this->guard_ ? this->reserve_ : 0);
 }
 
 template <int D, class Shape>
@@ -364,6 +420,11 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
       continue;
     }
     --tries;
+    if (++w.tries > PatientTries && w.kept * Patience[level] < w.tries)
+    {
+      w.queue = Queue();
+      break;
+    }
     w.editor.resetBlocked();
     if (w.improver.improve(c, level))
     {
@@ -378,7 +439,7 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
     }
     else if (!w.editor.blocked())
     {
-      w.editor.setFailed(c, w.editor.clock(), level);
+      w.editor.setFailed(c, w.editor.clock(), this->rank(level));
     }
   }
 }

@@ -62,7 +62,7 @@ public:
           worst = k;
         }
       }
-      if (least >= level - 1e-9 || this->has(worst))
+      if (least >= level - 1e-9 || this->has(worst) || this->size_ == Room)
       {
         return least;
       }
