@@ -8,7 +8,7 @@ from paraview import simple
 from paraview_case import check
 
 with socket.socket() as probe:  # a free port
-    probe.bind(("localhost", 0))
+    probe.bind(("127.0.0.1", 0))  # by number: a bare system may not know "localhost"
     port = probe.getsockname()[1]
 environment = {k: v for k, v in os.environ.items() if k != "PV_PLUGIN_PATH"}
 server = subprocess.Popen(["pvserver", f"--server-port={port}", "--disable-xdisplay-test"], env=environment,
@@ -17,7 +17,7 @@ try:
     for line in server.stdout:
         if line.startswith("Accepting"):
             break
-    check(simple.Connect("localhost", port) is not None, "no connection")
+    check(simple.Connect("127.0.0.1", port) is not None, "no connection")
     plugin = os.environ["MESHOPTIMIZE_PLUGIN"]
     simple.LoadPlugin(plugin, remote=True, ns=simple.__dict__)
     simple.LoadPlugin(plugin, remote=False, ns=simple.__dict__)
