@@ -345,54 +345,53 @@ struct MeshBuilder
     this->fixPinchedPoints();
   }
 
-  /// The caller's facets and edges are marked in every cell that has them; each is looked up in the
-  /// star of its first point. What no cell has is ignored.
+  /// The caller's facets and edges are marked in every cell that has them. All cells are gone
+  /// through: stars would not do where bodies touch in a point. What no cell has is ignored.
   void constrainListed()
   {
-    std::vector<Index> star;
-    for (const Facet<D>& f : this->input.constrainedFacets)
+    std::vector<Facet<D>> facets = this->input.constrainedFacets;
+    std::vector<std::array<Index, 2>> edges = this->input.constrainedEdges;
+    sortAll(facets);
+    sortAll(edges);
+    if (facets.empty() && edges.empty())
     {
-      this->findStar(f[0], star);
-      for (Index c : star)
+      return;
+    }
+    for (Index c = 0; c < this->mesh.numberOfCellSlots(); ++c)
+    {
+      for (int i = 0; i <= D; ++i)
       {
-        for (int i = 0; i <= D; ++i)
+        Facet<D> f = this->mesh.facet(c, i);
+        std::sort(f.begin(), f.end());
+        if (std::binary_search(facets.begin(), facets.end(), f))
         {
-          const Facet<D> g = this->mesh.facet(c, i);
-          if (std::is_permutation(f.begin(), f.end(), g.begin()))
-          {
-            this->keepFacet(c, i);
-          }
+          this->keepFacet(c, i);
         }
       }
-    }
-    for (const auto& e : this->input.constrainedEdges)
-    {
-      this->findStar(e[0], star);
-      for (Index c : star)
+      for (int k = 0; k < Local<D>::numberOfEdges; ++k)
       {
-        for (int k = 0; k < Local<D>::numberOfEdges; ++k)
+        const Index a = this->mesh.nodes(c)[Local<D>::edges[k][0]];
+        const Index b = this->mesh.nodes(c)[Local<D>::edges[k][1]];
+        const std::array<Index, 2> e{ std::min(a, b), std::max(a, b) };
+        if (std::binary_search(edges.begin(), edges.end(), e))
         {
-          const Index a = this->mesh.nodes(c)[Local<D>::edges[k][0]];
-          const Index b = this->mesh.nodes(c)[Local<D>::edges[k][1]];
-          if ((a == e[0] && b == e[1]) || (a == e[1] && b == e[0]))
-          {
-            this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
-            this->mesh.points_[a].flags |= Mesh::PointFixed;
-            this->mesh.points_[b].flags |= Mesh::PointFixed;
-            this->mesh.hasConstrainedEdges_ = true;
-          }
+          this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
+          this->mesh.points_[a].flags |= Mesh::PointFixed;
+          this->mesh.points_[b].flags |= Mesh::PointFixed;
+          this->mesh.hasConstrainedEdges_ = true;
         }
       }
     }
   }
 
-  void findStar(Index p, std::vector<Index>& star) const
+  template <class List>
+  static void sortAll(List& list)
   {
-    star.clear();
-    if (p >= 0 && p < this->mesh.numberOfPointSlots() && this->mesh.isPointAlive(p))
+    for (auto& ids : list)
     {
-      this->mesh.star(p, star);
+      std::sort(ids.begin(), ids.end());
     }
+    std::sort(list.begin(), list.end());
   }
 
   /// A free point whose cells are not all connected over facets (two bodies that touch in an inner

@@ -494,8 +494,7 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   this->mesh_->cellData_[c].flags |= std::uint16_t(f.kept ? 1u << i : 0u);
   if (f.outside != None)
   {
-    Index& link =
-      this->mesh_->cells_[Mesh::cellOf(f.outside)].adjacent[Mesh::facetOf(f.outside)];
+    Index& link = this->mesh_->cells_[Mesh::cellOf(f.outside)].adjacent[Mesh::facetOf(f.outside)];
     if (f.parent != None && this->depth_ > 0) // outside of the cavity; new cells are saved already
     {
       this->journal_.push_back(Entry::LinkChanged);

@@ -36,8 +36,8 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
   {
     if (e.cap < limit && e.b != None)
     {
-      double& cap = this->edges_.try_emplace({ std::min(e.a, e.b), std::max(e.a, e.b) }, 1.0)
-                      .first->second;
+      double& cap =
+        this->edges_.try_emplace({ std::min(e.a, e.b), std::max(e.a, e.b) }, 1.0).first->second;
       cap = std::min(cap, e.cap);
       this->largest_ = std::max(this->largest_, e.cap);
     }

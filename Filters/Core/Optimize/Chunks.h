@@ -55,10 +55,11 @@ private:
       axis = high[i] - low[i] > high[axis] - low[axis] ? i : axis;
     }
     const int left = n / 2;
-    const Index middle =
-      begin + static_cast<Index>(std::int64_t(end - begin) * left / n);
+    const Index middle = begin + static_cast<Index>(std::int64_t(end - begin) * left / n);
     std::nth_element(this->ids_.begin() + begin, this->ids_.begin() + middle,
-      this->ids_.begin() + end, [&](Index a, Index b) {
+      this->ids_.begin() + end,
+      [&](Index a, Index b)
+      {
         const double xa = mesh.point(a)[axis], xb = mesh.point(b)[axis];
         return xa != xb ? xa < xb : a < b;
       });

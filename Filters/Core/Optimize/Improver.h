@@ -57,10 +57,7 @@ private:
   static constexpr double Never = -std::numeric_limits<double>::infinity();
 
   /// Least gain that makes a change worth it, at quality q: 1e-3, less where all is tiny.
-  static double gain(double q)
-  {
-    return std::min(1e-3, std::max(1e-7, 0.002 * std::fabs(q)));
-  }
+  static double gain(double q) { return std::min(1e-3, std::max(1e-7, 0.002 * std::fabs(q))); }
 
   /// A place to go back to.
   struct Place

@@ -161,12 +161,10 @@ bool Improver<D, Shape>::conflicts(
   const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const
 {
   const SimplexMesh<D>& mesh = this->editor_->mesh();
-  const auto inCavity = [&](Index c) {
-    return std::find(cavity.begin(), cavity.end(), c) != cavity.end();
-  };
-  const auto has = [](const Simplex<D>& cell, Index p) {
-    return std::find(cell.begin(), cell.end(), p) != cell.end();
-  };
+  const auto inCavity = [&](Index c)
+  { return std::find(cavity.begin(), cavity.end(), c) != cavity.end(); };
+  const auto has = [](const Simplex<D>& cell, Index p)
+  { return std::find(cell.begin(), cell.end(), p) != cell.end(); };
   std::vector<Index> star;
   for (const Simplex<D>& cell : cells)
   {
@@ -192,9 +190,8 @@ bool Improver<D, Shape>::conflicts(
       {
         f[k] = cell[Local<D>::facets[i][k]];
       }
-      const auto hasFacet = [&](Index c) {
-        return std::all_of(f.begin(), f.end(), [&](Index p) { return has(mesh.nodes(c), p); });
-      };
+      const auto hasFacet = [&](Index c)
+      { return std::all_of(f.begin(), f.end(), [&](Index p) { return has(mesh.nodes(c), p); }); };
       if (std::any_of(cavity.begin(), cavity.end(), hasFacet) || !mesh.isPointAlive(f[0]))
       {
         continue;
@@ -260,8 +257,8 @@ bool Improver<D, Shape>::moveNode(Index v)
   }
   this->loadStar(v);
   Vec<D> x = mesh.point(v);
-  const double now =
-    this->problem_.maximize(x, std::max(this->enough(), old + 2 * gain(old)), 0.5 * gain(old));
+  const double now = this->problem_.maximize(
+    x, std::max(this->enough(), old + 2 * gain(old)), 0.5 * gain(old));
   const bool better = now > old + gain(old);
   this->count(Operation::NodeMotion, better);
   if (!better)

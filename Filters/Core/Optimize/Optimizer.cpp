@@ -40,8 +40,7 @@ Report optimize(
   const PassRecord output = summarize(mesh, options.targetQuality, &report.invertedAfter);
   report.worstAfter = output.worst;
   report.meanAfter = output.mean;
-  report.seconds =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimize/Paper1996.h"
 
+#include "Optimize/Caps.h"
 #include "Optimize/Progress.h"
 #include "Optimize/Statistics.h"
 #include "Reconnect/Reconnection.h"
@@ -36,6 +37,8 @@ public:
 private:
   using Counts = std::array<long, NumberOfOperations>;
 
+  StopReason iterate();
+  void countCapped();
   bool alternate(int lookAhead);
   void reconnectAll(int lookAhead);
   void repositionAll();
@@ -60,8 +63,8 @@ template <int D>
 bool Paper1996<D>::keepGoing(const char* stage, double worst)
 {
   ++this->steps_;
-  const double ratio =
-    static_cast<double>(this->steps_) / static_cast<double>(this->expectedSteps_);
+  const double ratio = static_cast<double>(this->steps_) /
+    static_cast<double>(this->expectedSteps_);
   return this->progress_.report(1.0 - 1.0 / (1.0 + ratio),
     [&]
     {
@@ -210,8 +213,39 @@ bool Paper1996<D>::alternate(int lookAhead)
   return this->worst() > before + LeastGain * std::abs(before);
 }
 
+// The certified bound, and how many cells under the target are at their caps.
+template <int D>
+void Paper1996<D>::countCapped()
+{
+  const SimplexMesh<D>& mesh = this->editor_.mesh();
+  const double target = this->options_.targetQuality;
+  Caps<D> caps;
+  caps.build(mesh, this->options_.measure, target, this->metric_.isTrivial());
+  this->report_.bound = caps.bound();
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    this->report_.cappedCells += mesh.isAlive(c) && mesh.quality(c) < target &&
+        caps.isCapped(mesh, c)
+      ? 1
+      : 0;
+  }
+}
+
 template <int D>
 StopReason Paper1996<D>::run()
+{
+  StopReason reason = this->iterate();
+  this->countCapped();
+  const long below = this->report_.history.back().belowTarget;
+  if (reason == StopReason::NoFurtherGain && below == this->report_.cappedCells)
+  {
+    reason = StopReason::CappedBySurface;
+  }
+  return reason;
+}
+
+template <int D>
+StopReason Paper1996<D>::iterate()
 {
   const Options& o = this->options_;
   this->expectedSteps_ = std::max(1L, 4 * this->report_.history.back().belowTarget);

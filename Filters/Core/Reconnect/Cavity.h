@@ -27,8 +27,8 @@ class Cavity
 public:
   struct Limits
   {
-    int cells = 80;     ///< greatest number of cells taken in
-    int swallowed = 1;  ///< greatest number of free points that may vanish; none that is fixed
+    int cells = 80;    ///< greatest number of cells taken in
+    int swallowed = 1; ///< greatest number of free points that may vanish; none that is fixed
   };
 
   /// Grows the cavity of cell `seed` for a node with id p at x (p need not be used by a cell).
@@ -51,9 +51,9 @@ private:
     int facet;
     bool operator<(const Front& o) const // the worst on top; ties by id
     {
-      return this->q != o.q ? this->q > o.q
-                            : SimplexMesh<D>::handle(this->cell, this->facet) >
-          SimplexMesh<D>::handle(o.cell, o.facet);
+      return this->q != o.q
+        ? this->q > o.q
+        : SimplexMesh<D>::handle(this->cell, this->facet) > SimplexMesh<D>::handle(o.cell, o.facet);
     }
   };
   struct PointData

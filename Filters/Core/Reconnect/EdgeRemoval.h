@@ -185,7 +185,8 @@ double EdgeRemoval<D, Shape>::pair(
         return std::min(high, low);
       }
     }
-    const double high = model(Simplex<3>{ this->ring_[i], this->ring_[k], this->ring_[j], this->high_ });
+    const double high = model(
+      Simplex<3>{ this->ring_[i], this->ring_[k], this->ring_[j], this->high_ });
     if (!(high > above))
     {
       return high;

@@ -17,8 +17,8 @@ class FaceRemoval
 public:
   /// Tries facet i of cell t. Returns the worst quality of the three new cells if it is above
   /// `above` and above both old ones, else -infinity.
-  double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t, int i,
-    double above)
+  double propose(
+    const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t, int i, double above)
   {
     const SimplexMesh<3>& mesh = editor.mesh();
     const Index h = mesh.adjacent(t, i);

@@ -48,6 +48,7 @@ private:
   ElementQuality<D, Shape> quality_;
   bool trivial_; // the metric is the same for all elements
   ElementMetric<D> common_;
+  typename NodalMetric<D>::Sample oldSample_; // of a node that is tried at the centre
   Fan<D> fan_;
   std::vector<Index> star_, made_;
   std::vector<Simplex<D>> outside_;
@@ -64,6 +65,7 @@ bool FillingTrial<D, Shape>::isBetter(const Part<D>& part, Apex<D>& apex, double
   if (apex.local < 0)
   {
     const bool isNew = apex.id != part.core[0];
+    this->oldSample_ = this->metric_.sample(apex.id);
     this->metric_.resample(apex.id, apex.x, isNew ? part.core[0] : None);
   }
   const auto qualityOf = [&](const Simplex<D>& nodes, const Corners<D>& x)
@@ -79,7 +81,7 @@ void FillingTrial<D, Shape>::giveUp(const Part<D>& part, const Apex<D>& apex)
 {
   if (apex.local < 0 && apex.id == part.core[0])
   {
-    this->metric_.resample(apex.id, this->mesh_.point(apex.id));
+    this->metric_.setSample(apex.id, this->oldSample_);
   }
   else if (apex.local < 0)
   {

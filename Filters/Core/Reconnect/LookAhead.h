@@ -31,7 +31,7 @@ public:
   {
   }
 
-  /// Tries one filling. If it is kept, changed() are the cells that are new or have another
+  /// Tries one filling (but Filling::Centre). If it is kept, changed() are the cells that are new or have another
   /// quality.
   bool improve(const Part<D>& part, Apex<D> apex);
   const std::vector<Index>& changed() const { return this->changed_; }
@@ -48,7 +48,8 @@ private:
   ClusterSolver<D, Shape> solver_;
   double leastGain_;
   std::vector<std::uint8_t> movable_;
-  std::vector<Index> changed_, moved_;
+  std::vector<Index> changed_;
+  std::vector<std::pair<Index, typename NodalMetric<D>::Sample>> samples_; // before, in order
 };
 
 template <int D, class Shape>
@@ -93,8 +94,10 @@ void LookAhead<D, Shape>::reposition(double& before)
         before = std::min(before, old);
       }
     }
-    this->moved_.insert(this->moved_.end(), cluster.points.begin(),
-      cluster.points.begin() + cluster.numberOfMoving);
+    for (std::size_t i = 0; i < this->solver_.oldSamples().size(); ++i)
+    {
+      this->samples_.emplace_back(cluster.points[i], this->solver_.oldSamples()[i]);
+    }
   }
 }
 
@@ -104,7 +107,7 @@ bool LookAhead<D, Shape>::improve(const Part<D>& part, Apex<D> apex)
   // A filling may be worse for now, but not more inverted.
   const double required = std::min(0.0, part.cluster.worst);
   const std::size_t place = this->editor_.begin();
-  this->moved_.clear();
+  this->samples_.clear();
   if (this->trial_.isBetter(part, apex, required))
   {
     this->trial_.make(part, apex);
@@ -118,16 +121,9 @@ bool LookAhead<D, Shape>::improve(const Part<D>& part, Apex<D> apex)
     }
   }
   this->editor_.rollback(place);
-  if (apex.local < 0 && apex.id == part.core[0])
+  for (std::size_t k = this->samples_.size(); k-- > 0;)
   {
-    this->moved_.push_back(apex.id);
-  }
-  for (Index p : this->moved_)
-  {
-    if (p < this->editor_.mesh().numberOfPointSlots())
-    {
-      this->metric_.resample(p, this->editor_.mesh().point(p));
-    }
+    this->metric_.setSample(this->samples_[k].first, this->samples_[k].second);
   }
   return false;
 }

@@ -39,6 +39,11 @@ public:
   /// The cluster solved last, as it is now, and the qualities of its cells before.
   const Cluster<D>& cluster() const { return this->cluster_; }
   const std::vector<double>& oldQuality() const { return this->oldQuality_; }
+  /// The metric at its moving nodes before, if the metric is not trivial.
+  const std::vector<typename NodalMetric<D>::Sample>& oldSamples() const
+  {
+    return this->oldSamples_;
+  }
 
 private:
   void setMetrics();
@@ -56,6 +61,7 @@ private:
   double leastGain_;
   Cluster<D> cluster_;
   std::vector<double> oldQuality_;
+  std::vector<typename NodalMetric<D>::Sample> oldSamples_;
   std::vector<ElementMetric<D>> metrics_;
 };
 
@@ -89,6 +95,11 @@ bool ClusterSolver<D, Shape>::solve(
     return false;
   }
   const std::size_t place = this->editor_.begin();
+  this->oldSamples_.clear();
+  for (int k = 0; k < this->cluster_.numberOfMoving && !this->metric_.isTrivial(); ++k)
+  {
+    this->oldSamples_.push_back(this->metric_.sample(this->cluster_.points[k]));
+  }
   for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
   {
     const Index p = this->cluster_.points[k];
@@ -100,10 +111,9 @@ bool ClusterSolver<D, Shape>::solve(
   if (!this->accept())
   {
     this->editor_.rollback(place);
-    for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
+    for (std::size_t k = 0; k < this->oldSamples_.size(); ++k)
     {
-      const Index p = this->cluster_.points[k];
-      this->metric_.resample(p, this->editor_.mesh().point(p));
+      this->metric_.setSample(this->cluster_.points[k], this->oldSamples_[k]);
     }
     return false;
   }

@@ -183,8 +183,8 @@ private:
         {
           sum += this->ring_[p].weight;
         }
-        this->values_[k] =
-          EdgeSum<Shape>::quality(f.normal.dot(x - this->ring_[f.points[0]].x), sum);
+        this->values_[k] = EdgeSum<Shape>::quality(
+          f.normal.dot(x - this->ring_[f.points[0]].x), sum);
       }
     }
   }

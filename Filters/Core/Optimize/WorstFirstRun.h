@@ -1,0 +1,526 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file WorstFirstRun.h
+/// One run of the fast engine for one shape measure: the schedule. Only included by the few files that
+/// instantiate it, one for each family of measures, so that they compile side by side.
+#ifndef meshopt_Optimize_WorstFirstRun_h
+#define meshopt_Optimize_WorstFirstRun_h
+
+#include "Optimize/Caps.h"
+#include "Optimize/Chunks.h"
+#include "Optimize/Improver.h"
+#include "Optimize/Progress.h"
+#include "Optimize/Statistics.h"
+#include "Optimize/WorstFirst.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <queue>
+
+namespace meshopt
+{
+namespace worstfirst
+{
+/// Targets of the stages. Steps get smaller where gains cost more.
+constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.70, 0.72, 0.74, 0.76 };
+constexpr int MaximumPasses = 10;      // of one stage
+constexpr Index CellsPerChunk = 20000; // fewer make borders too long
+constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
+constexpr int MaximumChunks = 256;
+constexpr std::size_t PolishedCells = 10;
+constexpr int PolishRounds = 10;
+/// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
+constexpr long Patience[] = { 1000000, 50, 20, 20 };
+constexpr long PatientTries = 200; // before that is looked at
+/// Tries of one chunk between two looks at progress, by level: some tenth of a second.
+constexpr long Tries[] = { 20000, 4000, 400, 100 };
+
+template <int D, class Shape>
+class WorstFirst
+{
+public:
+  WorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
+    const Control& control, Report& report);
+  void run();
+
+private:
+  using Entry = std::pair<double, Index>;
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>>;
+
+  /// Who works on one chunk.
+  struct Worker
+  {
+    MeshEditor<D> editor;
+    Improver<D, Shape> improver;
+    Queue queue;
+    long kept = 0, tries = 0; // in this pass
+
+    Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Options& options)
+      : editor(root.mesh(), root.clock(), root.lastMark())
+      , improver(this->editor, model, options)
+    {
+    }
+  };
+
+  std::vector<double> stages() const;
+  int highestLevel() const;
+  bool stage(double target);
+  bool polish(double target);
+  void pass(double target, int level, const std::vector<Index>& bad);
+  void collect(double target, int level, std::vector<Index>& bad, long& capped) const;
+  void distribute(double target, int level, const std::vector<Index>& bad);
+  void work(Worker& worker, double target, int level);
+  void gather();
+  bool worthTrying(Index c, int level) const;
+  /// How hard a try is: those without guard are the hardest.
+  int rank(int level) const { return level + (this->guard_ ? 0 : 4); }
+  bool keepGoing(double target);
+  bool outOfTime() const;
+  void record(double target, int pass);
+  StopReason reason();
+
+  const SimplexMesh<D>& mesh() const { return this->editor_.mesh(); }
+
+  MeshEditor<D>& editor_;
+  NodalMetric<D>& metric_;
+  const Options& options_;
+  const Control& control_;
+  Report& report_;
+  QualityModel<D, Shape> model_;
+  Progress progress_;
+  Caps<D> caps_;
+  Chunks<D> chunks_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  int numberOfChunks_ = 0;
+  int variant_ = 0;
+  bool guard_ = true;
+  long growth_ = 0, kept_ = 0;
+  long reserve_ = 0; ///< of the growth, for polish()
+  std::array<long, NumberOfOperations> tried_{}, done_{};
+  double stageDone_ = 0.0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point passBegin_ = begin_;
+};
+
+template <int D, class Shape>
+WorstFirst<D, Shape>::WorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric,
+  const Options& options, const Control& control, Report& report)
+  : editor_(editor)
+  , metric_(metric)
+  , options_(options)
+  , control_(control)
+  , report_(report)
+  , model_(editor.mesh(), metric, options.beta)
+  , progress_(control)
+{
+}
+
+/// The stages below the target and the target itself; with the best effort also those above it.
+template <int D, class Shape>
+std::vector<double> WorstFirst<D, Shape>::stages() const
+{
+  std::vector<double> result;
+  for (double s : Stages)
+  {
+    if (s < this->options_.targetQuality - 1e-9)
+    {
+      result.push_back(s);
+    }
+  }
+  result.push_back(this->options_.targetQuality);
+  for (double s : Stages)
+  {
+    if (this->options_.effort == Effort::Best && s > this->options_.targetQuality + 1e-9)
+    {
+      result.push_back(s);
+    }
+  }
+  return result;
+}
+
+template <int D, class Shape>
+int WorstFirst<D, Shape>::highestLevel() const
+{
+  using I = Improver<D, Shape>;
+  return this->options_.effort == Effort::Quick ? I::Insertion
+    : this->options_.effort == Effort::Best     ? I::LongLookAhead
+                                                : I::LookAhead;
+}
+
+template <int D, class Shape>
+void WorstFirst<D, Shape>::run()
+{
+  const std::vector<double> stages = this->stages();
+  this->growth_ = static_cast<long>(
+    this->options_.growthBudget * static_cast<double>(this->mesh().countCells()));
+  this->reserve_ = this->growth_ / 10;
+  this->caps_.build(this->mesh(), this->options_.measure, stages.back(), this->metric_.isTrivial());
+  this->report_.bound = this->caps_.bound();
+  bool more = true;
+  int idle = 0;
+  for (std::size_t k = 0; k < stages.size() && more; ++k)
+  {
+    this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
+    const double before = this->report_.history.back().worst;
+    more = this->stage(stages[k]);
+    if (more && k == 0)
+    {
+      more = this->polish(stages[k]);
+    }
+    // Past the target, two stages that did not lift the worst cell are the end.
+    const bool stuck = this->report_.history.back().worst < before + 1e-3;
+    idle = stages[k] > this->options_.targetQuality + 1e-9 && stuck ? idle + 1 : 0;
+    more &= idle < 2;
+  }
+  if (more)
+  {
+    this->polish(this->options_.targetQuality);
+  }
+  this->report_.stopReason = this->reason();
+}
+
+/// The few worst cells once more, now at the price of others becoming bad; again as long as that
+/// lifts the worst one.
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::polish(double target)
+{
+  bool more = true;
+  this->guard_ = false;
+  for (int round = 0; round < PolishRounds && more; ++round)
+  {
+    std::vector<double> worst;
+    for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+    {
+      if (this->mesh().isAlive(c) && this->mesh().quality(c) < target &&
+        !this->caps_.isCapped(this->mesh(), c))
+      {
+        worst.push_back(this->mesh().quality(c));
+      }
+    }
+    if (worst.empty())
+    {
+      break;
+    }
+    const std::size_t k = std::min<std::size_t>(PolishedCells, worst.size()) - 1;
+    std::nth_element(worst.begin(), worst.begin() + k, worst.end());
+    const double before = this->report_.history.back().worst;
+    more = this->stage(std::nextafter(worst[k], 1.0));
+    if (!(this->report_.history.back().worst > before + 1e-3 * std::fabs(before)))
+    {
+      break;
+    }
+  }
+  this->guard_ = true;
+  return more;
+}
+
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::stage(double target)
+{
+  std::vector<Index> bad;
+  const int highest = this->guard_ ? this->highestLevel() : Improver<D, Shape>::LongLookAhead;
+  for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
+  {
+    const int level = std::min(pass, highest);
+    long capped = 0;
+    this->collect(target, level, bad, capped);
+    if (bad.empty() && level == highest)
+    {
+      break;
+    }
+    const double before = this->report_.history.back().worst;
+    if (bad.empty())
+    {
+      continue;
+    }
+    this->pass(target, level, bad);
+    this->record(target, pass);
+    if (!this->keepGoing(target))
+    {
+      return false;
+    }
+    if (level == highest && this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / 2000) &&
+      this->report_.history.back().worst < before + 1e-3)
+    {
+      break;
+    }
+  }
+  return true;
+}
+
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::worthTrying(Index c, int level) const
+{
+  const auto& data = this->mesh().cellData(c);
+  if (data.stamp == 0 || data.level < this->rank(level))
+  {
+    return true;
+  }
+  for (Index p : this->mesh().nodes(c))
+  {
+    if (this->mesh().pointData(p).stamp > data.stamp)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <int D, class Shape>
+void WorstFirst<D, Shape>::collect(
+  double target, int level, std::vector<Index>& bad, long& capped) const
+{
+  bad.clear();
+  capped = 0;
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    if (this->mesh().quality(c) < target && this->mesh().isAlive(c) && this->worthTrying(c, level))
+    {
+      if (this->caps_.isCapped(this->mesh(), c))
+      {
+        ++capped;
+      }
+      else
+      {
+        bad.push_back(c);
+      }
+    }
+  }
+}
+
+/// Chunks, their queues and slots: a function of the mesh and of the bad cells only.
+template <int D, class Shape>
+void WorstFirst<D, Shape>::distribute(double target, int, const std::vector<Index>& bad)
+{
+  const Index cells = this->mesh().numberOfCellSlots();
+  int n = static_cast<int>(
+    std::min<long>(cells / CellsPerChunk, static_cast<long>(bad.size()) / BadCellsPerChunk));
+  n = std::min(std::max(n, 1), MaximumChunks);
+  this->numberOfChunks_ = n;
+  if (n > 1)
+  {
+    this->numberOfChunks_ = n += this->variant_++ % 3; // so that borders move
+    this->chunks_.assign(this->editor_, n);
+  }
+  while (static_cast<int>(this->workers_.size()) < n)
+  {
+    this->workers_.push_back(std::make_unique<Worker>(this->editor_, this->model_, this->options_));
+  }
+  // All slots that are free go round, then the mesh grows, if several are to work at once.
+  std::vector<Index>& freeCells = this->editor_.freeCells();
+  std::vector<Index>& freePoints = this->editor_.freePoints();
+  const Index cellRoom = n > 1 ? 256 + cells / n / 8 : 0;
+  const Index pointRoom = n > 1 ? 64 + this->mesh().numberOfPointSlots() / n / 8 : 0;
+  this->editor_.growCells(std::max<Index>(0, n * cellRoom - static_cast<Index>(freeCells.size())));
+  this->editor_.growPoints(
+    std::max<Index>(0, n * pointRoom - static_cast<Index>(freePoints.size())));
+  const auto take = [](std::vector<Index>& from, std::size_t count, std::vector<Index>& to)
+  {
+    to.assign(from.end() - count, from.end());
+    from.resize(from.size() - count);
+  };
+  for (int k = 0; k < n; ++k)
+  {
+    Worker& w = *this->workers_[k];
+    w.editor.setOwner(n > 1 ? k : None);
+    w.editor.setClock(this->editor_.clock());
+    w.editor.setLastMark(this->editor_.lastMark());
+    take(freeCells, n > 1 ? cellRoom : freeCells.size(), w.editor.freeCells());
+    take(freePoints, n > 1 ? pointRoom : freePoints.size(), w.editor.freePoints());
+    w.improver.setGrowth((this->growth_ - (this->guard_ ? this->reserve_ : 0)) / n);
+    w.improver.setTangled(this->report_.invertedBefore > 0);
+    w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
+    w.kept = w.tries = 0;
+  }
+  if (!this->metric_.isTrivial())
+  {
+    this->metric_.reserve(this->mesh().numberOfPointSlots() + (n > 1 ? 0 : 1));
+  }
+  for (Index c : bad)
+  {
+    const int k = n > 1 ? this->mesh().pointData(this->mesh().nodes(c)[0]).owner : 0;
+    if (this->workers_[k]->editor.owns(c))
+    {
+      this->workers_[k]->queue.emplace(this->mesh().quality(c), c);
+    }
+  }
+}
+
+/// Takes back what the workers hold.
+template <int D, class Shape>
+void WorstFirst<D, Shape>::gather()
+{
+  long left = 0;
+  for (int k = 0; k < this->numberOfChunks_; ++k)
+  {
+    Worker& w = *this->workers_[k];
+    const auto give = [](std::vector<Index>& from, std::vector<Index>& to)
+    {
+      to.insert(to.end(), from.begin(), from.end());
+      from.clear();
+    };
+    give(w.editor.freeCells(), this->editor_.freeCells());
+    give(w.editor.freePoints(), this->editor_.freePoints());
+    this->editor_.setClock(std::max(this->editor_.clock(), w.editor.clock()));
+    this->editor_.setLastMark(std::max(this->editor_.lastMark(), w.editor.lastMark()));
+    left += w.improver.growth();
+    this->kept_ += w.kept;
+    for (int op = 0; op < NumberOfOperations; ++op)
+    {
+      this->tried_[op] += std::exchange(w.improver.tried[op], 0);
+      this->done_[op] += std::exchange(w.improver.done[op], 0);
+    }
+    w.queue = Queue();
+  }
+  this->growth_ = left + (this->guard_ ? this->reserve_ : 0);
+}
+
+template <int D, class Shape>
+void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Index>& bad)
+{
+  this->kept_ = 0;
+  this->tried_.fill(0);
+  this->done_.fill(0);
+  this->distribute(target, level, bad);
+  const auto body = [&](int k) { this->work(*this->workers_[k], target, level); };
+  bool more = true;
+  while (more && this->keepGoing(target))
+  {
+    if (this->numberOfChunks_ > 1 && this->control_.parallelFor)
+    {
+      this->control_.parallelFor(this->numberOfChunks_, body);
+    }
+    else
+    {
+      for (int k = 0; k < this->numberOfChunks_; ++k)
+      {
+        body(k);
+      }
+    }
+    more = false;
+    for (int k = 0; k < this->numberOfChunks_; ++k)
+    {
+      more |= !this->workers_[k]->queue.empty();
+    }
+  }
+  this->gather();
+}
+
+/// Drains the queue of one chunk, up to a number of tries.
+template <int D, class Shape>
+void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
+{
+  const SimplexMesh<D>& mesh = this->mesh();
+  for (long tries = Tries[level]; tries > 0 && !w.queue.empty();)
+  {
+    const auto [q, c] = w.queue.top();
+    w.queue.pop();
+    if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
+      this->caps_.isCapped(mesh, c))
+    {
+      continue;
+    }
+    --tries;
+    if (++w.tries > PatientTries && w.kept * Patience[level] < w.tries)
+    {
+      w.queue = Queue();
+      break;
+    }
+    w.editor.resetBlocked();
+    if (w.improver.improve(c, level))
+    {
+      ++w.kept;
+      for (Index changed : w.improver.changed())
+      {
+        if (mesh.isAlive(changed) && mesh.quality(changed) < target)
+        {
+          w.queue.emplace(mesh.quality(changed), changed);
+        }
+      }
+    }
+    else if (!w.editor.blocked())
+    {
+      w.editor.setFailed(c, w.editor.clock(), this->rank(level));
+    }
+  }
+}
+
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::outOfTime() const
+{
+  return this->options_.timeLimit > 0.0 &&
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - this->begin_).count() >
+    this->options_.timeLimit;
+}
+
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::keepGoing(double target)
+{
+  const auto text = [&]
+  {
+    char line[96];
+    std::snprintf(line, sizeof line, "worst element %.4f, working towards %.2f",
+      this->report_.history.back().worst, target);
+    return std::string(line);
+  };
+  return this->progress_.report(this->stageDone_, text) && !this->outOfTime();
+}
+
+template <int D, class Shape>
+void WorstFirst<D, Shape>::record(double target, int pass)
+{
+  PassRecord row = summarize(this->mesh(), this->options_.targetQuality);
+  char name[32];
+  std::snprintf(name, sizeof name, "towards %.2f, pass %d", target, pass + 1);
+  row.pass = static_cast<int>(this->report_.history.size());
+  row.stage = name;
+  row.tried = this->tried_;
+  row.done = this->done_;
+  const auto now = std::chrono::steady_clock::now();
+  row.seconds = std::chrono::duration<double>(now - this->passBegin_).count();
+  this->passBegin_ = now;
+  this->report_.history.push_back(row);
+}
+
+template <int D, class Shape>
+StopReason WorstFirst<D, Shape>::reason()
+{
+  long below = 0;
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    if (this->mesh().isAlive(c) && this->mesh().quality(c) < this->options_.targetQuality)
+    {
+      ++below;
+      this->report_.cappedCells += this->caps_.isCapped(this->mesh(), c);
+    }
+  }
+  if (this->progress_.cancelled())
+  {
+    return StopReason::Aborted;
+  }
+  if (this->outOfTime())
+  {
+    return StopReason::TimeLimit;
+  }
+  return below == 0                      ? StopReason::TargetReached
+    : below == this->report_.cappedCells ? StopReason::CappedBySurface
+                                         : StopReason::NoFurtherGain;
+}
+}
+
+template <int D, class Shape>
+void runWorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
+  const Control& control, Report& report)
+{
+  worstfirst::WorstFirst<D, Shape>(editor, metric, options, control, report).run();
+}
+}
+
+/// Instantiates the engine for a measure in both dimensions.
+#define MESHOPT_INSTANTIATE_WORST_FIRST(Shape)                                 \
+  template void runWorstFirst<2, Shape<2>>(                                    \
+    MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&); \
+  template void runWorstFirst<3, Shape<3>>(                                    \
+    MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&);
+
+#endif
