@@ -84,6 +84,7 @@ private:
   long badBalance() const;
   bool insertHere(Index t, Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells);
+  bool misfits(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }

@@ -88,7 +88,7 @@ template <int D, class Shape>
 bool Improver<D, Shape>::replace(
   const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells)
 {
-  if (this->tangled_ && this->conflicts(cavity, cells))
+  if (this->tangled_ && (this->misfits(cavity, cells) || this->conflicts(cavity, cells)))
   {
     return false;
   }
@@ -155,50 +155,95 @@ bool Improver<D, Shape>::reconnect(Index t)
   return !this->bestCells_.empty() && this->replace(this->bestCavity_, this->bestCells_);
 }
 
-/// In a tangled mesh an edge or a facet between points of the cavity may exist elsewhere already.
+/// True if the new cells do not fill the boundary of the cavity exactly once.
+template <int D, class Shape>
+bool Improver<D, Shape>::misfits(
+  const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const
+{
+  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  const auto inCavity = [&](Index handle)
+  {
+    return handle != None &&
+      std::find(cavity.begin(), cavity.end(), mesh.cellOf(handle)) != cavity.end();
+  };
+  // The boundary facets twice over: with those of the new cells, all must then be there in pairs
+  // (inside) or three times over (boundary).
+  std::vector<Facet<D>> outer, facets;
+  for (Index c : cavity)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      if (!inCavity(mesh.adjacent(c, i)))
+      {
+        outer.push_back(mesh.facet(c, i));
+        std::sort(outer.back().begin(), outer.back().end());
+      }
+    }
+  }
+  for (const Simplex<D>& cell : cells)
+  {
+    for (const auto& local : Local<D>::facets)
+    {
+      Facet<D> f;
+      std::transform(std::begin(local), std::end(local), f.begin(), [&](int k) { return cell[k]; });
+      std::sort(f.begin(), f.end());
+      facets.push_back(f);
+    }
+  }
+  std::sort(outer.begin(), outer.end());
+  std::sort(facets.begin(), facets.end());
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < facets.size();)
+  {
+    const auto [first, last] = std::equal_range(facets.begin() + k, facets.end(), facets[k]);
+    const auto n = last - first;
+    const auto [a, b] = std::equal_range(outer.begin(), outer.end(), facets[k]);
+    if (b - a > 1 || n != (b == a ? 2 : 1))
+    {
+      return true;
+    }
+    found += static_cast<std::size_t>(b - a);
+    k += static_cast<std::size_t>(n);
+  }
+  return found != outer.size();
+}
+
+/// True if an edge or a facet that the new cells bring exists elsewhere already. Where cells do not
+/// overlap that cannot be; in a tangled mesh it can.
 template <int D, class Shape>
 bool Improver<D, Shape>::conflicts(
   const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const
 {
   const SimplexMesh<D>& mesh = this->editor_->mesh();
-  const auto inCavity = [&](Index c)
-  { return std::find(cavity.begin(), cavity.end(), c) != cavity.end(); };
-  const auto has = [](const Simplex<D>& cell, Index p)
-  { return std::find(cell.begin(), cell.end(), p) != cell.end(); };
   std::vector<Index> star;
+  // a face of a new cell: its points, the first `n` of `face`
+  const auto isNewAndTaken = [&](const Index* face, int n)
+  {
+    const auto has = [&](Index c)
+    { return std::all_of(face, face + n, [&](Index p) { return mesh.localIndex(c, p) >= 0; }); };
+    if (std::any_of(cavity.begin(), cavity.end(), has) ||
+      !std::all_of(face, face + n, [&](Index p) { return mesh.isPointAlive(p); }))
+    {
+      return false;
+    }
+    mesh.star(face[0], star);
+    return std::any_of(star.begin(), star.end(), has);
+  };
   for (const Simplex<D>& cell : cells)
   {
     for (const auto& e : Local<D>::edges)
     {
-      const Index a = cell[e[0]], b = cell[e[1]];
-      const bool old = std::any_of(cavity.begin(), cavity.end(),
-        [&](Index c) { return has(mesh.nodes(c), a) && has(mesh.nodes(c), b); });
-      if (old || !mesh.isPointAlive(a) || !mesh.isPointAlive(b))
-      {
-        continue;
-      }
-      mesh.star(a, star);
-      if (std::any_of(star.begin(), star.end(), [&](Index c) { return has(mesh.nodes(c), b); }))
+      const Index edge[] = { cell[e[0]], cell[e[1]] };
+      if (isNewAndTaken(edge, 2))
       {
         return true;
       }
     }
-    for (int i = 0; D == 3 && i <= D; ++i)
+    for (const auto& f : Local<D>::facets)
     {
-      Facet<D> f;
-      for (int k = 0; k < D; ++k)
-      {
-        f[k] = cell[Local<D>::facets[i][k]];
-      }
-      const auto hasFacet = [&](Index c)
-      { return std::all_of(f.begin(), f.end(), [&](Index p) { return has(mesh.nodes(c), p); }); };
-      if (std::any_of(cavity.begin(), cavity.end(), hasFacet) || !mesh.isPointAlive(f[0]))
-      {
-        continue;
-      }
-      mesh.star(f[0], star);
-      if (std::any_of(
-            star.begin(), star.end(), [&](Index c) { return !inCavity(c) && hasFacet(c); }))
+      Index facet[D];
+      std::transform(std::begin(f), std::end(f), facet, [&](int k) { return cell[k]; });
+      if (isNewAndTaken(facet, D))
       {
         return true;
       }

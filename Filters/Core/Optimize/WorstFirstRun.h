@@ -94,6 +94,7 @@ private:
   int numberOfChunks_ = 0;
   int variant_ = 0;
   bool guard_ = true;
+  bool tangled_ = true; ///< there are inverted cells
   long growth_ = 0, kept_ = 0;
   long reserve_ = 0; ///< of the growth, for polish()
   std::array<long, NumberOfOperations> tried_{}, done_{};
@@ -154,6 +155,7 @@ void WorstFirst<D, Shape>::run()
   this->growth_ = static_cast<long>(
     this->options_.growthBudget * static_cast<double>(this->mesh().countCells()));
   this->reserve_ = this->growth_ / 10;
+  this->tangled_ = this->report_.invertedBefore > 0;
   this->caps_.build(this->mesh(), this->options_.measure, stages.back(), this->metric_.isTrivial());
   this->report_.bound = this->caps_.bound();
   bool more = true;
@@ -295,7 +297,7 @@ void WorstFirst<D, Shape>::distribute(double target, int, const std::vector<Inde
   const Index cells = this->mesh().numberOfCellSlots();
   int n = static_cast<int>(
     std::min<long>(cells / CellsPerChunk, static_cast<long>(bad.size()) / BadCellsPerChunk));
-  n = std::min(std::max(n, 1), MaximumChunks);
+  n = this->tangled_ ? 1 : std::min(std::max(n, 1), MaximumChunks); // tangled: checks look anywhere
   this->numberOfChunks_ = n;
   if (n > 1)
   {
@@ -328,7 +330,7 @@ void WorstFirst<D, Shape>::distribute(double target, int, const std::vector<Inde
     take(freeCells, n > 1 ? cellRoom : freeCells.size(), w.editor.freeCells());
     take(freePoints, n > 1 ? pointRoom : freePoints.size(), w.editor.freePoints());
     w.improver.setGrowth((this->growth_ - (this->guard_ ? this->reserve_ : 0)) / n);
-    w.improver.setTangled(this->report_.invertedBefore > 0);
+    w.improver.setTangled(this->tangled_);
     w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
     w.kept = w.tries = 0;
   }
@@ -469,7 +471,9 @@ bool WorstFirst<D, Shape>::keepGoing(double target)
 template <int D, class Shape>
 void WorstFirst<D, Shape>::record(double target, int pass)
 {
-  PassRecord row = summarize(this->mesh(), this->options_.targetQuality);
+  long inverted = 0;
+  PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
+  this->tangled_ = inverted > 0;
   char name[32];
   std::snprintf(name, sizeof name, "towards %.2f, pass %d", target, pass + 1);
   row.pass = static_cast<int>(this->report_.history.size());
