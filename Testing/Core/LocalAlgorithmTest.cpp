@@ -134,8 +134,8 @@ TEST(LocalAlgorithm, NothingWorseAndQualitiesTrue)
     double worst = 1.0;
     for (std::size_t k = 0; k < cluster.cells.size(); ++k)
     {
-      EXPECT_EQ(
-        cluster.quality[k], quality.value(cluster.corners(static_cast<int>(k)), ElementMetric<3>{}));
+      const Corners<3> x = cluster.corners(static_cast<int>(k));
+      EXPECT_EQ(cluster.quality[k], quality.value(x, ElementMetric<3>{}));
       worst = std::min(worst, cluster.quality[k]);
     }
     EXPECT_EQ(worst, result.after);

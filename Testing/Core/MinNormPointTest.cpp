@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The quadratic program (2.5) against enumeration of all faces of the simplex, and its KKT conditions.
+// The quadratic program (2.5) against enumeration of all
+// faces of the simplex, and its KKT conditions.
 #include "Reposition/MinNormPoint.h"
 #include "TestMeshes.h"
 
@@ -44,7 +45,8 @@ std::vector<SparsePoint<D>> randomPoints(int m, int blocks, double shift, TestRa
   return points;
 }
 
-// Least norm over all faces of the simplex: the affine minimum of each subset, where it is feasible.
+// Least norm over all faces of the simplex: the affine minimum of each subset, where it is
+// feasible.
 template <int D>
 double enumerate(const std::vector<SparsePoint<D>>& points, int blocks)
 {

@@ -123,7 +123,8 @@ TEST(Reconnection2D, NodeToBoundaryNodeIsARemoval)
   expectDone<2>(hexagon({ 0.8, 0.0 }), Filling::BoundaryNode, 4, 6);
 }
 
-// ---- 3D ------------------------------------------------------------------------------------------
+// ---- 3D
+// ------------------------------------------------------------------------------------------
 
 TEST(Reconnection3D, EdgeToRingNodeRemovesTheEdge)
 {
@@ -161,7 +162,8 @@ TEST(Reconnection3D, CentreOfASurfaceNodesClusterIsANewNode)
   expectDone<3>(ring(4, 4.0), Filling::NewCentre, 8, 7);
 }
 
-// ---- what must be kept ---------------------------------------------------------------------------
+// ---- what must be kept
+// ---------------------------------------------------------------------------
 
 TEST(Reconnection, InterfaceAndFixedNodesStay)
 {
@@ -199,7 +201,8 @@ TEST(Reconnection, ConstrainedEdgeStays)
   expectSound(mesh);
 }
 
-// ---- the iteration -------------------------------------------------------------------------------
+// ---- the iteration
+// -------------------------------------------------------------------------------
 
 template <int D>
 void heapEqualsRescan(int lookAhead)

@@ -30,8 +30,9 @@ private:
   std::mt19937 engine_;
 };
 
-/// The unit square (2 triangles a square) or cube (6 tetrahedra a cube) of n^D boxes; interior points are
-/// displaced by up to `jitter` box sizes in each coordinate. Beyond some .3 elements get inverted.
+/// The unit square (2 triangles a square) or cube (6 tetrahedra a cube) of n^D boxes; interior
+/// points are displaced by up to `jitter` box sizes in each coordinate. Beyond some .3 elements get
+/// inverted.
 template <int D>
 MeshInput<D> jitteredGrid(int n, double jitter, unsigned seed = 1)
 {

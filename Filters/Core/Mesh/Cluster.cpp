@@ -109,7 +109,8 @@ void ClusterGatherer<D>::gather(
 
 namespace
 {
-// Local numbers of the facets' points, ascending by id; facets come with ids and leave with numbers.
+// Local numbers of the facets' points, ascending by id; facets come with ids and leave with
+// numbers.
 template <int D>
 void numberPoints(const SimplexMesh<D>& mesh, FanCluster<D>& cluster)
 {

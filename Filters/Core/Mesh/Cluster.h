@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Cluster.h
-/// The few cells being worked on, numbered locally: what the node motion and the reconnection see of a mesh.
+/// The few cells being worked on, numbered locally: what the node motion and the reconnection see
+/// of a mesh.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2 (steps 3 and 4 of the global
 /// algorithm: neighbours of order NL, moving nodes, optimization cluster) and section 2.3 (nodal
@@ -14,8 +15,8 @@
 
 namespace meshopt
 {
-/// The optimization cluster of section 2.2: the cells that contain a moving node. Local point numbers
-/// 0 .. numberOfMoving - 1 are the moving nodes, the others follow.
+/// The optimization cluster of section 2.2: the cells that contain a moving node. Local point
+/// numbers 0 .. numberOfMoving - 1 are the moving nodes, the others follow.
 template <int D>
 struct Cluster
 {
@@ -65,8 +66,8 @@ private:
   std::vector<Index> front_, star_;
 };
 
-/// A cluster of section 2.3: all cells around a node or an edge, on one side of kept facets, and the
-/// facets that bound them. Reconnection removes its interior and joins the facets to an apex.
+/// A cluster of section 2.3: all cells around a node or an edge, on one side of kept facets, and
+/// the facets that bound them. Reconnection removes its interior and joins the facets to an apex.
 template <int D>
 struct FanCluster
 {
@@ -95,11 +96,11 @@ struct FanCluster
 };
 
 /// Gathers the cluster around a node (n = 1) or an edge (n = 2) `core` of `cell`: the cells that
-/// contain the core and are reached from `cell` over facets that contain it and are not kept. A node that
-/// bounds the cluster (it lies on a kept facet) stays; see FanCluster::coreInside. Returns false if the
-/// cluster lies on both sides of a kept facet: it must then be left as it is. Returns false as well, early, if
-/// `cell` is not the worst of the cluster by (quality, id).
-/// The cells are left marked with editor.lastMark().
+/// contain the core and are reached from `cell` over facets that contain it and are not kept. A
+/// node that bounds the cluster (it lies on a kept facet) stays; see FanCluster::coreInside.
+/// Returns false if the cluster lies on both sides of a kept facet: it must then be left as it is.
+/// Returns false as well, early, if `cell` is not the worst of the cluster by (quality, id). The
+/// cells are left marked with editor.lastMark().
 template <int D>
 bool gatherFanCluster(
   MeshEditor<D>& editor, Index cell, const Index* core, int n, FanCluster<D>& cluster);

@@ -14,11 +14,12 @@
 
 namespace meshopt
 {
-/// The next cell by (quality, id) among the live cells with a quality under `limit` that the caller deems
-/// eligible. Both ways of searching give the same sequence, provided that every cell is pushed
-/// when its quality changes and when it becomes eligible (again). Entries of the heap are checked
-/// when they come to the top: one whose cell is dead, has another quality, or is not eligible, is
-/// dropped. A push costs O(log n), and so does a cell found; the scan costs O(cells) a time.
+/// The next cell by (quality, id) among the live cells with a quality under `limit` that the caller
+/// deems eligible. Both ways of searching give the same sequence, provided that every cell is
+/// pushed when its quality changes and when it becomes eligible (again). Entries of the heap are
+/// checked when they come to the top: one whose cell is dead, has another quality, or is not
+/// eligible, is dropped. A push costs O(log n), and so does a cell found; the scan costs O(cells) a
+/// time.
 template <int D>
 class WorstQueue
 {

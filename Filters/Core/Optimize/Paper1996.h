@@ -2,12 +2,13 @@
 /// @file Paper1996.h
 /// The optimizer of the paper: reconnection, then repositioning, and so on.
 ///
-/// Reference: Buscaglia, Dari, Zavattieri (1996), opening of section 2: "The optimization sequence starts with
-/// a connectivity optimization, followed by repositioning the nodes at optimal locations for that
-/// structure, and so on."
-/// What it leaves open: when an alternation has raised the worst quality by less than a fraction 1e-3, the next one
-/// gives the 20 worst elements a look-ahead (LookAhead.h, a departure). The sequence ends when that does not help either, when the target is
-/// reached, or after a number of alternations.
+/// Reference: Buscaglia, Dari, Zavattieri (1996), opening of section 2: "The optimization sequence
+/// starts with a connectivity optimization, followed by repositioning the nodes at optimal
+/// locations for that structure, and so on."
+/// What it leaves open: when an alternation has raised the worst quality by less than a fraction
+/// 1e-3, the next one gives the 20 worst elements a look-ahead (LookAhead.h, a departure). The
+/// sequence ends when that does not help either, when the target is reached, or after a number of
+/// alternations.
 #ifndef meshopt_Optimize_Paper1996_h
 #define meshopt_Optimize_Paper1996_h
 
@@ -17,8 +18,8 @@
 
 namespace meshopt
 {
-/// Optimizes the mesh, whose qualities must be up to date (and are kept so); appends two rows per alternation
-/// to report.history and sets report.stopReason.
+/// Optimizes the mesh, whose qualities must be up to date (and are kept so); appends two rows per
+/// alternation to report.history and sets report.stopReason.
 template <int D>
 void optimizePaper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
   const Control& control, Report& report);

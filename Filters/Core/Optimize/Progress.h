@@ -11,8 +11,8 @@
 
 namespace meshopt
 {
-/// Stands between an algorithm, which reports as often as it likes, and the caller's Control,
-/// which is called at most about ten times a second. The clock only spaces the calls; no result depends
+/// Stands between an algorithm, which reports as often as it likes, and the caller's Control, which
+/// is called at most about ten times a second. The clock only spaces the calls; no result depends
 /// on it unless the caller cancels.
 class Progress
 {

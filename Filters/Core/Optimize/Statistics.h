@@ -16,8 +16,8 @@ template <int D>
 void computeQualities(
   MeshEditor<D>& editor, const NodalMetric<D>& metric, Measure measure, double beta);
 
-/// Worst and mean quality (0 without cells), counts; `inverted` counts qualities < 0 or = 0. Linear; sums run
-/// in the order of the cells.
+/// Worst and mean quality (0 without cells), counts; `inverted` counts qualities < 0 or = 0.
+/// Linear; sums run in the order of the cells.
 template <int D>
 PassRecord summarize(const SimplexMesh<D>& mesh, double target, long* inverted = nullptr);
 

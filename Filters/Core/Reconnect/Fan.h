@@ -81,10 +81,10 @@ bool fillFromApex(const FanCluster<D>& cluster, const Apex<D>& apex, double requ
   return !fan.cells.empty();
 }
 
-/// True if the fan from boundary point `apex` has no edge, facet or cell in common with the cells `outside`, which
-/// are those around the apex that are not in the cluster, but what lies on the cluster's
-/// boundary. Where no element is inverted this holds by geometry; it is the link condition of an
-/// edge contraction, and its like for other fans.
+/// True if the fan from boundary point `apex` has no edge, facet or cell in common with the cells
+/// `outside`, which are those around the apex that are not in the cluster, but what lies on the
+/// cluster's boundary. Where no element is inverted this holds by geometry; it is the link
+/// condition of an edge contraction, and its like for other fans.
 template <int D>
 bool isFanSafe(const FanCluster<D>& cluster, const Apex<D>& apex,
   const std::vector<Simplex<D>>& outside);

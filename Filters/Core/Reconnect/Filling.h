@@ -34,7 +34,7 @@ template <int D>
 struct ReconnectionMemory
 {
   std::uint32_t time = 0;
-  std::vector<std::uint32_t> failed;  ///< per cell slot: when its clusters were tried in vain; 0: never
+  std::vector<std::uint32_t> failed;  ///< per cell slot: when tried in vain; 0: never
   std::vector<std::uint32_t> ahead;   ///< the same for the look-ahead
   std::vector<std::uint32_t> changed; ///< per point slot: last change in its star
 
@@ -65,7 +65,8 @@ class ElementClusters
 {
 public:
   /// Gathers the clusters of which c is the worst cell, as far as they have changed since `when`. A
-  /// change in the cells around a node is remembered at the node, one around an edge at both its nodes.
+  /// change in the cells around a node is remembered at the node, one around an edge at both its
+  /// nodes.
   void gather(
     MeshEditor<D>& editor, Index c, const ReconnectionMemory<D>& memory, std::uint32_t when);
 

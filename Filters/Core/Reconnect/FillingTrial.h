@@ -30,8 +30,8 @@ public:
   }
 
   /// True if all cells of the filling are better than `required`, no more of them inverted or flat
-  /// than the cluster has, and nothing is lost that is to be kept. The mesh stays as it is, but for a new
-  /// apex: it becomes a point that no cell uses (apex.id). Call make() or giveUp() next.
+  /// than the cluster has, and nothing is lost that is to be kept. The mesh stays as it is, but for
+  /// a new apex: it becomes a point that no cell uses (apex.id). Call make() or giveUp() next.
   bool isBetter(const Part<D>& part, Apex<D>& apex, double required);
   /// Makes the filling; made() are its cells.
   void make(const Part<D>& part, const Apex<D>& apex);
@@ -144,11 +144,14 @@ void FillingTrial<D, Shape>::make(const Part<D>& part, const Apex<D>& apex)
     this->made_ = this->editor_.created();
     return;
   }
-  // The node goes to the centre: it is interior, facet k of the cluster belongs to its cell k.
+  // The node goes to the centre. The cells keep the order of their nodes, in which the quality may
+  // differ from that of the fan in the last bit.
   this->editor_.movePoint(apex.id, apex.x);
-  for (std::size_t k = 0; k < part.cluster.cells.size(); ++k)
+  for (Index c : part.cluster.cells)
   {
-    this->editor_.setQuality(part.cluster.cells[k], this->fan_.quality[k]);
+    const ElementMetric<D> m =
+      this->trivial_ ? this->common_ : this->metric_.element(this->mesh_.nodes(c));
+    this->editor_.setQuality(c, this->quality_.value(this->mesh_.corners(c), m));
   }
   this->made_ = part.cluster.cells;
 }

@@ -2,10 +2,11 @@
 /// @file LookAhead.h
 /// A filling that pays only after its nodes have been repositioned.
 ///
-/// This is a departure from Buscaglia, Dari, Zavattieri (1996), who judge a filling as it is made, with the centre of a
-/// cluster where the mean of its vertices is. Here the fillings of section 2.3 are made in a
-/// transaction, the Local Algorithm of section 2.2 moves the nodes of their worst cell, and the
-/// whole is kept if the worst of all changed cells is better than it was; else it is undone, to the bit.
+/// This is a departure from Buscaglia, Dari, Zavattieri (1996), who judge a filling as it is made,
+/// with the centre of a cluster where the mean of its vertices is. Here the fillings of section 2.3
+/// are made in a transaction, the Local Algorithm of section 2.2 moves the nodes of their worst
+/// cell, and the whole is kept if the worst of all changed cells is better than it was; else it is
+/// undone, to the bit.
 #ifndef meshopt_Reconnect_LookAhead_h
 #define meshopt_Reconnect_LookAhead_h
 
@@ -31,8 +32,8 @@ public:
   {
   }
 
-  /// Tries one filling (but Filling::Centre). If it is kept, changed() are the cells that are new or have another
-  /// quality.
+  /// Tries one filling (but Filling::Centre). If it is kept, changed() are the cells that are new
+  /// or have another quality.
   bool improve(const Part<D>& part, Apex<D> apex);
   const std::vector<Index>& changed() const { return this->changed_; }
 

@@ -3,32 +3,34 @@
 /// Reconnection of a whole mesh: node and edge clusters around the worst element are emptied and
 /// filled anew.
 ///
-/// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.3 and figure 1 (the details are in its [7]).
+/// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.3 and figure 1 (the details are in its
+/// [7]).
 ///
-/// The worst element and all that share a node or an edge with it are the candidates; each brings the clusters of
-/// its edges and of its nodes. A cluster is tried *virtually* with every apex; the first
-/// filling whose worst element is better than the cluster's worst so far is *really* made:
+/// The worst element and all that share a node or an edge with it are the candidates; each brings
+/// the clusters of its edges and of its nodes. A cluster is tried *virtually* with every apex; the
+/// first filling whose worst element is better than the cluster's worst so far is *really* made:
 ///  - edge cluster, a node of its ring: the edge is removed (2D: swap);
 ///  - edge cluster, the midpoint of the edge: the edge is bisected (2D: split);
-///  - node cluster, a node of its boundary: the node is contracted into that one (2D: vertex removal);
+///  - node cluster, a node of its boundary: the node is contracted into that one (2D: vertex
+///    removal);
 ///  - node cluster, its centre: the node is put at the mean of the cluster's boundary vertices.
 /// Clusters at the surface, or at facets between regions, are treated in the same way, with these
-/// facets as a part of their boundary: they are kept bit for bit, and a node or edge on them stays. Their edge
-/// clusters then contain the exchange of two elements for three; the centre of their node
-/// clusters is a new node.
+/// facets as a part of their boundary: they are kept bit for bit, and a node or edge on them stays.
+/// Their edge clusters then contain the exchange of two elements for three; the centre of their
+/// node clusters is a new node.
 ///
 /// What the paper leaves open, and how it is decided here:
-///  - A filling is better if its worst quality is above that of the cluster by more than a fraction 1e-3, and
-///    it has no more elements of zero or negative quality. So the sorted vector of qualities rises
-///    lexicographically, and the iteration ends.
-///  - Candidates come in the order: worst element, those that share an edge with it, those that share a node; each
-///    group by (quality, id). Only elements under the target are candidates. For the order of fillings see
-///    ElementClusters::forEach.
-///  - A cluster is tried on behalf of its worst element only. For the others it would be in vain: their turn comes
-///    after that element's, in which the cluster was tried as it still is.
-///  - A worst element that no cluster improves is set aside, and the next worst is taken; it comes back
-///    when anything around one of its nodes has changed. The iteration ends when all elements under the target are set
-///    aside.
+///  - A filling is better if its worst quality is above that of the cluster by more than a fraction
+///    1e-3, and it has no more elements of zero or negative quality. So the sorted vector of
+///    qualities rises lexicographically, and the iteration ends.
+///  - Candidates come in the order: worst element, those that share an edge with it, those that
+///    share a node; each group by (quality, id). Only elements under the target are candidates. For
+///    the order of fillings see ElementClusters::forEach.
+///  - A cluster is tried on behalf of its worst element only. For the others it would be in vain:
+///    their turn comes after that element's, in which the cluster was tried as it still is.
+///  - A worst element that no cluster improves is set aside, and the next worst is taken; it comes
+///    back when anything around one of its nodes has changed. The iteration ends when all elements
+///    under the target are set aside.
 ///  - In a metric that varies, the field is sampled at a moved or new node before it is judged.
 #ifndef meshopt_Reconnect_Reconnection_h
 #define meshopt_Reconnect_Reconnection_h
@@ -49,8 +51,8 @@ struct ReconnectionParameters
   double leastGain = 1e-3; ///< of the worst quality of a cluster, as a fraction of it
   std::array<bool, NumberOfFillings> allowed{ true, true, true, true, true, true };
   bool naiveSearch = false; ///< see WorstQueue
-  /// When all is set aside: so many of the worst elements get a look-ahead (LookAhead.h), and the iteration goes on
-  /// if one gains. 0: none, as in the paper.
+  /// When all is set aside: so many of the worst elements get a look-ahead (LookAhead.h), and the
+  /// iteration goes on if one gains. 0: none, as in the paper.
   int lookAhead = 0;
 };
 
@@ -71,9 +73,9 @@ struct ReconnectionResult
   }
 };
 
-/// Runs the iteration of section 2.3. Qualities of the mesh's cells must be up to date, and are kept
-/// so. `keepGoing` is asked before every iteration with the worst quality; false cancels. Appends
-/// each worst element to `sequence` if given.
+/// Runs the iteration of section 2.3. Qualities of the mesh's cells must be up to date, and are
+/// kept so. `keepGoing` is asked before every iteration with the worst quality; false cancels.
+/// Appends each worst element to `sequence` if given.
 template <int D>
 ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
   double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,

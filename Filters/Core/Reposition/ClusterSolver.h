@@ -65,7 +65,8 @@ private:
   std::vector<ElementMetric<D>> metrics_;
 };
 
-// The metric of each element, frozen while the cluster is solved; a single one where it is the same everywhere.
+// The metric of each element, frozen while the cluster is solved; a single one where it is the same
+// everywhere.
 template <int D, class Shape>
 void ClusterSolver<D, Shape>::setMetrics()
 {

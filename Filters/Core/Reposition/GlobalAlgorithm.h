@@ -5,13 +5,14 @@
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2, Global Algorithm, steps 1 to 6.
 /// Departures:
 ///  - Also stops once the worst element that has a movable node has the target quality.
-///  - A cluster whose worst quality would rise by less than a fraction `leastGain` is left as it was: its worst element is then
-///    KWORST once more and step 2 sets its nodes non-movable. Without this, two neighbours may
-///    exchange ever smaller gains for ever.
-///  - Non-movable from the start are boundary nodes, nodes of kept facets and edges, and the user's.
+///  - A cluster whose worst quality would rise by less than a fraction `leastGain` is left as it
+///    was: its worst element is then KWORST once more and step 2 sets its nodes non-movable.
+///    Without this, two neighbours may exchange ever smaller gains for ever.
+///  - Non-movable from the start are boundary nodes, nodes of kept facets and edges, and the
+///    user's.
 ///  - With a metric or size field that varies, the metric of an element is frozen while the cluster
-///    is solved; the field is then sampled where nodes have moved, and the move is undone unless the worst
-///    quality of the cluster has really risen.
+///    is solved; the field is then sampled where nodes have moved, and the move is undone unless
+///    the worst quality of the cluster has really risen.
 #ifndef meshopt_Reposition_GlobalAlgorithm_h
 #define meshopt_Reposition_GlobalAlgorithm_h
 

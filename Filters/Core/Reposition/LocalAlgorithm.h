@@ -7,10 +7,11 @@
 ///  - E. Polak, On the mathematical foundations of nondifferentiable optimization in engineering
 ///    analysis, SIAM Review 29 (1987) 21-89: the method (the paper's [20]).
 /// Departures:
-///  - The search runs in y = x / L, L the mean edge of the cluster. In y the direction is delta = -sum mu_K L grad f_K;
-///    nodes move by lambda L delta. This leaves (2.5) as printed and makes lambda a number.
-///  - (2.7) lacks the minus sign of its right side, and mixes units. Used is
-///    psi(y + lambda delta) - psi(y) <= -alpha lambda |delta|^2.
+///  - The search runs in y = x / L, L the mean edge of the cluster. In y the direction is delta =
+///    -sum mu_K L grad f_K; nodes move by lambda L delta. This leaves (2.5) as printed and makes
+///    lambda a number.
+///  - (2.7) lacks the minus sign of its right side, and mixes units. Used is psi(y + lambda delta)
+///    - psi(y) <= -alpha lambda |delta|^2.
 ///  - lambda is sought from twice the last step, not from 1 each time; halved at most 14 times.
 ///  - Also stops where the least-norm point is shorter than 1e-5: the cluster is stationary.
 ///  - An element of positive quality never gets one that is zero or negative, also while the worst
@@ -41,8 +42,8 @@ struct LocalResult
   int iterations = 0;               ///< steps taken
 };
 
-/// The local algorithm for one shape measure; keeps its scratch between calls. `metrics` holds one element metric
-/// per cell of the cluster, or a single one for all of them.
+/// The local algorithm for one shape measure; keeps its scratch between calls. `metrics` holds one
+/// element metric per cell of the cluster, or a single one for all of them.
 template <int D, class Shape>
 class LocalAlgorithm
 {
@@ -122,8 +123,8 @@ void LocalAlgorithm<D, Shape>::formPoints(const Cluster<D>& cluster, double wors
   }
 }
 
-// Which nodes move, and which cells they belong to: all others keep their quality. Active cells stand first,
-// so that a step that is too long is found out early.
+// Which nodes move, and which cells they belong to: all others keep their quality. Active cells
+// stand first, so that a step that is too long is found out early.
 template <int D, class Shape>
 void LocalAlgorithm<D, Shape>::findAffected(const Cluster<D>& cluster)
 {

@@ -47,8 +47,8 @@ void MinNormPoint<D>::formPoint(const std::vector<SparsePoint<D>>& points)
   }
 }
 
-// Cholesky factor of (Gram matrix + scale ee'), rows `row` and below. The shift makes it definite for
-// every affinely independent corral and changes the affine weights by a factor only.
+// Cholesky factor of (Gram matrix + scale ee'), rows `row` and below. The shift makes it definite
+// for every affinely independent corral and changes the affine weights by a factor only.
 template <int D>
 bool MinNormPoint<D>::factorFrom(std::size_t row)
 {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file MinNormPoint.h
-/// The point of least norm in the convex hull of a few sparse vectors: the quadratic program (2.4)-(2.6).
+/// The point of least norm in the convex hull of a few sparse vectors: the quadratic program
+/// (2.4)-(2.6).
 ///
 /// References:
 ///  - Buscaglia, Dari, Zavattieri (1996), (2.4)-(2.6). With w_K = (psi - f_K ; L grad f_K) the
 ///    functional of (2.5) is |sum mu_K w_K|^2: its first square is one more coordinate.
-///  - P. Wolfe, Finding the nearest point in a polytope, Mathematical Programming 11 (1976): an active
-///    set method (the paper's [22] is a general text on such methods).
+///  - P. Wolfe, Finding the nearest point in a polytope, Mathematical Programming 11 (1976): an
+///    active set method (the paper's [22] is a general text on such methods).
 /// Departures: products between points are formed only for points of the corral, from their common
 /// blocks; ties go to the point with the lowest number; weights under 1e-12 are dropped.
 #ifndef meshopt_Reposition_MinNormPoint_h
