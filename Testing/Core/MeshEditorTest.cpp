@@ -1,0 +1,801 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Editing a mesh: cavities replaced, what they hand on, undoing, editors that own a part only.
+#include "Mesh/MeshEditor.h"
+#include "TestMeshes.h"
+
+#include <map>
+
+using namespace meshopt;
+
+namespace
+{
+template <int D>
+double volumeOf(const SimplexMesh<D>& mesh, const Simplex<D>& cell)
+{
+  Corners<D> x;
+  for (int i = 0; i <= D; ++i)
+  {
+    x[i] = mesh.point(cell[i]);
+  }
+  return signedVolume(x);
+}
+
+/// Everything but marks, and the editor's pools.
+template <int D>
+struct Snapshot
+{
+  std::vector<std::int64_t> numbers;
+  std::vector<double> values;
+
+  explicit Snapshot(MeshEditor<D>& editor)
+  {
+    const SimplexMesh<D>& mesh = editor.mesh();
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      this->add(mesh.nodes(c));
+      for (int i = 0; i <= D; ++i)
+      {
+        this->numbers.push_back(mesh.adjacent(c, i));
+      }
+      const auto& data = mesh.cellData(c);
+      this->add(std::array<std::int64_t, 5>{
+        data.region, data.parent, data.stamp, data.flags, data.level });
+      this->values.push_back(data.quality);
+    }
+    for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+    {
+      const auto& data = mesh.pointData(p);
+      this->add(std::array<std::int64_t, 4>{ data.cell, data.stamp, data.owner, data.flags });
+      this->values.insert(this->values.end(), data.x.data(), data.x.data() + D);
+    }
+    this->numbers.push_back(-7);
+    this->add(editor.freeCells());
+    this->numbers.push_back(-8);
+    this->add(editor.freePoints());
+  }
+  template <class List>
+  void add(const List& list)
+  {
+    this->numbers.insert(this->numbers.end(), list.begin(), list.end());
+  }
+  bool operator==(const Snapshot& o) const
+  {
+    return this->numbers == o.numbers && this->values == o.values;
+  }
+};
+
+/// Facets of the cavity that only one of its cells has, each such that (facet, node) is positive.
+template <int D>
+std::vector<Facet<D>> boundary(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity)
+{
+  std::vector<Facet<D>> facets;
+  for (Index c : cavity)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index h = mesh.adjacent(c, i);
+      if (h == None || std::find(cavity.begin(), cavity.end(), mesh.cellOf(h)) == cavity.end())
+      {
+        facets.push_back(mesh.facet(c, i));
+      }
+    }
+  }
+  return facets;
+}
+
+/// The cells that join the boundary of the cavity to p; empty if one is not positive. Facets that
+/// have p themselves are left out.
+template <int D>
+std::vector<Simplex<D>> joined(
+  const SimplexMesh<D>& mesh, const std::vector<Index>& cavity, Index p)
+{
+  std::vector<Simplex<D>> cells;
+  for (const Facet<D>& f : boundary<D>(mesh, cavity))
+  {
+    if (std::find(f.begin(), f.end(), p) != f.end())
+    {
+      continue;
+    }
+    Simplex<D> cell;
+    std::copy(f.begin(), f.end(), cell.begin());
+    cell[D] = p;
+    if (!(volumeOf<D>(mesh, cell) > 1e-9))
+    {
+      return {};
+    }
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+template <int D>
+Facet<D> sorted(Facet<D> f)
+{
+  std::sort(f.begin(), f.end());
+  return f;
+}
+
+/// replace(), and all that it promises.
+template <int D>
+void replaceAndCheck(MeshEditor<D>& editor, const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells, bool audit = true)
+{
+  const SimplexMesh<D>& mesh = editor.mesh();
+  struct Side
+  {
+    Index outside, parent;
+    bool kept;
+  };
+  std::map<Facet<D>, Side> sides;
+  std::set<std::array<Index, 2>> keptEdges;
+  std::set<Index> points;
+  for (Index c : cavity)
+  {
+    points.insert(mesh.nodes(c).begin(), mesh.nodes(c).end());
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index h = mesh.adjacent(c, i);
+      if (h == None || std::find(cavity.begin(), cavity.end(), mesh.cellOf(h)) == cavity.end())
+      {
+        sides[sorted<D>(mesh.facet(c, i))] = { h, mesh.parent(c), mesh.isConstrained(c, i) };
+      }
+    }
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      const Index a = mesh.nodes(c)[Local<D>::edges[e][0]];
+      const Index b = mesh.nodes(c)[Local<D>::edges[e][1]];
+      if (mesh.isEdgeConstrained(c, e))
+      {
+        keptEdges.insert({ std::min(a, b), std::max(a, b) });
+      }
+    }
+  }
+  const Index region = mesh.region(cavity[0]), parent = mesh.parent(cavity[0]);
+  const Index cellsBefore = mesh.countCells();
+  const std::uint32_t clock = editor.clock();
+  std::vector<double> qualities;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+  {
+    qualities.push_back(0.25 + 0.01 * double(k));
+  }
+
+  ASSERT_TRUE(editor.replace(cavity, cells, qualities));
+
+  ASSERT_EQ(editor.created().size(), cells.size());
+  EXPECT_EQ(mesh.countCells(), cellsBefore + Index(cells.size()) - Index(cavity.size()));
+  EXPECT_GT(editor.clock(), clock);
+  for (std::size_t k = 0; k < cells.size(); ++k)
+  {
+    const Index c = editor.created()[k];
+    EXPECT_TRUE(mesh.isAlive(c));
+    EXPECT_EQ(mesh.nodes(c), cells[k]);
+    EXPECT_EQ(mesh.quality(c), qualities[k]);
+    EXPECT_EQ(mesh.region(c), region);
+    EXPECT_EQ(mesh.cellData(c).stamp, 0u);
+    std::set<Index> parents;
+    for (int i = 0; i <= D; ++i)
+    {
+      const auto side = sides.find(sorted<D>(mesh.facet(c, i)));
+      if (side == sides.end())
+      {
+        EXPECT_FALSE(mesh.isConstrained(c, i));
+        continue;
+      }
+      parents.insert(side->second.parent);
+      EXPECT_EQ(mesh.adjacent(c, i), side->second.outside);
+      EXPECT_EQ(mesh.isConstrained(c, i), side->second.kept);
+      sides.erase(side);
+    }
+    EXPECT_TRUE(parents.empty() ? mesh.parent(c) == parent : parents.count(mesh.parent(c)) == 1);
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      const Index a = cells[k][Local<D>::edges[e][0]], b = cells[k][Local<D>::edges[e][1]];
+      EXPECT_EQ(
+        mesh.isEdgeConstrained(c, e), keptEdges.count({ std::min(a, b), std::max(a, b) }) == 1);
+    }
+    for (Index p : cells[k])
+    {
+      points.erase(p);
+      EXPECT_EQ(mesh.pointData(p).stamp, editor.clock());
+    }
+  }
+  EXPECT_TRUE(sides.empty());
+  for (Index p : points) // what is left has vanished
+  {
+    EXPECT_FALSE(mesh.isPointAlive(p));
+    EXPECT_EQ(mesh.cellOfPoint(p), None);
+    const auto& pool = editor.freePoints();
+    EXPECT_EQ(std::count(pool.begin(), pool.end(), p), p >= mesh.numberOfInputPoints());
+  }
+  if (audit)
+  {
+    expectSound(mesh);
+  }
+}
+
+/// n tetrahedra around the edge (0, 1).
+MeshInput<3> ringOf(int n)
+{
+  MeshInput<3> in;
+  in.points = { { 0, 0, -1 }, { 0, 0, 1 } };
+  for (int k = 0; k < n; ++k)
+  {
+    const double a = 2.0 * M_PI * k / n;
+    in.points.emplace_back(std::cos(a), std::sin(a), 0.0);
+    in.cells.push_back({ 0, 1, 2 + k, 2 + (k + 1) % n });
+  }
+  return in;
+}
+
+/// One random edit that keeps all cells positive (or none, if what it drew is not possible).
+template <int D>
+class RandomEdits
+{
+public:
+  RandomEdits(MeshEditor<D>& editor, unsigned seed)
+    : editor_(editor)
+    , random_(seed)
+  {
+  }
+
+  int below(int n) { return std::min(n - 1, int(0.5 * (this->random_() + 1.0) * n)); }
+
+  void edit()
+  {
+    const int kind = this->below(6);
+    const Index c = this->someCell();
+    kind == 0     ? this->insert(c)
+      : kind == 1 ? this->contract(c)
+      : kind == 2 ? this->move(c)
+      : kind == 3 ? this->reconnect(c)
+      : kind == 4 ? this->stampAndRate(c)
+                  : this->addAndDrop(c);
+  }
+  std::array<int, 5> done{};
+
+private:
+  const SimplexMesh<D>& mesh() const { return this->editor_.mesh(); }
+
+  Index someCell()
+  {
+    while (true)
+    {
+      const Index c = this->below(this->mesh().numberOfCellSlots());
+      if (this->mesh().isAlive(c))
+      {
+        return c;
+      }
+    }
+  }
+
+  Vec<D> centre(Index c) const
+  {
+    Vec<D> x = Vec<D>::Zero();
+    for (Index p : this->mesh().nodes(c))
+    {
+      x += this->mesh().point(p) / (D + 1);
+    }
+    return x;
+  }
+
+  /// c and what lies across one of its facets that are not kept
+  std::vector<Index> pairOf(Index c)
+  {
+    const int i = this->below(D + 1);
+    return this->mesh().isConstrained(c, i)
+      ? std::vector<Index>{ c }
+      : std::vector<Index>{ c, this->mesh().cellOf(this->mesh().adjacent(c, i)) };
+  }
+
+  void replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells)
+  {
+    replaceAndCheck<D>(this->editor_, cavity, cells, false);
+  }
+
+  void insert(Index c)
+  {
+    const std::size_t start = this->editor_.begin();
+    const std::vector<Index> cavity = this->pairOf(c);
+    const Index p = this->editor_.addPoint(this->centre(c));
+    const std::vector<Simplex<D>> cells = joined<D>(this->mesh(), cavity, p);
+    if (cells.empty())
+    {
+      this->editor_.rollback(start);
+      return;
+    }
+    this->replace(cavity, cells);
+    this->editor_.commit(start);
+    ++this->done[0];
+  }
+
+  void contract(Index c)
+  {
+    const Simplex<D> nodes = this->mesh().nodes(c);
+    for (Index v : nodes)
+    {
+      if (this->mesh().isFixed(v))
+      {
+        continue;
+      }
+      std::vector<Index> star;
+      this->editor_.star(v, star);
+      for (Index u : nodes)
+      {
+        const std::vector<Simplex<D>> cells = joined<D>(this->mesh(), star, u);
+        if (u != v && !cells.empty())
+        {
+          this->replace(star, cells);
+          ++this->done[1];
+          return;
+        }
+      }
+    }
+  }
+
+  void move(Index c)
+  {
+    const Index v = this->mesh().nodes(c)[this->below(D + 1)];
+    if (this->mesh().isFixed(v))
+    {
+      return;
+    }
+    std::vector<Index> star;
+    this->editor_.star(v, star);
+    const std::size_t start = this->editor_.begin();
+    Vec<D> x = this->mesh().point(v);
+    for (int d = 0; d < D; ++d)
+    {
+      x[d] += 0.02 * this->random_();
+    }
+    this->editor_.movePoint(v, x);
+    EXPECT_EQ(this->mesh().point(v), x);
+    EXPECT_TRUE(this->mesh().isMoved(v));
+    bool positive = true;
+    for (Index s : star)
+    {
+      positive = positive && volumeOf<D>(this->mesh(), this->mesh().nodes(s)) > 1e-9;
+      this->editor_.setQuality(s, this->random_());
+    }
+    positive ? this->editor_.commit(start) : this->editor_.rollback(start);
+    this->done[2] += positive;
+  }
+
+  /// 2D: the other diagonal. 3D: two cells for three.
+  void reconnect(Index c)
+  {
+    const std::vector<Index> cavity = this->pairOf(c);
+    if (cavity.size() < 2)
+    {
+      return;
+    }
+    std::set<Index> apex;
+    for (Index k : cavity)
+    {
+      for (Index p : this->mesh().nodes(k))
+      {
+        apex.count(p) ? (void)apex.erase(p) : (void)apex.insert(p);
+      }
+    }
+    const std::vector<Simplex<D>> cells = joined<D>(this->mesh(), cavity, *apex.begin());
+    if (!cells.empty())
+    {
+      this->replace(cavity, cells);
+      ++this->done[3];
+    }
+  }
+
+  void stampAndRate(Index c)
+  {
+    this->editor_.stamp({ c });
+    for (Index p : this->mesh().nodes(c))
+    {
+      EXPECT_EQ(this->mesh().pointData(p).stamp, this->editor_.clock());
+    }
+    this->editor_.setQuality(c, 0.125);
+    EXPECT_EQ(this->mesh().quality(c), 0.125);
+  }
+
+  void addAndDrop(Index c)
+  {
+    const Index p = this->editor_.addPoint(this->centre(c));
+    EXPECT_EQ(this->mesh().point(p), this->centre(c));
+    EXPECT_FALSE(this->mesh().isPointAlive(p));
+    EXPECT_GE(p, this->mesh().numberOfInputPoints());
+    this->editor_.dropPoint(p);
+    ++this->done[4];
+  }
+
+  MeshEditor<D>& editor_;
+  TestRandom random_;
+};
+
+template <int D>
+void nested(MeshEditor<D>& editor, RandomEdits<D>& edits, int depth, int& rollbacks)
+{
+  const Snapshot<D> before(editor);
+  const std::size_t place = editor.begin();
+  EXPECT_TRUE(editor.inTransaction());
+  for (int k = 0; k < 6; ++k)
+  {
+    edits.edit();
+    if (depth > 0 && edits.below(3) == 0)
+    {
+      nested(editor, edits, depth - 1, rollbacks);
+    }
+  }
+  expectSound(editor.mesh());
+  if (edits.below(2) == 0)
+  {
+    editor.commit(place);
+    return;
+  }
+  editor.rollback(place);
+  ++rollbacks;
+  EXPECT_TRUE(before == Snapshot<D>(editor)) << "not undone at depth " << depth;
+}
+
+struct Two
+{
+  static constexpr int dimension = 2;
+};
+struct Three
+{
+  static constexpr int dimension = 3;
+};
+}
+
+template <class T>
+class Editor : public ::testing::Test
+{
+};
+using Dimensions = ::testing::Types<Two, Three>;
+TYPED_TEST_SUITE(Editor, Dimensions);
+
+// ---- replace -------------------------------------------------------------------------------------
+
+TEST(Editor2D, SwapAndBack)
+{
+  MeshInput<2> in = jitteredGrid<2>(4, 0.1);
+  SimplexMesh<2> mesh = buildMesh(in);
+  MeshEditor<2> editor(mesh);
+  const Index c = 9;
+  int i = 0;
+  while (mesh.isConstrained(c, i))
+  {
+    ++i;
+  }
+  const Index o = mesh.cellOf(mesh.adjacent(c, i));
+  const Facet<2> f = mesh.facet(c, i);
+  const Index a = mesh.nodes(c)[i], b = mesh.nodes(o)[mesh.facetOf(mesh.adjacent(c, i))];
+  replaceAndCheck<2>(editor, { c, o }, { { a, f[0], b }, { b, f[1], a } }, false);
+  expectSound(mesh, false);
+  const std::vector<Index> back = editor.created();
+  replaceAndCheck<2>(editor, back, { { f[0], f[1], a }, { f[1], f[0], b } });
+  EXPECT_EQ(mesh.numberOfCellSlots(), Index(in.cells.size())); // slots are used again
+}
+
+TEST(Editor3D, TwoForThreeAndBack)
+{
+  MeshInput<3> in;
+  in.points = { { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 0 }, { -0.5, 0.8, 0 }, { -0.5, -0.8, 0 } };
+  in.cells = { { 2, 3, 4, 1 }, { 3, 2, 4, 0 } };
+  SimplexMesh<3> mesh = buildMesh(in);
+  const double volume = mesh.volume();
+  MeshEditor<3> editor(mesh);
+  for (int k = 0; k < 3; ++k)
+  {
+    std::vector<Index> cavity = k == 0 ? std::vector<Index>{ 0, 1 } : editor.created();
+    replaceAndCheck<3>(editor, cavity, { { 0, 1, 2, 3 }, { 0, 1, 3, 4 }, { 0, 1, 4, 2 } });
+    EXPECT_NEAR(mesh.volume(), volume, 1e-14);
+    EXPECT_EQ(mesh.numberOfCellSlots(), 3);
+    cavity = editor.created();
+    replaceAndCheck<3>(editor, cavity, { { 2, 3, 4, 1 }, { 3, 2, 4, 0 } });
+    EXPECT_EQ(mesh.countCells(), 2);
+    EXPECT_NEAR(mesh.volume(), volume, 1e-14);
+    EXPECT_EQ(mesh.numberOfCellSlots(), 3);
+  }
+}
+
+TYPED_TEST(Editor, InsertAndContract)
+{
+  constexpr int D = TypeParam::dimension;
+  MeshInput<D> in = jitteredGrid<D>(3, 0.1);
+  splitRegions(in); // cells at the interface: kept facets and regions are handed on
+  SimplexMesh<D> mesh = buildMesh(in);
+  MeshEditor<D> editor(mesh);
+  const auto kept = keptFacets(mesh);
+  for (Index c = 0; c < Index(in.cells.size()); c += 7)
+  {
+    Vec<D> x = Vec<D>::Zero();
+    for (Index p : mesh.nodes(c))
+    {
+      x += mesh.point(p) / (D + 1);
+    }
+    const Simplex<D> old = mesh.nodes(c);
+    const Index p = editor.addPoint(x);
+    EXPECT_GE(p, mesh.numberOfInputPoints());
+    replaceAndCheck<D>(editor, { c }, joined<D>(mesh, { c }, p));
+    EXPECT_EQ(editor.created().size(), std::size_t(D + 1));
+    EXPECT_TRUE(mesh.isPointAlive(p) && !mesh.isFixed(p));
+    std::vector<Index> star;
+    EXPECT_TRUE(editor.star(p, star));
+    EXPECT_EQ(star.size(), std::size_t(D + 1));
+    if (c % 2 == 0)
+    {
+      const std::vector<Simplex<D>> one = joined<D>(mesh, star, old[0]);
+      ASSERT_EQ(one.size(), 1u);
+      replaceAndCheck<D>(editor, star, one);
+    }
+  }
+  EXPECT_EQ(keptFacets(mesh), kept);
+  EXPECT_NEAR(mesh.volume(), 1.0, 1e-13);
+  EXPECT_EQ(mesh.eulerCharacteristic(), 1);
+}
+
+TEST(Editor3D, ContractionBuriesAnInputPointButKeepsItsSlot)
+{
+  SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(2, 0.0));
+  MeshEditor<3> editor(mesh);
+  const Index v = 13; // the centre
+  std::vector<Index> star;
+  ASSERT_TRUE(editor.star(v, star));
+  std::vector<Simplex<3>> cells;
+  for (Index u = 0; u < 27 && cells.empty(); ++u)
+  {
+    bool flat = false;
+    cells.clear();
+    for (const Facet<3>& f : boundary<3>(mesh, star))
+    {
+      if (std::find(f.begin(), f.end(), u) == f.end())
+      {
+        const Simplex<3> cell{ f[0], f[1], f[2], u };
+        const double volume = volumeOf<3>(mesh, cell);
+        flat = flat || (u != v && volume <= 0.0);
+        cells.push_back(cell);
+      }
+    }
+    if (u == v || flat)
+    {
+      cells.clear();
+    }
+  }
+  if (cells.empty()) // all are flat on the cube's faces: topology is what counts here
+  {
+    for (const Facet<3>& f : boundary<3>(mesh, star))
+    {
+      if (std::find(f.begin(), f.end(), 0) == f.end())
+      {
+        cells.push_back({ f[0], f[1], f[2], 0 });
+      }
+    }
+  }
+  replaceAndCheck<3>(editor, star, cells, false);
+  expectSound(mesh, false);
+  EXPECT_FALSE(mesh.isPointAlive(v));
+  const Index p = editor.addPoint(Vec<3>(0.5, 0.5, 0.5));
+  EXPECT_NE(p, v);
+  EXPECT_EQ(mesh.point(v), Vec<3>(0.5, 0.5, 0.5));
+}
+
+TEST(Editor3D, KeptEdgesAreHandedOn)
+{
+  MeshInput<3> in = ringOf(4);
+  in.constrainedEdges = { { 0, 1 }, { 2, 3 } };
+  SimplexMesh<3> mesh = buildMesh(in);
+  MeshEditor<3> editor(mesh);
+  const Index p = editor.addPoint(Vec<3>(0.3, 0.3, 0.0));
+  replaceAndCheck<3>(editor, { 0 }, joined<3>(mesh, { 0 }, p));
+  int marks = 0;
+  for (Index c : editor.created())
+  {
+    for (int e = 0; e < 6; ++e)
+    {
+      marks += mesh.isEdgeConstrained(c, e);
+    }
+  }
+  EXPECT_EQ(marks, 4); // each of both edges in two of the four cells
+}
+
+// ---- undo ----------------------------------------------------------------------------------------
+
+TYPED_TEST(Editor, RollbackRestoresEveryByte)
+{
+  constexpr int D = TypeParam::dimension;
+  for (unsigned seed = 1; seed <= 3; ++seed)
+  {
+    MeshInput<D> in = jitteredGrid<D>(D == 3 ? 2 : 4, 0.1, seed);
+    if (seed == 2)
+    {
+      splitRegions(in);
+    }
+    if (seed == 3 && D == 3)
+    {
+      in = jitteredGrid<D>(3, 0.1, seed);
+      in.constrainedEdges = { { 21, 22 }, { 21, 37 } };
+    }
+    SimplexMesh<D> mesh = buildMesh(in);
+    const auto kept = keptFacets(mesh);
+    MeshEditor<D> editor(mesh);
+    RandomEdits<D> edits(editor, seed);
+    int rollbacks = 0;
+    for (int k = 0; k < 25; ++k)
+    {
+      nested(editor, edits, 3, rollbacks);
+      EXPECT_FALSE(editor.inTransaction());
+    }
+    EXPECT_GT(rollbacks, 20);
+    for (int kind = 0; kind < 5; ++kind)
+    {
+      EXPECT_GT(edits.done[kind], 10) << "kind " << kind << " of seed " << seed;
+    }
+    EXPECT_EQ(keptFacets(mesh), kept);
+    EXPECT_NEAR(mesh.volume(), 1.0, 1e-12);
+    EXPECT_EQ(mesh.eulerCharacteristic(), 1);
+  }
+}
+
+TYPED_TEST(Editor, ANewEditorGoesOnWithClockAndMarks)
+{
+  constexpr int D = TypeParam::dimension;
+  SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(2, 0.1));
+  MeshEditor<D> first(mesh);
+  const std::uint32_t m = first.newMark();
+  first.setMark(3, m);
+  first.stamp({ 0, 1 });
+  first.movePoint(mesh.nodes(0)[0], mesh.point(mesh.nodes(0)[0]));
+  MeshEditor<D> second(mesh);
+  EXPECT_EQ(second.clock(), first.clock());
+  EXPECT_GE(second.lastMark(), m);
+  EXPECT_FALSE(second.isMarked(3, second.newMark()));
+}
+
+// ---- editors that own a part ---------------------------------------------------------------------
+
+TYPED_TEST(Editor, OwnersKeepToTheirPart)
+{
+  constexpr int D = TypeParam::dimension;
+  SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(4, 0.1));
+  MeshEditor<D> root(mesh);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    root.setPointOwner(p, mesh.point(p)[0] < 0.6 ? 0 : 1);
+  }
+  MeshEditor<D> editor(mesh, root.clock(), root.lastMark());
+  editor.setOwner(0);
+  Index inner = None, edge = None, foreign = None; // cells: in the midst, at the border, not owned
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (!editor.owns(c))
+    {
+      foreign = c;
+      continue;
+    }
+    bool border = false;
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index h = mesh.adjacent(c, i);
+      border = border || (h != None && !editor.owns(mesh.cellOf(h)));
+    }
+    (border ? edge : inner) = c;
+  }
+  ASSERT_TRUE(inner != None && edge != None && foreign != None);
+  EXPECT_TRUE(editor.blocked()); // by the questions above
+  editor.resetBlocked();
+  EXPECT_TRUE(editor.owns(inner));
+  EXPECT_FALSE(editor.blocked());
+  EXPECT_FALSE(editor.owns(foreign));
+  EXPECT_TRUE(editor.blocked());
+  EXPECT_TRUE(root.owns(foreign));
+
+  // stars
+  std::vector<Index> star, whole;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    mesh.star(p, whole);
+    const bool all = std::all_of(
+      whole.begin(), whole.end(), [&](Index c) { return editor.owns(c); });
+    editor.resetBlocked();
+    EXPECT_EQ(editor.star(p, star), all);
+    EXPECT_EQ(editor.blocked(), !all);
+    if (all)
+    {
+      std::sort(star.begin(), star.end());
+      std::sort(whole.begin(), whole.end());
+      EXPECT_EQ(star, whole);
+    }
+  }
+
+  // no slots: refused, nothing changed
+  editor.resetBlocked();
+  const Snapshot<D> before(editor);
+  EXPECT_EQ(editor.addPoint(Vec<D>::Zero()), None);
+  EXPECT_TRUE(editor.blocked());
+  EXPECT_TRUE(before == Snapshot<D>(editor));
+  Vec<D> centre = Vec<D>::Zero();
+  for (Index p : mesh.nodes(edge))
+  {
+    centre += mesh.point(p) / (D + 1);
+  }
+  editor.growPoints(1);
+  const Index p = editor.addPoint(centre);
+  ASSERT_NE(p, None);
+  EXPECT_EQ(mesh.pointData(p).owner, 0);
+  const std::vector<Simplex<D>> cells = joined<D>(mesh, { edge }, p);
+  ASSERT_EQ(cells.size(), std::size_t(D + 1));
+  const std::vector<double> qualities(D + 1, 0.5);
+  editor.growCells(D - 1);
+  editor.resetBlocked();
+  const Snapshot<D> full(editor);
+  EXPECT_FALSE(editor.replace({ edge }, cells, qualities));
+  EXPECT_TRUE(editor.blocked());
+  EXPECT_TRUE(full == Snapshot<D>(editor));
+
+  // enough slots: only links of foreign cells change, and an undo brings those back
+  editor.growCells(1);
+  editor.resetBlocked();
+  const Snapshot<D> start(editor);
+  const SimplexMesh<D> copy = mesh;
+  const std::size_t place = editor.begin();
+  ASSERT_TRUE(editor.replace({ edge }, cells, qualities));
+  expectSound(mesh);
+  EXPECT_EQ(mesh.numberOfCellSlots(), copy.numberOfCellSlots());
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (copy.isAlive(c) && !root.owns(c))
+    {
+      EXPECT_EQ(mesh.nodes(c), copy.nodes(c));
+      EXPECT_EQ(mesh.cellData(c).mark, copy.cellData(c).mark);
+      EXPECT_EQ(mesh.cellData(c).flags, copy.cellData(c).flags);
+    }
+  }
+  editor.rollback(place);
+  EXPECT_TRUE(start == Snapshot<D>(editor));
+}
+
+/// An undo must not put back what another editor has changed meanwhile across the border.
+TYPED_TEST(Editor, UndoLeavesTheOtherOwnersWorkAlone)
+{
+  constexpr int D = TypeParam::dimension;
+  SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(4, 0.1));
+  MeshEditor<D> root(mesh);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    root.setPointOwner(p, mesh.point(p)[0] < 0.6 ? 0 : 1);
+  }
+  MeshEditor<D> left(mesh, root.clock(), root.lastMark()), right = left;
+  left.setOwner(0);
+  right.setOwner(1);
+  left.growCells(100);
+  right.growCells(100);
+  left.growPoints(40);
+  right.growPoints(40);
+  const auto insertAll = [&](MeshEditor<D>& editor, int every)
+  {
+    const Index n = mesh.numberOfInputCells();
+    for (Index c = 0, k = 0; c < n; ++c)
+    {
+      if (!mesh.isAlive(c) || !editor.owns(c) || k++ % every != 0 ||
+        editor.freeCells().size() < std::size_t(D) || editor.freePoints().empty())
+      {
+        continue;
+      }
+      Vec<D> x = Vec<D>::Zero();
+      for (Index p : mesh.nodes(c))
+      {
+        x += mesh.point(p) / (D + 1);
+      }
+      const Index p = editor.addPoint(x);
+      replaceAndCheck<D>(editor, { c }, joined<D>(mesh, { c }, p), false);
+    }
+  };
+  const std::size_t place = left.begin();
+  insertAll(left, 2);
+  insertAll(right, 3); // while the transaction of the other is open
+  const Index after = mesh.countCells();
+  expectSound(mesh);
+  left.rollback(place);
+  EXPECT_LT(mesh.countCells(), after);
+  EXPECT_GT(mesh.countCells(), mesh.numberOfInputCells());
+  expectSound(mesh);
+  EXPECT_NEAR(mesh.volume(), 1.0, 1e-13);
+}
