@@ -28,10 +28,7 @@ vtkStandardNewMacro(vtkMeshOptimizeFilter);
 namespace bridge = vtkMeshOptimizeBridge;
 
 //------------------------------------------------------------------------------
-vtkMeshOptimizeFilter::vtkMeshOptimizeFilter()
-{
-  this->SetNumberOfOutputPorts(2);
-}
+vtkMeshOptimizeFilter::vtkMeshOptimizeFilter() { this->SetNumberOfOutputPorts(2); }
 
 vtkMeshOptimizeFilter::~vtkMeshOptimizeFilter() = default;
 
@@ -136,7 +133,8 @@ int vtkMeshOptimizeFilter::RequestDataObject(
   vtkDataObject* output = vtkDataObject::GetData(outputVector, 0);
   if (!output || !output->IsA(input->GetClassName()))
   {
-    vtkSmartPointer<vtkDataObject> fresh = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+    vtkSmartPointer<vtkDataObject> fresh = vtkSmartPointer<vtkDataObject>::Take(
+      input->NewInstance());
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
   }
   if (!vtkTable::GetData(outputVector, 1))
@@ -188,7 +186,8 @@ struct Task
 };
 
 /**
- * The grids in `input`, with an output for each. Other leaves of a tree are handed over as they are.
+ * The grids in `input`, with an output for each. Other leaves of a tree are handed over as they
+ * are.
  */
 std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
 {
@@ -261,8 +260,8 @@ std::string vtkMeshOptimizeFilter::OptimizeAll(
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
-    request.Control =
-      bridge::MakeControl(this, request.Options.numberOfThreads, first, last, deadline);
+    request.Control = bridge::MakeControl(
+      this, request.Options.numberOfThreads, first, last, deadline);
     bridge::Outcome one;
     error = bridge::OptimizeGrid(tasks[i].Input, request, tasks[i].Output, one);
     if (!error.empty())

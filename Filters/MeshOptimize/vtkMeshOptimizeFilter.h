@@ -8,51 +8,58 @@
  * its size (2.2). A few very bad elements are what spoils a finite element computation; the mean
  * quality hardly matters.
  *
- * <b>What is optimized.</b> If the input has cells of dimension three, its tetrahedra are optimized. Else
- * its triangles, which must lie in one plane (any plane). All other cells pass through:
- * their points are kept; a triangle between two tetrahedra is kept as a face of the mesh, a line
- * is kept as an edge. Quadratic triangles and tetrahedra are such other cells, too, with a warning.
+ * <b>What is optimized.</b> If the input has cells of dimension three, its tetrahedra are
+ * optimized. Else its triangles, which must lie in one plane (any plane). All other cells pass
+ * through: their points are kept; a triangle between two tetrahedra is kept as a face of the mesh,
+ * a line is kept as an edge. Quadratic triangles and tetrahedra are such other cells, too, with a
+ * warning.
  *
- * <b>What is kept.</b> The surface, bit for bit (in the plane: the boundary edges); the faces between
- * regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality never falls,
- * and no cell is inverted that was not. Inverted and flat cells in the input are worked on. Cells that are numbered
- * against their neighbours are renumbered (counted in the field data `NumberOfReorientedCells`).
+ * <b>What is kept.</b> The surface, bit for bit (in the plane: the boundary edges); the faces
+ * between regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality
+ * never falls, and no cell is inverted that was not. Inverted and flat cells in the input are
+ * worked on. Cells that are numbered against their neighbours are renumbered (counted in the field
+ * data `NumberOfReorientedCells`).
  *
  * <b>Output port 0: the mesh.</b> Points: those of the input that are still there, in their old
- * order, then the new ones; cells likewise. Coordinates of points that have not moved are the same bits. If a
- * point was moved or inserted, points are of type double even if the input's are float, since rounding
- * could lower the quality again. Data arrays keep name, type, components and attribute:
- * - point data: a point that has not moved keeps its values. Else floating point arrays are interpolated in the
- *   input cell that holds the point (constants are exact, linear fields to rounding), all others take the value of
- *   the nearest node of that cell.
+ * order, then the new ones; cells likewise. Coordinates of points that have not moved are the same
+ * bits. If a point was moved or inserted, points are of type double even if the input's are float,
+ * since rounding could lower the quality again. Data arrays keep name, type, components and
+ * attribute:
+ * - point data: a point that has not moved keeps its values. Else floating point arrays are
+ *   interpolated in the input cell that holds the point (constants are exact, linear fields to
+ *   rounding), all others take the value of the nearest node of that cell.
  * - cell data: a new cell takes the values of the input cell in whose place it stands.
- * - global ids: points and cells of the input keep them, new ones have -1, and the array is no longer
- *   the active global id array (ids that are unique over blocks and processes cannot be made up here).
- *   Pedigree ids: as other arrays that are not interpolated, but a moved point keeps its own.
+ * - global ids: points and cells of the input keep them, new ones have -1, and the array is no
+ *   longer the active global id array (ids that are unique over blocks and processes cannot be made
+ *   up here). Pedigree ids: as other arrays that are not interpolated, but a moved point keeps its
+ *   own.
  * - field data: kept; added are `WorstQualityBefore`, `WorstQualityAfter`, `MeanQualityBefore`,
  *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfReorientedCells`,
  *   `NumberOfOperations` and `StopReason`.
  * - the cell array `MeshQuality` (double): quality by the chosen measure; NaN for other cells.
  *
- * <b>Output port 1: the history</b>, a vtkTable, one row per pass, the first one being the input: Pass, Stage, for each
- * kind of operation how often it was tried and done, then Worst, Mean, BelowTarget (cells under the target),
- * Cells and Points. For composite input the first column is Block (the flat index).
+ * <b>Output port 1: the history</b>, a vtkTable, one row per pass, the first one being the input:
+ * Pass, Stage, for each kind of operation how often it was tried and done, then Worst, Mean,
+ * BelowTarget (cells under the target), Cells and Points. For composite input the first column is
+ * Block (the flat index).
  *
  * <b>Composite data</b>: each vtkUnstructuredGrid in it is optimized by itself, other leaves pass
  * through. Since surfaces are kept, neighbouring blocks still fit together. The results below are
  * those of all blocks together.
  *
  * <b>Distributed data</b>: each process optimizes its own piece with the piece's surface kept, so
- * that pieces still fit together. Ghost cells pass through untouched; the cells they are copies of may have changed in the
- * meantime: generate ghost cells afterwards, not before. The results below are those of the piece.
+ * that pieces still fit together. Ghost cells pass through untouched; the cells they are copies of
+ * may have changed in the meantime: generate ghost cells afterwards, not before. The results below
+ * are those of the piece.
  *
- * <b>Errors.</b> An input that is not a mesh (a point id out of range, a point twice in a cell, coordinates that
- * are not finite, a face with three cells, a cell that stands twice, triangles that are not in one plane) or an unusable array or option gives one error message that names what
+ * <b>Errors.</b> An input that is not a mesh (a point id out of range, a point twice in a cell,
+ * coordinates that are not finite, a face with three cells, a cell that stands twice, triangles
+ * that are not in one plane) or an unusable array or option gives one error message that names what
  * and where; the outputs are then empty and GetErrorCode() is not 0.
  *
  * <b>Abort.</b> Progress is reported and AbortExecute looked at all the time. After an abort the
- * output is a valid mesh, as good as it was by then, and GetStopReason() is Aborted. (Filters of VTK usually
- * leave an empty output then.)
+ * output is a valid mesh, as good as it was by then, and GetStopReason() is Aborted. (Filters of
+ * VTK usually leave an empty output then.)
  *
  * The same input gives the same output, bit for bit, for any number of threads, unless TimeLimit or
  * abort is used.
@@ -95,8 +102,8 @@ public:
   };
   ///@{
   /**
-   * How to optimize. Paper1996 alternates the reconnection and the node repositioning of the paper; it uses
-   * NeighborhoodLevel, MaximumNumberOfIterations, Epsilon, ArmijoFactor and
+   * How to optimize. Paper1996 alternates the reconnection and the node repositioning of the paper;
+   * it uses NeighborhoodLevel, MaximumNumberOfIterations, Epsilon, ArmijoFactor and
    * MaximumNumberOfAlternations. WorstFirst is faster and reaches more; it uses Effort,
    * NumberOfThreads, GrowthBudget. Everything else is used by both. Default: Paper1996.
    */
@@ -117,10 +124,11 @@ public:
 
   enum QualityMeasureType
   {
-    Shape = 0,       ///< the paper's S (2.3): 1832.82 V / P^3, 20.78 A / P^2, P the sum of edge lengths
+    Shape = 0, ///< the paper's S (2.3): 1832.82 V / P^3, 20.78 A / P^2, P the sum of edge lengths
     RadiusRatio = 1, ///< D times inradius over circumradius
     MeanRatio = 2,   ///< 12 (3V)^(2/3) / sum l^2; 4 sqrt(3) A / sum l^2
-    MinimumSine = 3, ///< least sine of the dihedral angles (2D: corner angles) over the regular one's
+    MinimumSine =
+      3, ///< least sine of the dihedral angles (2D: corner angles) over the regular one's
     WarpedSine = 4,  ///< the same, with the sines of obtuse angles times 0.75
     VolumeLength = 5 ///< 6 sqrt(2) V / l_rms^3; 4 A / (sqrt(3) l_rms^2)
   };
@@ -128,8 +136,8 @@ public:
   /**
    * The shape measure S that is optimized. All are 1 for the regular simplex, 0 for a flat one and
    * negative for an inverted one, and do not depend on size. What is chosen here decides which
-   * figures get good: Shape leads to good overall shapes, MinimumSine to good smallest dihedral angles.
-   * Default: Shape.
+   * figures get good: Shape leads to good overall shapes, MinimumSine to good smallest dihedral
+   * angles. Default: Shape.
    */
   vtkSetClampMacro(QualityMeasure, int, Shape, VolumeLength);
   vtkGetMacro(QualityMeasure, int);
@@ -144,8 +152,8 @@ public:
   ///@{
   /**
    * Weight of size in the quality (2.2): Q = S exp(-beta^2 ln^2(h / h*)), h the longest edge of the
-   * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give the size
-   * by DesiredSize or SetSizeArray().
+   * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give
+   * the size by DesiredSize or SetSizeArray().
    */
   vtkSetClampMacro(Beta, double, 0.0, 1e6);
   vtkGetMacro(Beta, double);
@@ -154,8 +162,8 @@ public:
   ///@{
   /**
    * h* of (2.2), the longest edge that an element should have, the same everywhere, in units of the
-   * coordinates (of the metric, if there is one). Range >= 0, default 0: not set. Used only if Beta > 0; a
-   * size array takes precedence.
+   * coordinates (of the metric, if there is one). Range >= 0, default 0: not set. Used only if Beta
+   * > 0; a size array takes precedence.
    */
   vtkSetClampMacro(DesiredSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DesiredSize, double);
@@ -172,8 +180,8 @@ public:
 
   ///@{
   /**
-   * M of the paper: the greatest number of steps of its global algorithm in each repositioning. Range >= 0,
-   * default 0: no limit.
+   * M of the paper: the greatest number of steps of its global algorithm in each repositioning.
+   * Range >= 0, default 0: no limit.
    */
   vtkSetClampMacro(MaximumNumberOfIterations, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfIterations, int);
@@ -181,8 +189,9 @@ public:
 
   ///@{
   /**
-   * Epsilon of (2.8): elements of a cluster whose quality is within it of the worst one take part in the
-   * search for a direction. A solve ends when it gains less than a tenth of it. Range 1e-6 to 1, default 0.02.
+   * Epsilon of (2.8): elements of a cluster whose quality is within it of the worst one take part
+   * in the search for a direction. A solve ends when it gains less than a tenth of it. Range 1e-6
+   * to 1, default 0.02.
    */
   vtkSetClampMacro(Epsilon, double, 1e-6, 1.0);
   vtkGetMacro(Epsilon, double);
@@ -209,8 +218,8 @@ public:
   ///@{
   /**
    * Which kinds of change are allowed, all by default. MoveNodes: move nodes (the paper's section
-   * 2.2). Reconnect: change the connectivity, the nodes staying (2.3). InsertNodes, RemoveNodes: change the
-   * connectivity such that nodes come, or go. With all off the mesh is measured only.
+   * 2.2). Reconnect: change the connectivity, the nodes staying (2.3). InsertNodes, RemoveNodes:
+   * change the connectivity such that nodes come, or go. With all off the mesh is measured only.
    */
   vtkSetMacro(MoveNodes, bool);
   vtkGetMacro(MoveNodes, bool);
@@ -254,7 +263,8 @@ public:
 
   ///@{
   /**
-   * How much WorstFirst may let the number of cells grow, as a fraction of the input's. Range >= 0, default 0.1.
+   * How much WorstFirst may let the number of cells grow, as a fraction of the input's. Range >= 0,
+   * default 0.1.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);
@@ -275,11 +285,13 @@ public:
    * SetInputArrayToProcess() with the index given here.
    * - 0, region: cell array of one integer component. Faces between cells of different regions are
    *   kept, and a new cell lies in one region.
-   * - 1, fixed points: point array of one numeric component. Points where it is not 0 neither move nor vanish.
-   * - 2, size: point array of one numeric component greater than 0: h* of (2.2) at the points, interpolated between
-   *   them; takes the place of DesiredSize. Needs Beta > 0 to matter.
+   * - 1, fixed points: point array of one numeric component. Points where it is not 0 neither move
+   *   nor vanish.
+   * - 2, size: point array of one numeric component greater than 0: h* of (2.2) at the points,
+   *   interpolated between them; takes the place of DesiredSize. Needs Beta > 0 to matter.
    * - 3, metric: point array of a symmetric positive definite tensor M, 6 components in VTK's order
-   *   XX YY ZZ XY YZ XZ or 9; lengths are measured as sqrt(e' M e). Triangles use its part in their plane.
+   *   XX YY ZZ XY YZ XZ or 9; lengths are measured as sqrt(e' M e). Triangles use its part in their
+   *   plane.
    */
   void SetRegionArray(const char* name);
   void SetFixedPointArray(const char* name);
@@ -329,8 +341,8 @@ public:
   vtkGetMacro(NumberOfOperations, vtkIdType);
 
   /**
-   * Seconds that the last run spent inside the optimizer proper, without import and export. Not part
-   * of any output array, so that outputs can be reproduced bit for bit.
+   * Seconds that the last run spent inside the optimizer proper, without import and export. Not
+   * part of any output array, so that outputs can be reproduced bit for bit.
    */
   vtkGetMacro(OptimizeSeconds, double);
 
@@ -351,8 +363,8 @@ private:
   void operator=(const vtkMeshOptimizeFilter&) = delete;
 
   vtkMeshOptimizeBridge::Request MakeRequest();
-  std::string OptimizeAll(
-    vtkDataObject* input, vtkDataObject* output, vtkTable* history, vtkMeshOptimizeBridge::Outcome& outcome);
+  std::string OptimizeAll(vtkDataObject* input, vtkDataObject* output, vtkTable* history,
+    vtkMeshOptimizeBridge::Outcome& outcome);
   void StoreResults(const vtkMeshOptimizeBridge::Outcome& outcome);
   void Warn(const vtkMeshOptimizeBridge::Outcome& outcome);
 

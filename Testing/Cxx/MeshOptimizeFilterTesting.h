@@ -43,14 +43,14 @@ namespace Testing
 
 inline int Failures = 0;
 
-#define CHECK(condition)                                                                           \
-  do                                                                                               \
-  {                                                                                                \
-    if (!(condition))                                                                              \
-    {                                                                                              \
-      std::cerr << __FILE__ << ":" << __LINE__ << ": not so: " << #condition << "\n";              \
-      ++Testing::Failures;                                                                         \
-    }                                                                                              \
+#define CHECK(condition)                                                              \
+  do                                                                                  \
+  {                                                                                   \
+    if (!(condition))                                                                 \
+    {                                                                                 \
+      std::cerr << __FILE__ << ":" << __LINE__ << ": not so: " << #condition << "\n"; \
+      ++Testing::Failures;                                                            \
+    }                                                                                 \
   } while (false)
 
 using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
@@ -92,8 +92,8 @@ inline void AddCell(vtkUnstructuredGrid* grid, int type, const std::vector<vtkId
 }
 
 /**
- * The unit cube as n x n x n small ones of six tetrahedra each; its inner points are displaced by up to
- * `jitter` small edges, which inverts some cells if it is greater than about 0.3.
+ * The unit cube as n x n x n small ones of six tetrahedra each; its inner points are displaced by
+ * up to `jitter` small edges, which inverts some cells if it is greater than about 0.3.
  */
 inline Grid MakeBox(int n, double jitter, int precision = VTK_DOUBLE)
 {
@@ -119,7 +119,8 @@ inline Grid MakeBox(int n, double jitter, int precision = VTK_DOUBLE)
   static const int paths[6][2] = { { 1, 2 }, { 2, 4 }, { 4, 1 }, { 2, 1 }, { 4, 2 }, { 1, 4 } };
   for (int c = 0; c < n * n * n; ++c)
   {
-    const auto corner = [&](int bits) -> vtkIdType {
+    const auto corner = [&](int bits) -> vtkIdType
+    {
       return (c % n + (bits & 1)) +
         (n + 1) * ((c / n % n + ((bits >> 1) & 1)) + (n + 1) * (c / n / n + (bits >> 2)));
     };
@@ -148,7 +149,8 @@ inline Grid MakeSquare(
     for (int i = 0; i <= n; ++i)
     {
       const bool inner = i > 0 && i < n && j > 0 && j < n;
-      const double dx = inner ? jitter / n * random() : 0.0, dy = inner ? jitter / n * random() : 0.0;
+      const double dx = inner ? jitter / n * random() : 0.0,
+                   dy = inner ? jitter / n * random() : 0.0;
       points.push_back(map(double(i) / n + dx, double(j) / n + dy));
     }
   }
@@ -199,7 +201,8 @@ inline double SignedVolume(vtkUnstructuredGrid* grid, vtkIdType cell)
 /**
  * Facets that one simplex alone has, or two of different regions: as sorted exact coordinates.
  */
-inline std::set<std::vector<Point>> KeptFacets(vtkUnstructuredGrid* grid, const char* region = nullptr)
+inline std::set<std::vector<Point>> KeptFacets(
+  vtkUnstructuredGrid* grid, const char* region = nullptr)
 {
   struct Sides
   {
@@ -290,9 +293,11 @@ inline bool SameGrid(vtkUnstructuredGrid* a, vtkUnstructuredGrid* b)
   {
     same = a->GetCellType(c) == b->GetCellType(c) && CellPoints(a, c) == CellPoints(b, c);
   }
-  return same && (!a->GetPoints() || SameArray(a->GetPoints()->GetData(), b->GetPoints()->GetData())) &&
+  return same &&
+    (!a->GetPoints() || SameArray(a->GetPoints()->GetData(), b->GetPoints()->GetData())) &&
     SameArrays(a->GetPointData(), b->GetPointData()) &&
-    SameArrays(a->GetCellData(), b->GetCellData()) && SameArrays(a->GetFieldData(), b->GetFieldData());
+    SameArrays(a->GetCellData(), b->GetCellData()) &&
+    SameArrays(a->GetFieldData(), b->GetFieldData());
 }
 
 /**
@@ -315,11 +320,13 @@ private:
     {
       vtkNew<vtkCallbackCommand> observer;
       observer->SetClientData(this);
-      observer->SetCallback([](vtkObject*, unsigned long which, void* self, void* text) {
-        auto mine = static_cast<Messages*>(self);
-        (which == vtkCommand::ErrorEvent ? mine->Errors : mine->Warnings)
-          .emplace_back(static_cast<const char*>(text));
-      });
+      observer->SetCallback(
+        [](vtkObject*, unsigned long which, void* self, void* text)
+        {
+          auto mine = static_cast<Messages*>(self);
+          (which == vtkCommand::ErrorEvent ? mine->Errors : mine->Warnings)
+            .emplace_back(static_cast<const char*>(text));
+        });
       object->AddObserver(event, observer);
     }
   }

@@ -1,5 +1,5 @@
-// vtkMeshOptimizeFilter on a box of tetrahedra and on a real pellet: what must get better, what must stay, and that the
-// figures it reports are those of its output.
+// vtkMeshOptimizeFilter on a box of tetrahedra and on a real pellet: what must get better, what
+// must stay, and that the figures it reports are those of its output.
 #include "MeshOptimizeFilterTesting.h"
 
 #include "vtkIntArray.h"
@@ -54,10 +54,10 @@ void CheckHistory(vtkMeshOptimizeFilter* filter)
   CHECK(table->GetValueByName(0, "Worst").ToDouble() == filter->GetWorstQualityBefore());
   CHECK(table->GetValueByName(rows - 1, "Worst").ToDouble() == filter->GetWorstQualityAfter());
   CHECK(table->GetValueByName(rows - 1, "Mean").ToDouble() == filter->GetMeanQualityAfter());
-  CHECK(table->GetValueByName(rows - 1, "Cells").ToInt() ==
-    filter->GetOutput()->GetNumberOfCells());
-  CHECK(table->GetValueByName(rows - 1, "Points").ToInt() ==
-    filter->GetOutput()->GetNumberOfPoints());
+  CHECK(
+    table->GetValueByName(rows - 1, "Cells").ToInt() == filter->GetOutput()->GetNumberOfCells());
+  CHECK(
+    table->GetValueByName(rows - 1, "Points").ToInt() == filter->GetOutput()->GetNumberOfPoints());
   vtkIdType done = 0;
   for (vtkIdType row = 0; row < rows; ++row)
   {
@@ -252,7 +252,8 @@ void TestFixedPoints()
   input->GetPointData()->AddArray(mask);
   vtkNew<vtkMeshOptimizeFilter> filter;
   filter->SetInputData(input);
-  const auto countLost = [&]() {
+  const auto countLost = [&]()
+  {
     std::set<Point> there;
     for (vtkIdType p = 0; p < filter->GetOutput()->GetNumberOfPoints(); ++p)
     {

@@ -1,4 +1,5 @@
-// What vtkMeshOptimizeFilter does with bad input: one error that names what and where, and empty outputs; or it passes.
+// What vtkMeshOptimizeFilter does with bad input: one error that names what and where, and empty
+// outputs; or it passes.
 #include "MeshOptimizeFilterTesting.h"
 
 #include "vtkFloatArray.h"
@@ -241,7 +242,8 @@ void TestArrays()
 {
   const auto region = [](vtkMeshOptimizeFilter* f) { f->SetRegionArray("a"); };
   const auto fixed = [](vtkMeshOptimizeFilter* f) { f->SetFixedPointArray("a"); };
-  const auto size = [](vtkMeshOptimizeFilter* f) {
+  const auto size = [](vtkMeshOptimizeFilter* f)
+  {
     f->SetBeta(1.0);
     f->SetSizeArray("a");
   };
@@ -260,7 +262,8 @@ void TestArrays()
     grid->GetPointData()->GetArray("a")->SetComponent(11, 0, bad);
     ExpectError(grid, { "size", "point 11" }, size);
   }
-  ExpectError(WithArray<vtkDoubleArray>(false, "a", 5, 1), { "metric array 'a'", "5 comp" }, metric);
+  ExpectError(
+    WithArray<vtkDoubleArray>(false, "a", 5, 1), { "metric array 'a'", "5 comp" }, metric);
   ExpectError(WithArray<vtkDoubleArray>(false, "a", 6, 1), { "metric", "point 0" }, metric);
   Grid skew = WithArray<vtkDoubleArray>(false, "a", 9, 0);
   for (vtkIdType p = 0; p < skew->GetNumberOfPoints(); ++p)

@@ -1,4 +1,5 @@
-// vtkMeshOptimizeFilter and what is not a plain mesh of tetrahedra: planes, mixed cells, blocks, precision.
+// vtkMeshOptimizeFilter and what is not a plain mesh of tetrahedra: planes, mixed cells, blocks,
+// precision.
 #include "MeshOptimizeFilterTesting.h"
 
 #include "vtkIntArray.h"
@@ -27,12 +28,24 @@ void TestPlanes()
 {
   using Map = std::function<Point(double, double)>;
   const std::vector<Map> maps = {
-    [](double u, double v) { return Point{ { u, v, 0.3 } }; },
-    [](double u, double v) { return Point{ { v, u, -1e3 } }; }, // clockwise
-    [](double u, double v) { return Point{ { 0.1, u, v } }; },
-    [](double u, double v) { return Point{ { u, 2.0, v } }; },
-    [](double u, double v) { return Point{ { u, v, 0.5 * u - 0.7 * v + 3.0 } }; },
-    [](double u, double v) { return Point{ { u + v, u - v, 1e4 + u } }; },
+    [](double u, double v) {
+      return Point{ { u, v, 0.3 } };
+    },
+    [](double u, double v) {
+      return Point{ { v, u, -1e3 } };
+    }, // clockwise
+    [](double u, double v) {
+      return Point{ { 0.1, u, v } };
+    },
+    [](double u, double v) {
+      return Point{ { u, 2.0, v } };
+    },
+    [](double u, double v) {
+      return Point{ { u, v, 0.5 * u - 0.7 * v + 3.0 } };
+    },
+    [](double u, double v) {
+      return Point{ { u + v, u - v, 1e4 + u } };
+    },
   };
   std::vector<double> reached;
   for (const Map& map : maps)
@@ -46,8 +59,8 @@ void TestPlanes()
     CHECK(messages.Errors.empty() && messages.Warnings.empty());
     CHECK(filter->GetNumberOfOperations() > 0);
     CHECK(filter->GetWorstQualityAfter() > filter->GetWorstQualityBefore() + 0.05);
-    CHECK(MinimumOf(output->GetCellData()->GetArray("MeshQuality")) ==
-      filter->GetWorstQualityAfter());
+    CHECK(
+      MinimumOf(output->GetCellData()->GetArray("MeshQuality")) == filter->GetWorstQualityAfter());
     CHECK(KeptFacets(input) == KeptFacets(output));
     reached.push_back(filter->GetWorstQualityAfter());
 
@@ -103,13 +116,17 @@ void TestLargeReversedTriangle()
   Messages messages(filter);
   filter->SetInputData(input);
   filter->Update();
-  CHECK(filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) == 0);
+  CHECK(
+    filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) ==
+    0);
   Grid reversed = MakeSquare(8, 0.2, [](double u, double v) { return Point{ { u, v, u + v } }; });
   reversed->GetPoints()->InsertNextPoint(-3, 0, -3);
   AddCell(reversed, VTK_TRIANGLE, { 9, 0, p });
   filter->SetInputData(reversed);
   filter->Update();
-  CHECK(filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) == 1);
+  CHECK(
+    filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) ==
+    1);
   CHECK(messages.Errors.empty() && messages.Warnings.size() == 1);
 }
 
@@ -118,7 +135,10 @@ void TestLargeReversedTriangle()
  */
 void TestLinesInPlane()
 {
-  Grid input = MakeSquare(8, 0.0, [](double u, double v) { return Point{ { u, v + 0.3 * u, 0 } }; });
+  Grid input = MakeSquare(8, 0.0,
+    [](double u, double v) {
+      return Point{ { u, v + 0.3 * u, 0 } };
+    });
   std::set<std::pair<Point, Point>> wanted;
   for (vtkIdType j = 0; j < 8; ++j) // an oblique path through the middle: the long diagonals
   {
@@ -128,7 +148,8 @@ void TestLinesInPlane()
   vtkNew<vtkMeshOptimizeFilter> filter;
   filter->SetInputData(input);
   filter->SetTargetQuality(1.0);
-  const auto countEdges = [&]() {
+  const auto countEdges = [&]()
+  {
     vtkUnstructuredGrid* output = filter->GetOutput();
     std::set<std::pair<Point, Point>> found;
     for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
@@ -136,7 +157,8 @@ void TestLinesInPlane()
       const std::vector<vtkIdType> ids = CellPoints(output, c);
       for (std::size_t i = 0; ids.size() == 3 && i < 9; ++i)
       {
-        const std::pair<Point, Point> edge{ GetPoint(output, ids[i / 3]), GetPoint(output, ids[i % 3]) };
+        const std::pair<Point, Point> edge{ GetPoint(output, ids[i / 3]),
+          GetPoint(output, ids[i % 3]) };
         if (wanted.count(edge))
         {
           found.insert(edge);
@@ -148,10 +170,13 @@ void TestLinesInPlane()
   filter->Update();
   CHECK(filter->GetNumberOfOperations() > 0);
   CHECK(countEdges() == wanted.size());
-  CHECK(filter->GetOutput()->GetCellType(filter->GetOutput()->GetNumberOfCells() - 1) != VTK_EMPTY_CELL);
+  CHECK(filter->GetOutput()->GetCellType(filter->GetOutput()->GetNumberOfCells() - 1) !=
+    VTK_EMPTY_CELL);
   // Without the lines they go: the check above can fail.
-  filter->SetInputData(
-    MakeSquare(8, 0.0, [](double u, double v) { return Point{ { u, v + 0.3 * u, 0 } }; }));
+  filter->SetInputData(MakeSquare(8, 0.0,
+    [](double u, double v) {
+      return Point{ { u, v + 0.3 * u, 0 } };
+    }));
   filter->Update();
   CHECK(countEdges() < wanted.size());
 }
@@ -166,7 +191,7 @@ Grid MixedBox()
   grid->GetPoints()->DeepCopy(box->GetPoints());
   const auto id = [](vtkIdType i, vtkIdType j, vtkIdType k) { return i + 5 * (j + 5 * k); };
   AddCell(grid, VTK_VERTEX, { id(3, 3, 1) });
-  AddCell(grid, VTK_LINE, { id(1, 1, 1), id(2, 2, 2) });              // a long edge in the inside
+  AddCell(grid, VTK_LINE, { id(1, 1, 1), id(2, 2, 2) }); // a long edge in the inside
   AddCell(grid, VTK_TRIANGLE, { id(1, 1, 2), id(2, 1, 2), id(2, 2, 3) }); // a face in the inside
   for (vtkIdType c = 0; c < box->GetNumberOfCells(); ++c)
   {
@@ -272,9 +297,11 @@ void TestMixedCells()
   for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
   {
     const bool isOther = output->GetCellType(c) != VTK_TETRA;
-    const vtkIdType source = static_cast<vtkIdType>(output->GetCellData()->GetArray("id")->GetComponent(c, 0));
+    const vtkIdType source = static_cast<vtkIdType>(
+      output->GetCellData()->GetArray("id")->GetComponent(c, 0));
     CHECK(output->GetCellType(c) == input->GetCellType(source));
-    CHECK(isOther == std::isnan(output->GetCellData()->GetArray("MeshQuality")->GetComponent(c, 0)));
+    CHECK(
+      isOther == std::isnan(output->GetCellData()->GetArray("MeshQuality")->GetComponent(c, 0)));
     if (output->GetCellType(c) == VTK_POLYHEDRON)
     {
       output->GetFaceStream(c, after);
@@ -286,7 +313,8 @@ void TestMixedCells()
   {
     for (vtkIdType k = 2; k < 5 && after->GetNumberOfIds() == 17; ++k)
     {
-      CHECK(GetPoint(output, after->GetId(4 * face + k)) == GetPoint(input, before->GetId(4 * face + k)));
+      CHECK(GetPoint(output, after->GetId(4 * face + k)) ==
+        GetPoint(input, before->GetId(4 * face + k)));
     }
   }
 
@@ -299,7 +327,8 @@ void TestMixedCells()
 }
 
 /**
- * Hexahedra with triangles on them: nothing to optimize, nothing changes. Quadratic tetrahedra: the same, with a warning.
+ * Hexahedra with triangles on them: nothing to optimize, nothing changes. Quadratic tetrahedra: the
+ * same, with a warning.
  */
 void TestNothingToOptimize()
 {
@@ -315,8 +344,8 @@ void TestNothingToOptimize()
   CHECK(messages.Errors.empty() && messages.Warnings.empty());
   CHECK(filter->GetStopReason() == vtkMeshOptimizeFilter::NothingToDo);
   CHECK(Others(hexahedra) == Others(filter->GetOutput()));
-  CHECK(std::isnan(
-    filter->GetOutput()->GetCellData()->GetArray("MeshQuality")->GetComponent(0, 0)));
+  CHECK(
+    std::isnan(filter->GetOutput()->GetCellData()->GetArray("MeshQuality")->GetComponent(0, 0)));
 
   Grid quadratic = MakeBox(3, 0.28);
   for (int k = 0; k < 10; ++k)
@@ -329,7 +358,8 @@ void TestNothingToOptimize()
   filter->SetInputData(quadratic);
   filter->Update();
   CHECK(messages.Errors.empty());
-  CHECK(messages.Warnings.size() == 1 && messages.Warnings[0].find("1 quadratic") != std::string::npos);
+  CHECK(
+    messages.Warnings.size() == 1 && messages.Warnings[0].find("1 quadratic") != std::string::npos);
   CHECK(Others(quadratic) == Others(filter->GetOutput()));
   CHECK(filter->GetNumberOfOperations() > 0); // the linear ones were optimized
 }
@@ -352,7 +382,8 @@ void TestPrecision()
   CHECK(filter->GetOutput()->GetPoints()->GetDataType() == VTK_FLOAT);
 }
 
-void CheckBlocks(vtkDataObject* input, const std::function<vtkDataObject*(vtkDataObject*, int)>& leaf)
+void CheckBlocks(
+  vtkDataObject* input, const std::function<vtkDataObject*(vtkDataObject*, int)>& leaf)
 {
   vtkNew<vtkMeshOptimizeFilter> filter;
   Messages messages(filter);
@@ -405,19 +436,21 @@ void TestBlocks()
   blocks->SetBlock(1, inner);
   blocks->SetBlock(2, other);
   blocks->SetBlock(3, nullptr);
-  CheckBlocks(blocks, [](vtkDataObject* tree, int i) {
-    auto multi = vtkMultiBlockDataSet::SafeDownCast(tree);
-    return i == 1 ? vtkMultiBlockDataSet::SafeDownCast(multi->GetBlock(1))->GetBlock(0)
-                  : multi->GetBlock(i);
-  });
+  CheckBlocks(blocks,
+    [](vtkDataObject* tree, int i)
+    {
+      auto multi = vtkMultiBlockDataSet::SafeDownCast(tree);
+      return i == 1 ? vtkMultiBlockDataSet::SafeDownCast(multi->GetBlock(1))->GetBlock(0)
+                    : multi->GetBlock(i);
+    });
 
   vtkNew<vtkPartitionedDataSetCollection> collection;
   collection->SetPartition(0, 0, volume);
   collection->SetPartition(0, 1, plane);
   collection->SetPartition(1, 0, other);
-  CheckBlocks(collection, [](vtkDataObject* tree, int i) -> vtkDataObject* {
-    return vtkPartitionedDataSetCollection::SafeDownCast(tree)->GetPartition(i / 2, i % 2);
-  });
+  CheckBlocks(collection,
+    [](vtkDataObject* tree, int i) -> vtkDataObject*
+    { return vtkPartitionedDataSetCollection::SafeDownCast(tree)->GetPartition(i / 2, i % 2); });
 }
 
 } // namespace

@@ -15,10 +15,12 @@ void OnProgress(vtkAlgorithm* filter, std::function<void(vtkAlgorithm*, double)>
 {
   vtkNew<vtkCallbackCommand> observer;
   observer->SetClientData(react);
-  observer->SetCallback([](vtkObject* caller, unsigned long, void* function, void* amount) {
-    (*static_cast<std::function<void(vtkAlgorithm*, double)>*>(function))(
-      vtkAlgorithm::SafeDownCast(caller), *static_cast<double*>(amount));
-  });
+  observer->SetCallback(
+    [](vtkObject* caller, unsigned long, void* function, void* amount)
+    {
+      (*static_cast<std::function<void(vtkAlgorithm*, double)>*>(function))(
+        vtkAlgorithm::SafeDownCast(caller), *static_cast<double*>(amount));
+    });
   filter->AddObserver(vtkCommand::ProgressEvent, observer);
 }
 
@@ -33,7 +35,8 @@ void TestProgress(int algorithm)
   filter->SetTargetQuality(1.0);
   std::vector<double> fractions;
   std::set<std::string> texts;
-  std::function<void(vtkAlgorithm*, double)> react = [&](vtkAlgorithm* self, double fraction) {
+  std::function<void(vtkAlgorithm*, double)> react = [&](vtkAlgorithm* self, double fraction)
+  {
     fractions.push_back(fraction);
     if (self->GetProgressText())
     {
@@ -60,7 +63,8 @@ void TestAbort(int algorithm)
   filter->SetAlgorithm(algorithm);
   filter->SetTargetQuality(1.0);
   bool stop = true;
-  std::function<void(vtkAlgorithm*, double)> react = [&](vtkAlgorithm* self, double fraction) {
+  std::function<void(vtkAlgorithm*, double)> react = [&](vtkAlgorithm* self, double fraction)
+  {
     if (stop && fraction < 1.0)
     {
       self->SetAbortExecute(1);
@@ -139,7 +143,8 @@ void TestTimeLimit(int algorithm)
 
 int main(int, char*[])
 {
-  for (const int algorithm : { vtkMeshOptimizeFilter::Paper1996 })
+  for (const int algorithm :
+    { vtkMeshOptimizeFilter::Paper1996, vtkMeshOptimizeFilter::WorstFirst })
   {
     TestProgress(algorithm);
     TestAbort(algorithm);

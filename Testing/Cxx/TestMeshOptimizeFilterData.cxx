@@ -24,10 +24,7 @@ vtkSmartPointer<Array> NewArray(const char* name, int components = 1)
   return array;
 }
 
-double Linear(const Point& x)
-{
-  return 3.0 + 2.0 * x[0] - 5.0 * x[1] + 0.25 * x[2];
-}
+double Linear(const Point& x) { return 3.0 + 2.0 * x[0] - 5.0 * x[1] + 0.25 * x[2]; }
 
 /**
  * Point arrays of many kinds on a box.
@@ -155,7 +152,8 @@ void TestPointData()
 }
 
 /**
- * Linear fields are exact in the flattest cells, too: the pellet begins with cells of quality 0.004.
+ * Linear fields are exact in the flattest cells, too: the pellet begins with cells of quality
+ * 0.004.
  */
 void TestLinearInFlatCells()
 {
@@ -176,7 +174,8 @@ void TestLinearInFlatCells()
   double worst = 0.0;
   for (vtkIdType p = 0; p < filter->GetOutput()->GetNumberOfPoints(); ++p)
   {
-    const double value = filter->GetOutput()->GetPointData()->GetArray("linear")->GetComponent(p, 0);
+    const double value = filter->GetOutput()->GetPointData()->GetArray("linear")->GetComponent(
+      p, 0);
     worst = std::max(worst, std::abs(value - Linear(GetPoint(filter->GetOutput(), p))));
   }
   std::cout << "greatest error of a linear field: " << worst << "\n";
@@ -283,7 +282,8 @@ void TestFieldData()
 }
 
 /**
- * Global ids: survivors keep theirs, new ones have -1, and nothing is active. Pedigree ids stay active.
+ * Global ids: survivors keep theirs, new ones have -1, and nothing is active. Pedigree ids stay
+ * active.
  */
 void TestIds()
 {
@@ -330,7 +330,8 @@ void TestIds()
 }
 
 /**
- * Ghost cells come out as they went in, once each, and what touches them stays; new points are no ghosts.
+ * Ghost cells come out as they went in, once each, and what touches them stays; new points are no
+ * ghosts.
  */
 void TestGhosts()
 {
@@ -340,7 +341,8 @@ void TestGhosts()
   ghostPoint->SetNumberOfTuples(input->GetNumberOfPoints());
   ghostPoint->FillValue(vtkDataSetAttributes::DUPLICATEPOINT); // new points must not be such
   std::vector<std::vector<Point>> wanted;
-  const auto corners = [](vtkUnstructuredGrid* grid, vtkIdType c) {
+  const auto corners = [](vtkUnstructuredGrid* grid, vtkIdType c)
+  {
     std::vector<Point> x;
     for (const vtkIdType p : CellPoints(grid, c))
     {

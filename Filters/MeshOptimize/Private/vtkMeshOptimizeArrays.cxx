@@ -91,14 +91,11 @@ vtkAbstractArray* FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int
   return attributes->GetAbstractAttribute(wanted->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
 }
 
-double SymmetricPart(const double* t, int i, int j)
-{
-  return 0.5 * (t[3 * i + j] + t[3 * j + i]);
-}
+double SymmetricPart(const double* t, int i, int j) { return 0.5 * (t[3 * i + j] + t[3 * j + i]); }
 
 /**
- * A tensor of 9 components that is not symmetric is no metric: it is made unusable here (NaN), so that the check of
- * the values names its point.
+ * A tensor of 9 components that is not symmetric is no metric: it is made unusable here (NaN), so
+ * that the check of the values names its point.
  */
 meshopt::Tensor<3> MakeTensor(const double* t, int numberOfComponents)
 {
@@ -161,8 +158,7 @@ std::string CheckArraysAreThere(
     }
     if (IsWanted(filter, i) && hasCells && !isThere)
     {
-      const char* name =
-        filter->GetInputArrayInformation(i)->Get(vtkDataObject::FIELD_NAME());
+      const char* name = filter->GetInputArrayInformation(i)->Get(vtkDataObject::FIELD_NAME());
       return std::string("The ") + Roles[i].Noun + (name ? " '" + std::string(name) + "'" : "") +
         " is not there: the input has no such " + (Roles[i].OnCells ? "cell" : "point") + " array.";
     }
@@ -198,10 +194,12 @@ std::vector<meshopt::Index> ReadRegions(vtkDataArray* array, const Cells& cells)
   std::vector<long long> distinct(values);
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  std::transform(values.begin(), values.end(), regions.begin(), [&](long long value) {
-    return static_cast<Index>(
-      std::lower_bound(distinct.begin(), distinct.end(), value) - distinct.begin());
-  });
+  std::transform(values.begin(), values.end(), regions.begin(),
+    [&](long long value)
+    {
+      return static_cast<Index>(
+        std::lower_bound(distinct.begin(), distinct.end(), value) - distinct.begin());
+    });
   return regions;
 }
 

@@ -1,5 +1,6 @@
 /**
- * The input arrays of the filter: region, fixed points, size, metric. Found, checked, and read as the core wants them.
+ * The input arrays of the filter: region, fixed points, size, metric. Found, checked, and read as
+ * the core wants them.
  */
 #ifndef vtkMeshOptimizeArrays_h
 #define vtkMeshOptimizeArrays_h
@@ -43,8 +44,8 @@ struct InputArrays
 
 /**
  * Finds the arrays that the caller of `filter` wants in `grid`, and checks types and numbers of
- * components. Returns a sentence about the first that cannot be used. One that is not there is no error here: another
- * block may have it.
+ * components. Returns a sentence about the first that cannot be used. One that is not there is no
+ * error here: another block may have it.
  */
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays);
 
@@ -56,7 +57,8 @@ std::string CheckArraysAreThere(
   vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids);
 
 /**
- * Region of each simplex. Numbers that do not fit into the core's 32 bits are replaced by their ranks.
+ * Region of each simplex. Numbers that do not fit into the core's 32 bits are replaced by their
+ * ranks.
  */
 std::vector<meshopt::Index> ReadRegions(vtkDataArray* array, const Cells& cells);
 

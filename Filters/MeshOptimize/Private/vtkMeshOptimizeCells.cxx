@@ -85,7 +85,8 @@ std::string CellName(vtkUnstructuredGrid* grid, vtkIdType cell)
  * A point that is not there would be read by whatever comes later. A polyhedron names its points
  * twice; both must be right.
  */
-std::string CheckPointIds(vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdType n, const vtkIdType* ids)
+std::string CheckPointIds(
+  vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdType n, const vtkIdType* ids)
 {
   const vtkIdType numberOfPoints = grid->GetNumberOfPoints();
   for (vtkIdType k = 0; k < n; ++k)

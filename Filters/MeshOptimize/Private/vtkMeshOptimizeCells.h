@@ -1,6 +1,6 @@
 /**
- * What the cells of a grid are to the optimizer: the simplices that it works on, and the others that
- * pass through. Checks everything that later steps rely on, so that they need not look again.
+ * What the cells of a grid are to the optimizer: the simplices that it works on, and the others
+ * that pass through. Checks everything that later steps rely on, so that they need not look again.
  */
 #ifndef vtkMeshOptimizeCells_h
 #define vtkMeshOptimizeCells_h
@@ -50,9 +50,9 @@ struct Cells
 };
 
 /**
- * Sorts the cells of `grid`. Returns a sentence about the first thing that is wrong (a point id out of range, a
- * simplex that uses a point twice, a coordinate of a simplex that is not finite, an array of the wrong length, more
- * cells than the core can count), or an empty string.
+ * Sorts the cells of `grid`. Returns a sentence about the first thing that is wrong (a point id out
+ * of range, a simplex that uses a point twice, a coordinate of a simplex that is not finite, an
+ * array of the wrong length, more cells than the core can count), or an empty string.
  */
 std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells);
 

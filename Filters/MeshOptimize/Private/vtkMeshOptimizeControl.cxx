@@ -35,22 +35,28 @@ meshopt::Control MakeControl(
   vtkAlgorithm* filter, int numberOfThreads, double first, double last, Deadline& deadline)
 {
   meshopt::Control control;
-  control.progress = [=, &deadline](double fraction, const std::string& text) {
+  control.progress = [=, &deadline](double fraction, const std::string& text)
+  {
     filter->SetProgressText(text.c_str());
     filter->UpdateProgress(first + (last - first) * std::min(1.0, std::max(0.0, fraction)));
     return !vtkMeshOptimizeCompat::CheckAbort(filter) && !deadline.HasPassed();
   };
   if (numberOfThreads > 1)
   {
-    control.parallelFor = [=](int n, const std::function<void(int)>& body) {
-      vtkSMPTools::LocalScope(vtkSMPTools::Config{ numberOfThreads, "STDThread", false }, [&]() {
-        vtkSMPTools::For(0, n, 1, [&](vtkIdType begin, vtkIdType end) {
-          for (vtkIdType i = begin; i < end; ++i)
-          {
-            body(static_cast<int>(i));
-          }
+    control.parallelFor = [=](int n, const std::function<void(int)>& body)
+    {
+      vtkSMPTools::LocalScope(vtkSMPTools::Config{ numberOfThreads, "STDThread", false },
+        [&]()
+        {
+          vtkSMPTools::For(0, n, 1,
+            [&](vtkIdType begin, vtkIdType end)
+            {
+              for (vtkIdType i = begin; i < end; ++i)
+              {
+                body(static_cast<int>(i));
+              }
+            });
         });
-      });
     };
   }
   return control;

@@ -77,7 +77,8 @@ void MapCells(
   vtkUnstructuredGrid* grid, const Cells& cells, const SimplexMesh<D>& mesh, OutputMap& map)
 {
   std::vector<char> isOld(mesh.numberOfCellSlots(), 0);
-  const auto add = [&](vtkIdType source, Index slot) {
+  const auto add = [&](vtkIdType source, Index slot)
+  {
     map.CellToSource.push_back(source);
     map.CellToSlot.push_back(slot);
   };
@@ -130,8 +131,9 @@ void ExportPoints(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D
 }
 
 /**
- * Node ids of an output cell. The core's order is kept, to which the qualities that it reports belong to the last bit: that
- * of the grid but for cells that were renumbered, or taken apart and put together again.
+ * Node ids of an output cell. The core's order is kept, to which the qualities that it reports
+ * belong to the last bit: that of the grid but for cells that were renumbered, or taken apart and
+ * put together again.
  */
 template <int D>
 void GetOutputNodes(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh<D>& mesh,
@@ -249,8 +251,8 @@ bool HasPolyhedra(vtkUnstructuredGrid* grid, const OutputMap& map)
 } // namespace
 
 template <int D>
-OutputMap MapOutput(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
-  const SimplexMesh<D>& mesh)
+OutputMap MapOutput(
+  vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame, const SimplexMesh<D>& mesh)
 {
   OutputMap map;
   MapPoints(grid, cells, frame, mesh, map);

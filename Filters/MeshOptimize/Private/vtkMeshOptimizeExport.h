@@ -40,7 +40,8 @@ struct OutputMap
 };
 
 /**
- * Decides what the output consists of. A simplex is still there if a live cell with the same nodes stands in its slot.
+ * Decides what the output consists of. A simplex is still there if a live cell with the same nodes
+ * stands in its slot.
  */
 template <int D>
 OutputMap MapOutput(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
@@ -48,7 +49,8 @@ OutputMap MapOutput(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D
 
 /**
  * Points and cells of the output, without data arrays. Coordinates of points that have not moved
- * are copied bit for bit; their type is that of the input if no point was moved or added, else double.
+ * are copied bit for bit; their type is that of the input if no point was moved or added, else
+ * double.
  */
 template <int D>
 void ExportMesh(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D>& frame,

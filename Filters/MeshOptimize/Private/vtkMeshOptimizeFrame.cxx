@@ -55,10 +55,7 @@ Tensor<2> Frame<2>::ToCore(const Tensor<3>& m) const
   return inPlane;
 }
 
-std::string FindFrame(vtkUnstructuredGrid*, const Cells&, Frame<3>&)
-{
-  return {};
-}
+std::string FindFrame(vtkUnstructuredGrid*, const Cells&, Frame<3>&) { return {}; }
 
 namespace
 {
@@ -101,7 +98,8 @@ Vec<3> AreaVector(vtkUnstructuredGrid* grid, vtkIdType cell)
   vtkIdType n = 0;
   const vtkIdType* ids = nullptr;
   grid->GetCellPoints(cell, n, ids);
-  const Vec<3> a = GridPoint(grid, ids[0]), b = GridPoint(grid, ids[1]), c = GridPoint(grid, ids[2]);
+  const Vec<3> a = GridPoint(grid, ids[0]), b = GridPoint(grid, ids[1]),
+               c = GridPoint(grid, ids[2]);
   return 0.5 * Vec<3>(b - a).cross(Vec<3>(c - a));
 }
 
@@ -156,8 +154,8 @@ void SetDirect(Frame<2>& frame, const Box& box, int constant, bool positive)
   frame.Axes[1] = Vec<3>::Unit(frame.Direct[1]);
 }
 
-std::string CheckPlane(
-  vtkUnstructuredGrid* grid, const Cells& cells, const Vec<3>& origin, const Vec<3>& normal, const Box& box)
+std::string CheckPlane(vtkUnstructuredGrid* grid, const Cells& cells, const Vec<3>& origin,
+  const Vec<3>& normal, const Box& box)
 {
   const double precision = grid->GetPoints()->GetDataType() == VTK_DOUBLE
     ? std::numeric_limits<double>::epsilon()
@@ -169,8 +167,8 @@ std::string CheckPlane(
   {
     if (cells.PointUse[p] & UsedBySimplex)
     {
-      const double distance =
-        std::abs(normal.dot(GridPoint(grid, static_cast<vtkIdType>(p)) - origin));
+      const double distance = std::abs(
+        normal.dot(GridPoint(grid, static_cast<vtkIdType>(p)) - origin));
       if (distance > farthest)
       {
         farthest = distance;

@@ -1,5 +1,6 @@
 /**
- * From the coordinates of a grid to those of the core, and back. In space they are the same; a plane gets two axes.
+ * From the coordinates of a grid to those of the core, and back. In space they are the same; a
+ * plane gets two axes.
  */
 #ifndef vtkMeshOptimizeFrame_h
 #define vtkMeshOptimizeFrame_h
@@ -37,7 +38,8 @@ struct Frame<2>
   meshopt::Vec<3> Origin = meshopt::Vec<3>::Zero();
   meshopt::Vec<3> Axes[2] = { meshopt::Vec<3>::UnitX(), meshopt::Vec<3>::UnitY() };
 
-  /// Coordinates that serve as they are where the plane is parallel to two axes: no rounding at all then. Else -1.
+  /// Coordinates that serve as they are where the plane is parallel to two axes: no rounding at all
+  /// then. Else -1.
   int Direct[2] = { 0, 1 };
 
   meshopt::Vec<2> ToCore(const double x[3]) const;
@@ -52,8 +54,8 @@ std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>& f
 
 /**
  * The plane of all triangles, turned such that most of their area is positive: a mesh that is
- * numbered clockwise about z stays so. Returns a sentence if they are not in one plane, to 1e-6 of their extent and
- * to what the type of the coordinates can express.
+ * numbered clockwise about z stays so. Returns a sentence if they are not in one plane, to 1e-6 of
+ * their extent and to what the type of the coordinates can express.
  */
 std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<2>& frame);
 

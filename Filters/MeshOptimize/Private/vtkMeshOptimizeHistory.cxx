@@ -103,7 +103,8 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkIdTypeArray>(fields, "NumberOfCappedCells", report.cappedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
-  AddFigure<vtkStringArray>(fields, "StopReason", std::string(meshopt::toString(report.stopReason)));
+  AddFigure<vtkStringArray>(
+    fields, "StopReason", std::string(meshopt::toString(report.stopReason)));
 }
 
 } // namespace vtkMeshOptimizeBridge

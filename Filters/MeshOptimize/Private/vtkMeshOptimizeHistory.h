@@ -23,8 +23,8 @@ void StartHistory(vtkTable* table, bool isComposite);
 void AppendHistory(const meshopt::Report& report, int block, vtkTable* table);
 
 /**
- * Figures before and after, bound, counts, and stop reason as field data of the output. No times: the same input must
- * give the same output, bit for bit.
+ * Figures before and after, bound, counts, and stop reason as field data of the output. No times:
+ * the same input must give the same output, bit for bit.
  */
 void AddFigures(const Outcome& outcome, vtkDataObject* output);
 

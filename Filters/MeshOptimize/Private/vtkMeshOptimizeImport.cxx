@@ -32,10 +32,7 @@ void KeepEdge(Index a, Index b, MeshInput<2>& input)
   input.constrainedFacets.push_back({ a, b });
 }
 
-void KeepEdge(Index a, Index b, MeshInput<3>& input)
-{
-  input.constrainedEdges.push_back({ a, b });
-}
+void KeepEdge(Index a, Index b, MeshInput<3>& input) { input.constrainedEdges.push_back({ a, b }); }
 
 void KeepTriangle(const vtkIdType*, MeshInput<2>&) {}
 
@@ -46,7 +43,8 @@ void KeepTriangle(const vtkIdType* ids, MeshInput<3>& input)
 }
 
 /**
- * Triangles and lines that pass through are kept as faces and edges of the mesh where they are such.
+ * Triangles and lines that pass through are kept as faces and edges of the mesh where they are
+ * such.
  */
 template <int D>
 void ImportKept(vtkUnstructuredGrid* grid, const Cells& cells, MeshInput<D>& input)
@@ -125,8 +123,7 @@ template <int D>
 std::string BuildMesh(vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays,
   const Frame<D>& frame, meshopt::SimplexMesh<D>& mesh)
 {
-  const auto error =
-    meshopt::SimplexMesh<D>::build(ImportMesh(grid, cells, arrays, frame), mesh);
+  const auto error = meshopt::SimplexMesh<D>::build(ImportMesh(grid, cells, arrays, frame), mesh);
   if (!error)
   {
     return {};

@@ -14,8 +14,8 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Points and simplices only. Point ids of the core are those of the grid (points that no simplex uses are there as well
- * and stay as they are); its cell k is simplices[k].
+ * Points and simplices only. Point ids of the core are those of the grid (points that no simplex
+ * uses are there as well and stay as they are); its cell k is simplices[k].
  */
 template <int D>
 meshopt::MeshInput<D> ImportGeometry(
@@ -29,7 +29,8 @@ meshopt::MeshInput<D> ImportMesh(
   vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays, const Frame<D>& frame);
 
 /**
- * Imports and builds. Returns the sentence of SimplexMesh::build(), with the cell ids of the grid, or an empty string.
+ * Imports and builds. Returns the sentence of SimplexMesh::build(), with the cell ids of the grid,
+ * or an empty string.
  */
 template <int D>
 std::string BuildMesh(vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays,

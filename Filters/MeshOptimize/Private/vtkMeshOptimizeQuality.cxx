@@ -61,28 +61,27 @@ void AddMeshQuality(vtkUnstructuredGrid* grid, const OutputMap& map,
   const meshopt::Options& options, vtkUnstructuredGrid* output)
 {
   double* values = AddQualityArray(output)->GetPointer(0);
-  meshopt::dispatch<D>(options.measure, [&](auto shape) {
-    const meshopt::ElementQuality<D, decltype(shape)> quality{ options.beta };
-    meshopt::Simplex<D> nodes;
-    for (std::size_t c = 0; c < map.CellToSource.size(); ++c)
+  meshopt::dispatch<D>(options.measure,
+    [&](auto shape)
     {
-      if (GetSimplex(grid, map, mesh, c, nodes))
+      const meshopt::ElementQuality<D, decltype(shape)> quality{ options.beta };
+      meshopt::Simplex<D> nodes;
+      for (std::size_t c = 0; c < map.CellToSource.size(); ++c)
       {
-        meshopt::Corners<D> corners;
-        for (int i = 0; i <= D; ++i)
+        if (GetSimplex(grid, map, mesh, c, nodes))
         {
-          corners[i] = mesh.point(nodes[i]);
+          meshopt::Corners<D> corners;
+          for (int i = 0; i <= D; ++i)
+          {
+            corners[i] = mesh.point(nodes[i]);
+          }
+          values[c] = quality.value(corners, metric.element(nodes));
         }
-        values[c] = quality.value(corners, metric.element(nodes));
       }
-    }
-  });
+    });
 }
 
-void AddNoMeshQuality(vtkUnstructuredGrid* output)
-{
-  AddQualityArray(output);
-}
+void AddNoMeshQuality(vtkUnstructuredGrid* output) { AddQualityArray(output); }
 
 template void AddMeshQuality<2>(vtkUnstructuredGrid*, const OutputMap&,
   const meshopt::SimplexMesh<2>&, const meshopt::NodalMetric<2>&, const meshopt::Options&,

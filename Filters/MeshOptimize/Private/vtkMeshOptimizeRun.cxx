@@ -54,8 +54,7 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
   {
     outcome.NumberOfOperations += std::accumulate(row.done.begin(), row.done.end(), 0L);
   }
-  outcome.Seconds =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  outcome.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 template <int D>
@@ -158,8 +157,7 @@ void Outcome::Add(const Outcome& other)
     mine.bound = isFirst ? its.bound : std::min(mine.bound, its.bound);
     mine.meanBefore = Mean(
       mine.meanBefore, this->NumberOfCellsBefore, its.meanBefore, other.NumberOfCellsBefore);
-    mine.meanAfter =
-      Mean(mine.meanAfter, this->NumberOfCells, its.meanAfter, other.NumberOfCells);
+    mine.meanAfter = Mean(mine.meanAfter, this->NumberOfCells, its.meanAfter, other.NumberOfCells);
     mine.cappedCells += its.cappedCells;
   }
   if (Strength(its.stopReason) > Strength(mine.stopReason))
@@ -174,8 +172,8 @@ void Outcome::Add(const Outcome& other)
   this->Seconds += other.Seconds;
 }
 
-std::string OptimizeGrid(vtkUnstructuredGrid* input, const Request& request,
-  vtkUnstructuredGrid* output, Outcome& outcome)
+std::string OptimizeGrid(
+  vtkUnstructuredGrid* input, const Request& request, vtkUnstructuredGrid* output, Outcome& outcome)
 {
   Cells cells;
   std::string error = ClassifyCells(input, cells);

@@ -57,8 +57,8 @@ Background<D> MakeBackground(vtkUnstructuredGrid* grid, const Cells& cells, cons
   const std::vector<Index>& changed)
 {
   std::vector<vtkIdType> simplices(changed.size());
-  std::transform(changed.begin(), changed.end(), simplices.begin(),
-    [&](Index k) { return cells.Simplices[k]; });
+  std::transform(
+    changed.begin(), changed.end(), simplices.begin(), [&](Index k) { return cells.Simplices[k]; });
   SimplexMesh<D> mesh;
   SimplexMesh<D>::build(ImportGeometry(grid, simplices, frame), mesh); // went well with all of them
   return Background<D>(mesh);
@@ -114,16 +114,16 @@ std::vector<Sample> SampleInput(vtkUnstructuredGrid* grid, const Cells& cells,
   for (const vtkIdType id : map.SampledPoints)
   {
     const Index p = map.PointToSlot[id];
-    const meshopt::Location<D> place =
-      background.locate(mesh.point(p), FindHint(background, changed, mesh, p));
+    const meshopt::Location<D> place = background.locate(
+      mesh.point(p), FindHint(background, changed, mesh, p));
     samples.push_back(MakeSample(background, mesh.point(p), place));
   }
   return samples;
 }
 
-template std::vector<Sample> SampleInput<2>(vtkUnstructuredGrid*, const Cells&, const Frame<2>&,
-  const OutputMap&, const SimplexMesh<2>&);
-template std::vector<Sample> SampleInput<3>(vtkUnstructuredGrid*, const Cells&, const Frame<3>&,
-  const OutputMap&, const SimplexMesh<3>&);
+template std::vector<Sample> SampleInput<2>(
+  vtkUnstructuredGrid*, const Cells&, const Frame<2>&, const OutputMap&, const SimplexMesh<2>&);
+template std::vector<Sample> SampleInput<3>(
+  vtkUnstructuredGrid*, const Cells&, const Frame<3>&, const OutputMap&, const SimplexMesh<3>&);
 
 } // namespace vtkMeshOptimizeBridge

@@ -31,8 +31,8 @@ bool IsNamed(vtkAbstractArray* array, const char* name)
  */
 vtkSmartPointer<vtkAbstractArray> Gather(vtkAbstractArray* source, vtkIdList* ids)
 {
-  vtkSmartPointer<vtkAbstractArray> array =
-    vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(source->GetDataType()));
+  vtkSmartPointer<vtkAbstractArray> array = vtkSmartPointer<vtkAbstractArray>::Take(
+    vtkAbstractArray::CreateArray(source->GetDataType()));
   array->SetName(source->GetName());
   array->SetNumberOfComponents(source->GetNumberOfComponents());
   array->SetNumberOfTuples(ids->GetNumberOfIds());
@@ -50,8 +50,8 @@ vtkSmartPointer<vtkAbstractArray> Gather(vtkAbstractArray* source, vtkIdList* id
  */
 double Interpolate(vtkDataArray* source, int component, const Sample& sample)
 {
-  const std::size_t base =
-    std::max_element(sample.Weights.begin(), sample.Weights.end()) - sample.Weights.begin();
+  const std::size_t base = std::max_element(sample.Weights.begin(), sample.Weights.end()) -
+    sample.Weights.begin();
   const double v0 = source->GetComponent(sample.Corners[base], component);
   double value = v0;
   for (std::size_t i = 0; i < sample.Corners.size(); ++i)
@@ -93,11 +93,12 @@ void FillNew(vtkAbstractArray* abstract, vtkIdType first, double value)
 }
 
 /**
- * Adds `array` and makes it the active scalars, vectors, ... that array `index` of the input is. Not the
- * active global ids: those must be unique over all blocks and processes, new points and cells have none.
+ * Adds `array` and makes it the active scalars, vectors, ... that array `index` of the input is.
+ * Not the active global ids: those must be unique over all blocks and processes, new points and
+ * cells have none.
  */
-void AddArray(vtkDataSetAttributes* input, int index, vtkAbstractArray* array,
-  vtkDataSetAttributes* output)
+void AddArray(
+  vtkDataSetAttributes* input, int index, vtkAbstractArray* array, vtkDataSetAttributes* output)
 {
   const int place = output->AddArray(array);
   const int attribute = input->IsArrayAnAttribute(index);
@@ -108,7 +109,8 @@ void AddArray(vtkDataSetAttributes* input, int index, vtkAbstractArray* array,
 }
 
 /**
- * Output points that take the data of one input point: themselves if they have not moved, else the nearest.
+ * Output points that take the data of one input point: themselves if they have not moved, else the
+ * nearest.
  */
 void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool movedKeepTheirOwn,
   vtkIdList* sources)
@@ -140,13 +142,13 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
   {
     vtkAbstractArray* source = input->GetAbstractArray(i);
     const int attribute = input->IsArrayAnAttribute(i);
-    const bool isIdentity =
-      attribute == vtkDataSetAttributes::GLOBALIDS || attribute == vtkDataSetAttributes::PEDIGREEIDS;
+    const bool isIdentity = attribute == vtkDataSetAttributes::GLOBALIDS ||
+      attribute == vtkDataSetAttributes::PEDIGREEIDS;
     vtkSmartPointer<vtkAbstractArray> array = Gather(source, isIdentity ? byIdentity : byPlace);
     if (IsFloating(source) && !isIdentity)
     {
-      InterpolateSamples(vtkDataArray::SafeDownCast(source), map, samples,
-        vtkDataArray::SafeDownCast(array));
+      InterpolateSamples(
+        vtkDataArray::SafeDownCast(source), map, samples, vtkDataArray::SafeDownCast(array));
     }
     if (attribute == vtkDataSetAttributes::GLOBALIDS)
     {

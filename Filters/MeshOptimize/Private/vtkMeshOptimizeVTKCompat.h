@@ -1,5 +1,6 @@
 /**
- * The one place that knows VTK versions (9.1 and later): every VTK_VERSION_CHECK of the project stands here.
+ * The one place that knows VTK versions (9.1 and later): every VTK_VERSION_CHECK of the project
+ * stands here.
  */
 #ifndef vtkMeshOptimizeVTKCompat_h
 #define vtkMeshOptimizeVTKCompat_h
@@ -24,7 +25,8 @@ inline bool CheckAbort(vtkAlgorithm* self)
 }
 
 /**
- * VTK empties the output of a filter that has seen an abort. Says that the output of `self` is fit for use all the same.
+ * VTK empties the output of a filter that has seen an abort. Says that the output of `self` is fit
+ * for use all the same.
  */
 inline void KeepOutputAfterAbort(vtkAlgorithm* self)
 {
