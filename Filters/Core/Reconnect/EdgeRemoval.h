@@ -104,7 +104,7 @@ bool EdgeRemoval<D, Shape>::gather(const MeshEditor<D>& editor, Index t, int e)
         return false;
       }
       const Index next = mesh.cellOf(h);
-      if (next == t || this->n_ == MaximumRing || !editor.owns(next))
+      if (next == t || !editor.owns(next))
       {
         return false;
       }
@@ -122,6 +122,10 @@ bool EdgeRemoval<D, Shape>::gather(const MeshEditor<D>& editor, Index t, int e)
           return false;
         }
         break;
+      }
+      if (this->n_ == MaximumRing)
+      {
+        return false;
       }
       this->ring_[this->n_++] = newcomer;
     }
