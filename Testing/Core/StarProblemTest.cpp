@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The place of one node: the ascent against search, its step against brute force.
+#include "Reposition/StarProblem.h"
+#include "TestMeshes.h"
+
+#include <Eigen/LU>
+
+using namespace meshopt;
+
+namespace
+{
+/// The star of a node: an octahedron (3D) or a hexagon (2D) with displaced points.
+template <int D>
+struct Star
+{
+  std::vector<Vec<D>> points;
+  std::vector<std::array<int, D>> facets;
+
+  Star(double jitter, unsigned seed)
+  {
+    TestRandom random(seed);
+    if constexpr (D == 2)
+    {
+      for (int k = 0; k < 6; ++k)
+      {
+        this->points.emplace_back(std::cos(k * M_PI / 3.0), std::sin(k * M_PI / 3.0));
+        this->facets.push_back({ k, (k + 1) % 6 });
+      }
+    }
+    else
+    {
+      this->points = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 },
+        { 0, 0, -1 } };
+      for (int k = 0; k < 8; ++k)
+      {
+        std::array<int, 3> f = { k & 1, 2 + (k >> 1 & 1), 4 + (k >> 2 & 1) };
+        if (this->volume(f, Vec<3>::Zero()) < 0.0)
+        {
+          std::swap(f[0], f[1]);
+        }
+        this->facets.push_back(f);
+      }
+    }
+    for (Vec<D>& x : this->points)
+    {
+      for (int d = 0; d < D; ++d)
+      {
+        x[d] += jitter * random();
+      }
+    }
+  }
+
+  Corners<D> corners(const std::array<int, D>& f, const Vec<D>& x) const
+  {
+    Corners<D> c;
+    for (int i = 0; i < D; ++i)
+    {
+      c[i] = this->points[f[i]];
+    }
+    c[D] = x;
+    return c;
+  }
+  double volume(const std::array<int, D>& f, const Vec<D>& x) const
+  {
+    return signedVolume(this->corners(f, x));
+  }
+
+  template <class Shape>
+  void load(StarProblem<D, Shape>& problem, bool plain) const
+  {
+    problem.clear({ 0.0 }, plain);
+    for (std::size_t k = 0; k < this->points.size(); ++k)
+    {
+      EXPECT_EQ(problem.addPoint(Index(100 + 7 * k), this->points[k]), int(k));
+    }
+    EXPECT_EQ(problem.addPoint(100, this->points[0]), 0); // seen already
+    for (const auto& f : this->facets)
+    {
+      problem.addFacet(f);
+      problem.addFacetMetric({});
+    }
+    EXPECT_EQ(problem.numberOfPoints(), int(this->points.size()));
+    EXPECT_EQ(problem.numberOfFacets(), int(this->facets.size()));
+  }
+
+  template <class Shape>
+  double worst(const Vec<D>& x) const
+  {
+    double q = std::numeric_limits<double>::infinity();
+    for (const auto& f : this->facets)
+    {
+      q = std::min(q, Shape::value(this->corners(f, x)));
+    }
+    return q;
+  }
+
+  /// The best place by random search that closes in on the best so far.
+  template <class Shape>
+  double search(unsigned seed) const
+  {
+    TestRandom random(seed);
+    Vec<D> best = Vec<D>::Zero();
+    double value = this->worst<Shape>(best);
+    for (double radius = 1.0; radius > 1e-5; radius *= 0.85)
+    {
+      for (int k = 0; k < 300; ++k)
+      {
+        Vec<D> x = best;
+        for (int d = 0; d < D; ++d)
+        {
+          x[d] += radius * random();
+        }
+        const double q = this->worst<Shape>(x);
+        if (q > value)
+        {
+          value = q;
+          best = x;
+        }
+      }
+    }
+    return value;
+  }
+};
+
+template <int D, class Shape>
+void findsTheOptimum()
+{
+  int starts = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed)
+  {
+    const Star<D> star(0.25, seed);
+    const double best = star.template search<Shape>(seed);
+    ASSERT_GT(best, 0.1);
+    TestRandom random(seed);
+    for (bool plain : { true, false })
+    {
+      StarProblem<D, Shape> problem;
+      star.load(problem, plain);
+      for (int start = 0; start < 12; ++start)
+      {
+        Vec<D> x;
+        for (int d = 0; d < D; ++d)
+        {
+          x[d] = 0.5 * random();
+        }
+        const double before = star.template worst<Shape>(x);
+        EXPECT_NEAR(problem.evaluate(x), before, 1e-13);
+        if (!(before > 0.0))
+        {
+          continue;
+        }
+        ++starts;
+        const double after = problem.maximize(x, 2.0, 1e-7, 200);
+        EXPECT_NEAR(after, best, 1e-3) << "seed " << seed << " start " << start;
+        EXPECT_NEAR(after, star.template worst<Shape>(x), 1e-13);
+        EXPECT_GE(after, before);
+        ASSERT_EQ(problem.values().size(), star.facets.size()); // they belong to x
+        for (std::size_t k = 0; k < star.facets.size(); ++k)
+        {
+          EXPECT_NEAR(problem.values()[k], Shape::value(star.corners(star.facets[k], x)), 1e-13);
+        }
+      }
+    }
+  }
+  EXPECT_GT(starts, 80);
+}
+
+/// Dense sampling: nowhere is it better than where maximize() ends.
+template <int D, class Shape>
+void nothingBetterOnAGrid()
+{
+  const Star<D> star(0.3, 5);
+  StarProblem<D, Shape> problem;
+  star.load(problem, true);
+  Vec<D> x = Vec<D>::Zero();
+  const double best = problem.maximize(x, 2.0, 1e-7, 200);
+  const int n = D == 3 ? 30 : 100;
+  for (int k = 0; k < (D == 3 ? n * n * n : n * n); ++k)
+  {
+    Vec<D> y;
+    for (int d = 0, rest = k; d < D; ++d, rest /= n)
+    {
+      y[d] = 2.4 * (rest % n) / n - 1.2;
+    }
+    EXPECT_LE(star.template worst<Shape>(y), best + 1e-3);
+  }
+}
+
+template <int D, class Shape>
+void fastPathEqualsGeneric()
+{
+  TestRandom random(9);
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    const Star<D> star(0.3, seed);
+    StarProblem<D, Shape> fast, generic;
+    star.load(fast, true);
+    star.load(generic, false);
+    for (int k = 0; k < 20; ++k)
+    {
+      Vec<D> x;
+      for (int d = 0; d < D; ++d)
+      {
+        x[d] = 1.5 * random(); // inside, where all are positive, and outside
+      }
+      EXPECT_NEAR(fast.evaluate(x), generic.evaluate(x), 1e-13);
+      for (std::size_t f = 0; f < star.facets.size(); ++f)
+      {
+        EXPECT_NEAR(fast.values()[f], generic.values()[f], 1e-13);
+      }
+      // one step with the same model of the star goes to the same place: gradients are equal
+      Vec<D> a = x, b = x;
+      fast.maximize(a, 2.0, 1e-9, 1);
+      generic.maximize(b, 2.0, 1e-9, 1);
+      EXPECT_LT((a - b).norm(), 1e-9 * (1.0 + (a - x).norm()));
+    }
+  }
+}
+
+// ---- the step ------------------------------------------------------------------------------------
+
+/// max over d of min_k (q_k + g_k . d) - |d|^2 / (2 tau), by its dual over all subsets: on each, the
+/// stationary point of the affine hull counts if its weights are not negative.
+template <int D>
+double dual(const std::vector<typename ProximalStep<D>::Function>& f, double tau)
+{
+  const int m = int(f.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned set = 1; set < 1u << m; ++set)
+  {
+    std::vector<int> id;
+    for (int k = 0; k < m; ++k)
+    {
+      if (set >> k & 1)
+      {
+        id.push_back(k);
+      }
+    }
+    const int s = int(id.size());
+    if (s > D + 1)
+    {
+      continue; // some D + 1 of them do as well
+    }
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(s + 1, s + 1);
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(s + 1);
+    for (int i = 0; i < s; ++i)
+    {
+      for (int j = 0; j < s; ++j)
+      {
+        a(i, j) = tau * f[id[i]].g.dot(f[id[j]].g);
+      }
+      a(i, s) = a(s, i) = 1.0;
+      b[i] = -f[id[i]].q;
+    }
+    b[s] = 1.0;
+    const Eigen::VectorXd mu = a.fullPivLu().solve(b);
+    if ((a * mu - b).norm() > 1e-8 || mu.head(s).minCoeff() < -1e-12)
+    {
+      continue;
+    }
+    Vec<D> g = Vec<D>::Zero();
+    double value = 0.0;
+    for (int i = 0; i < s; ++i)
+    {
+      g += mu[i] * f[id[i]].g;
+      value += mu[i] * f[id[i]].q;
+    }
+    least = std::min(least, value + 0.5 * tau * g.squaredNorm());
+  }
+  return least;
+}
+
+template <int D>
+double primal(const std::vector<typename ProximalStep<D>::Function>& f, double tau, const Vec<D>& d)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& k : f)
+  {
+    least = std::min(least, k.q + k.g.dot(d));
+  }
+  return least - d.squaredNorm() / (2.0 * tau);
+}
+
+template <int D>
+void stepEqualsBruteForce()
+{
+  TestRandom random(4);
+  ProximalStep<D> solver;
+  for (int k = 0; k < 400; ++k)
+  {
+    std::vector<typename ProximalStep<D>::Function> f(1 + k % 8);
+    for (auto& each : f)
+    {
+      each.q = 0.3 * random();
+      for (int d = 0; d < D; ++d)
+      {
+        each.g[d] = random() + (k % 3 == 0 ? 1.0 : 0.0);
+      }
+    }
+    for (double tau : { 0.01, 0.3, 10.0 })
+    {
+      Vec<D> d;
+      const double level = solver.solve(f, tau, d);
+      const double value = primal<D>(f, tau, d);
+      EXPECT_NEAR(level, value + d.squaredNorm() / (2.0 * tau), 1e-9);
+      EXPECT_NEAR(value, dual<D>(f, tau), 1e-6) << "m " << f.size() << " tau " << tau;
+    }
+  }
+}
+
+/// Many functions, the same several times, all equal, zero gradients: an answer that is sound.
+template <int D>
+void stepBearsDegeneracy()
+{
+  TestRandom random(6);
+  ProximalStep<D> solver;
+  using F = typename ProximalStep<D>::Function;
+  for (int k = 0; k < 300; ++k)
+  {
+    std::vector<F> few(1 + k % (D + 3)), f;
+    for (F& each : few)
+    {
+      each.q = k % 2 ? 0.5 : 0.5 + 0.1 * random();
+      each.g.setZero();
+      for (int d = 0; d < D && k % 7 != 0; ++d)
+      {
+        each.g[d] = std::round(2.0 * random()); // parallel and opposite ones are frequent
+      }
+    }
+    for (int copies = 0; copies < 40; ++copies)
+    {
+      f.insert(f.end(), few.begin(), few.end());
+    }
+    Vec<D> d;
+    const double level = solver.solve(f, 0.3, d);
+    ASSERT_TRUE(d.allFinite() && std::isfinite(level));
+    EXPECT_NEAR(primal<D>(f, 0.3, d), dual<D>(few, 0.3), 1e-5) << "k " << k;
+  }
+}
+}
+
+TEST(StarProblem2D, FindsTheOptimum)
+{
+  findsTheOptimum<2, MeanEdgeShape<2>>();
+  findsTheOptimum<2, VolumeLengthShape<2>>();
+  nothingBetterOnAGrid<2, MeanEdgeShape<2>>();
+}
+
+TEST(StarProblem3D, FindsTheOptimum)
+{
+  findsTheOptimum<3, MeanEdgeShape<3>>();
+  findsTheOptimum<3, VolumeLengthShape<3>>();
+  nothingBetterOnAGrid<3, MeanEdgeShape<3>>();
+}
+
+TEST(StarProblem, FastPathEqualsGenericPath)
+{
+  fastPathEqualsGeneric<2, MeanEdgeShape<2>>();
+  fastPathEqualsGeneric<2, VolumeLengthShape<2>>();
+  fastPathEqualsGeneric<3, MeanEdgeShape<3>>();
+  fastPathEqualsGeneric<3, VolumeLengthShape<3>>();
+}
+
+TEST(StarProblem, StopsWhereItIsEnough)
+{
+  const Star<3> star(0.2, 2);
+  StarProblem<3, MeanEdgeShape<3>> problem;
+  star.load(problem, true);
+  const Vec<3> start(0.3, 0.3, 0.2);
+  Vec<3> x = start;
+  const double before = problem.evaluate(x);
+  EXPECT_EQ(problem.maximize(x, 0.5 * before, 1e-7), before);
+  EXPECT_EQ(x, start);
+  EXPECT_GT(problem.maximize(x, before + 0.01, 1e-7), before + 0.01);
+  x = start;
+  EXPECT_EQ(problem.maximize(x, 2.0, 1e9), before); // no step promises so much
+  EXPECT_EQ(x, start);
+}
+
+TEST(ProximalStep, EqualsBruteForceOfItsDual)
+{
+  stepEqualsBruteForce<2>();
+  stepEqualsBruteForce<3>();
+}
+
+TEST(ProximalStep, BearsDegeneracy)
+{
+  stepBearsDegeneracy<2>();
+  stepBearsDegeneracy<3>();
+}
