@@ -309,3 +309,31 @@ TEST(Cavity3D, StaysWithinWhatTheEditorOwns)
     EXPECT_LT(bench.mesh.localIndex(c, 1), 0);
   }
 }
+
+TEST(Cavity3D, KeptEdgesStay)
+{
+  MeshInput<3> in = doubleRing(5, 1);
+  in.fixedPoints.assign(in.points.size(), 1);
+  const Vec<3> x(0.02, 0.01, -0.4); // the edge (0, 2) had better go
+  Bench<3, MeanEdgeShape<3>> free(in, Measure::Shape);
+  const double best = free.grow(0, x, 1000);
+  for (Index c = 0; c < 10; c += 2)
+  {
+    const auto& cells = free.cavity.cells();
+    EXPECT_EQ(std::count(cells.begin(), cells.end(), c), 1);
+  }
+  in.constrainedEdges = { { 2, 0 } };
+  for (Index seed = 0; seed < 10; seed += 2)
+  {
+    Bench<3, MeanEdgeShape<3>> kept(in, Measure::Shape);
+    const double q = kept.grow(seed, x, 1000);
+    EXPECT_LT(q, best);
+    int around = 0;
+    for (Index c : kept.cavity.cells())
+    {
+      around += kept.mesh.localIndex(c, 0) >= 0 && kept.mesh.localIndex(c, 2) >= 0;
+    }
+    EXPECT_LT(around, 5);
+    kept.check(seed, q);
+  }
+}
