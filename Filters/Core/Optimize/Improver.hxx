@@ -37,7 +37,7 @@ bool Improver<D, Shape>::improve(Index t, int level)
   {
     return true;
   }
-  return level >= LookAhead && this->options_->insertNodes &&
+  return level >= LookAhead && this->options_->lookAhead && this->options_->insertNodes &&
     this->lookAhead(t, level == LookAhead ? 30 : 120);
 }
 
@@ -88,7 +88,7 @@ template <int D, class Shape>
 bool Improver<D, Shape>::replace(
   const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells)
 {
-  if (this->tangled_ && (this->misfits(cavity, cells) || this->conflicts(cavity, cells)))
+  if (this->tangled_ && (!fillsCavity<D>(this->editor_->mesh(), cavity, cells) || this->conflicts(cavity, cells)))
   {
     return false;
   }
@@ -153,59 +153,6 @@ bool Improver<D, Shape>::reconnect(Index t)
     this->count(Operation::FaceRemoval, kind == Operation::FaceRemoval);
   }
   return !this->bestCells_.empty() && this->replace(this->bestCavity_, this->bestCells_);
-}
-
-/// True if the new cells do not fill the boundary of the cavity exactly once.
-template <int D, class Shape>
-bool Improver<D, Shape>::misfits(
-  const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const
-{
-  const SimplexMesh<D>& mesh = this->editor_->mesh();
-  const auto inCavity = [&](Index handle)
-  {
-    return handle != None &&
-      std::find(cavity.begin(), cavity.end(), mesh.cellOf(handle)) != cavity.end();
-  };
-  // The boundary facets twice over: with those of the new cells, all must then be there in pairs
-  // (inside) or three times over (boundary).
-  std::vector<Facet<D>> outer, facets;
-  for (Index c : cavity)
-  {
-    for (int i = 0; i <= D; ++i)
-    {
-      if (!inCavity(mesh.adjacent(c, i)))
-      {
-        outer.push_back(mesh.facet(c, i));
-        std::sort(outer.back().begin(), outer.back().end());
-      }
-    }
-  }
-  for (const Simplex<D>& cell : cells)
-  {
-    for (const auto& local : Local<D>::facets)
-    {
-      Facet<D> f;
-      std::transform(std::begin(local), std::end(local), f.begin(), [&](int k) { return cell[k]; });
-      std::sort(f.begin(), f.end());
-      facets.push_back(f);
-    }
-  }
-  std::sort(outer.begin(), outer.end());
-  std::sort(facets.begin(), facets.end());
-  std::size_t found = 0;
-  for (std::size_t k = 0; k < facets.size();)
-  {
-    const auto [first, last] = std::equal_range(facets.begin() + k, facets.end(), facets[k]);
-    const auto n = last - first;
-    const auto [a, b] = std::equal_range(outer.begin(), outer.end(), facets[k]);
-    if (b - a > 1 || n != (b == a ? 2 : 1))
-    {
-      return true;
-    }
-    found += static_cast<std::size_t>(b - a);
-    k += static_cast<std::size_t>(n);
-  }
-  return found != outer.size();
 }
 
 /// True if an edge or a facet that the new cells bring exists elsewhere already. Where cells do not
@@ -454,7 +401,9 @@ double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGa
   for (int round = 0; round < 2; ++round)
   {
     this->place(p, x, this->editor_->mesh().nodes(t)[0]);
-    q = this->cavity_.grow(*this->editor_, *this->model_, t, p, x, {});
+    typename Cavity<D, Shape>::Limits limits;
+    limits.swallowed = this->options_->removeNodes ? limits.swallowed : 0;
+    q = this->cavity_.grow(*this->editor_, *this->model_, t, p, x, limits);
     if (!(q > 0.0))
     {
       return Never;
