@@ -3,6 +3,7 @@
 #include "Boundary/SurfaceBound.h"
 #include "Boundary/ApexBound.h"
 #include "Quality/Shape.h"
+#include "TestMeshes.h"
 
 #include <gtest/gtest.h>
 
@@ -352,4 +353,176 @@ TEST(SurfaceBound, PlaneCorner)
                 { Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(r * std::cos(theta), r * std::sin(theta)) }),
       angleCap2(theta) * (1.0 + 1e-14));
   }
+}
+
+namespace
+{
+/// The vectors of the box are bent, turned and squeezed: no coordinates are round numbers any more.
+template <int D>
+void bend(MeshInput<D>& in, TestRandom& random, double squeeze)
+{
+  Eigen::Matrix<double, D, D> map = Eigen::Matrix<double, D, D>::Identity();
+  for (int i = 0; i < D; ++i)
+  {
+    for (int j = 0; j < D; ++j)
+    {
+      map(i, j) += 0.3 * random();
+    }
+  }
+  map.col(0) *= squeeze;
+  for (Vec<D>& x : in.points)
+  {
+    x = map * x + Vec<D>::Constant(0.1);
+  }
+}
+
+/// Some facets of the cells, at random, to be kept.
+template <int D>
+void keepSome(MeshInput<D>& in, TestRandom& random, double share)
+{
+  for (const Simplex<D>& cell : in.cells)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      if (random() < 2.0 * share - 1.0)
+      {
+        Facet<D> f;
+        for (int k = 0; k < D; ++k)
+        {
+          f[k] = cell[Local<D>::facets[i][k]];
+        }
+        in.constrainedFacets.push_back(f);
+      }
+    }
+  }
+}
+
+template <int D>
+double worstShape(const SimplexMesh<D>& mesh)
+{
+  double q = 1.0;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    q = std::min(q, MeanEdgeShape<D>::value(mesh.corners(c)));
+  }
+  return q;
+}
+
+/// Cells of kept facets at an edge that is listed: the worst of the cells there must not be above.
+template <int D>
+void expectAboveItself(const SimplexMesh<D>& mesh, const std::string& what)
+{
+  SurfaceBoundOptions quick;
+  quick.enough = quick.listEdgesBelow = 0.6;
+  for (const SurfaceBoundOptions& options : { SurfaceBoundOptions(), quick })
+  {
+    const SurfaceBound<D> bound = surfaceBound(mesh, options);
+    EXPECT_GE(bound.bound, 0.0) << what;
+    EXPECT_GE(bound.bound * (1.0 + 1e-9) + 1e-13, worstShape(mesh)) << what;
+    for (const EdgeBound& edge : bound.edges)
+    {
+      double there = 1.0;
+      for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+      {
+        if (mesh.localIndex(c, edge.a) >= 0 && (D == 2 || mesh.localIndex(c, edge.b) >= 0))
+        {
+          there = std::min(there, MeanEdgeShape<D>::value(mesh.corners(c)));
+        }
+      }
+      EXPECT_GE(edge.cap * (1.0 + 1e-9) + 1e-13, there)
+        << what << ", edge " << edge.a << " " << edge.b;
+    }
+  }
+}
+
+template <int D>
+void keptInside()
+{
+  const double shares[] = { 0.0, 0.01, 0.1, 0.3, 1.0 };
+  const double squeezes[] = { 1.0, 0.1, 1e-3, 1e-6, 1e-9 };
+  for (unsigned seed = 0; seed < 25; ++seed)
+  {
+    const std::string what = "seed " + std::to_string(seed);
+    TestRandom random(seed);
+    const double jitter = 0.1 * (seed % 4), squeeze = squeezes[seed / 5 % 5];
+    MeshInput<D> in = jitteredGrid<D>(2 + seed % 2, jitter, seed);
+    if (seed % 3 == 1)
+    {
+      splitRegions(in);
+    }
+    bend(in, random, squeeze);
+    keepSome(in, random, shares[seed % 5]);
+    if (seed % 7 == 3) // regions at random: edges of many kept facets
+    {
+      in.regions.clear();
+      for (std::size_t c = 0; c < in.cells.size(); ++c)
+      {
+        in.regions.push_back(random() > 0.8 ? 1 : 0);
+      }
+    }
+    const SimplexMesh<D> mesh = buildMesh(in);
+    expectAboveItself(mesh, what);
+
+    // the same facets, but a node that is on none of them goes astray: it may be put back
+    for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+    {
+      if (!mesh.isBoundary(p))
+      {
+        in.points[p] += Vec<D>::Constant(1.5 * squeeze * random());
+      }
+    }
+    const SimplexMesh<D> astray = buildMesh(in);
+    expectAboveItself(astray, what + " astray");
+    EXPECT_GE(surfaceBound(astray).bound * (1.0 + 1e-9) + 1e-13, worstShape(mesh)) << what;
+
+    // any node: inverted and flat cells everywhere
+    for (Vec<D>& x : in.points)
+    {
+      if (random() > 0.6)
+      {
+        x += Vec<D>::Constant(0.5 * random());
+      }
+    }
+    expectAboveItself(buildMesh(in), what + " tangled");
+  }
+}
+}
+
+TEST(SurfaceBound, FacetsKeptInside) { keptInside<3>(); }
+
+TEST(SurfaceBound, FacetsKeptInsidePlane) { keptInside<2>(); }
+
+TEST(SurfaceBound, BothSidesOfOneFacetAreAllAround)
+{
+  // whatever the rounding errors of the angle, which is 2 pi and never 0
+  TestRandom random(1);
+  for (int k = 0; k < 500; ++k)
+  {
+    Vec<3> points[3];
+    for (Vec<3>& p : points)
+    {
+      p = Vec<3>(random(), random(), random());
+    }
+    const double cap = facetCap(points[0], points[1], points[2]);
+    const auto bound = surfaceBound<3>(
+      points, { { { 0, 1, 2 }, 0, 0, true }, { { 1, 0, 2 }, 1, 0, true } });
+    EXPECT_GT(bound.bound, 0.9 * cap);
+  }
+}
+
+TEST(SurfaceBound, SidesNotSureAreNoGaps)
+{
+  // three facets at an edge, at 0, 60 and 240 degrees; only 0 to 60 is filled, and where one of
+  // these sides is in doubt nothing may be said
+  const auto at = [](double degrees)
+  { return Vec<3>(0.5, std::cos(degrees * pi / 180.0), std::sin(degrees * pi / 180.0)); };
+  const Vec<3> points[6] = { Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), at(0), at(60), at(62), at(64) };
+  std::vector<KeptSide<3>> sides = { { { 0, 1, 2 }, 0, 0, true }, { { 1, 0, 3 }, 0, 0, true },
+    { { 0, 1, 4 }, 1, 0, true }, { { 1, 0, 5 }, 1, 0, true } };
+  EXPECT_LT(surfaceBound<3>(points, sides).bound, 0.1);
+  sides[1].oriented = false;
+  EXPECT_GT(surfaceBound<3>(points, sides).bound, 0.5);
+  sides[1].oriented = true;
+  std::swap(sides[1].nodes[2], sides[2].nodes[2]); // 0 to 62 and 60 to 64 overlap: no mesh in space
+  EXPECT_GT(surfaceBound<3>(points, sides).bound, 0.5);
 }

@@ -329,7 +329,7 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
 }
 
 bool edgeForbids(
-  double c, double theta, const EdgeView& first, const EdgeView& last, double spanned)
+  double c, double theta, const EdgeView& first, const EdgeView& last, double spanned, double slack)
 {
   if (!first.usable || !last.usable || !std::isfinite(theta) || c <= 0.0 || spanned >= c)
   {
@@ -339,27 +339,28 @@ bool edgeForbids(
   {
     return false;
   }
+  c *= 1.0 - 8.0 * slack;
   double low, high;
   angleCapLevel(c, low, high);
   double l1, u1, l2, u2;
   if (!first.level(c, l1, u1) || !last.level(c, l2, u2))
   {
-    return true;
+    return false; // the best place is not known well enough
   }
   // k - 2 tetrahedra between the first and the last; fewer than this many reach theta, and more
   // exceed it
-  const double between = std::ceil(std::max(0.0, theta - u1 - u2) / high);
-  return !(l1 + l2 + between * low <= theta && theta <= u1 + u2 + between * high);
+  const double between = std::ceil(std::max(0.0, theta - slack - u1 - u2) / high);
+  return l1 + l2 + between * low > theta + slack || theta - slack > u1 + u2 + between * high;
 }
 
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double tolerance)
+  double spanned, double tolerance, double slack)
 {
   double low = std::max(0.0, spanned), high = above;
   while (high - low > tolerance * high && high > 1e-12)
   {
     const double middle = low > 0.1 * high ? 0.5 * (low + high) : 0.3 * high;
-    (edgeForbids(middle, theta, first, last, spanned) ? high : low) = middle;
+    (edgeForbids(middle, theta, first, last, spanned, slack) ? high : low) = middle;
   }
   return high;
 }

@@ -64,14 +64,15 @@ private:
 /// The angle theta at a kept edge, between two kept facets, has to be filled by k >= 1 tetrahedra.
 /// The first and the last have a given facet, and k = 1 is the tetrahedron that both span, of
 /// quality `spanned` (<= 0 or so where theta >= pi). True if no way to fill it has a worst S of c
-/// or more.
-bool edgeForbids(
-  double c, double theta, const EdgeView& first, const EdgeView& last, double spanned);
+/// or more; c must not be above what both facets allow. theta is known up to `slack`, and what is
+/// computed from the facets up to that relative error.
+bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
+  double spanned, double slack = 0.0);
 
 /// Least c that edgeForbids(), for an edge that forbids c = `above`: the certified bound of the
 /// edge, rounded upwards by at most the relative tolerance.
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double tolerance = 1e-7);
+  double spanned, double tolerance = 1e-7, double slack = 0.0);
 }
 
 #endif

@@ -41,7 +41,7 @@ std::vector<Rim> collectRims(const std::vector<KeptSide<3>>& sides)
   rims.reserve(3 * sides.size());
   for (std::size_t s = 0; s < sides.size(); ++s)
   {
-    for (std::int8_t k = 0; sides[s].oriented && k < 3; ++k)
+    for (std::int8_t k = 0; k < 3; ++k)
     {
       const Index a = sides[s].nodes[k], b = sides[s].nodes[(k + 1) % 3];
       rims.push_back(
@@ -58,7 +58,7 @@ std::vector<Rim> collectRims(const std::vector<KeptSide<2>>& sides)
   rims.reserve(2 * sides.size());
   for (std::size_t s = 0; s < sides.size(); ++s)
   {
-    for (std::int8_t k = 0; sides[s].oriented && k < 2; ++k)
+    for (std::int8_t k = 0; k < 2; ++k)
     {
       const Index a = sides[s].nodes[k];
       rims.push_back({ a, a, sides[s].region, static_cast<Index>(s), k, k == 0 });
@@ -68,12 +68,29 @@ std::vector<Rim> collectRims(const std::vector<KeptSide<2>>& sides)
   return rims;
 }
 
-/// An angle in ]0, 2 pi]: a facet and its own back side, or one folded onto it, leave all of it.
-double positiveAngle(double y, double x)
+/// An angle in ]0, 2 pi[, and how far the true one may be from it, also round 0.
+struct Angle
 {
-  const double angle = std::atan2(y, x);
-  return angle > 0.0 ? angle : angle + 2.0 * pi;
-}
+  double value = 0.0, error = 0.0;
+
+  Angle() = default;
+  /// `blur`: relative errors of y and x, in units of the rounding error.
+  Angle(double y, double x, double blur)
+    : value(std::atan2(y, x))
+    , error(16.0 * std::numeric_limits<double>::epsilon() * blur)
+  {
+    this->value += this->value > 0.0 ? 0.0 : 2.0 * pi;
+  }
+  /// False where it may as well be 0 as 2 pi, or anything.
+  bool known() const
+  {
+    return this->error < 1e-3 && this->value > this->error && this->value < 2.0 * pi - this->error;
+  }
+  bool isBelow(const Angle& other) const
+  {
+    return this->value + this->error < other.value - other.error;
+  }
+};
 
 /// What both dimensions share: facet caps, then the wedges between neighbouring sides of one
 /// region.
@@ -104,28 +121,26 @@ public:
 private:
   void capSides();
   void capWedges();
-  double angle(const Rim& from, const Rim& to) const;
-  double wedgeCap(const Rim& from, const Rim& to, double theta, double below) const;
+  void capWedge(const Rim& from, const Rim& to, const Angle& theta);
+  Angle angle(const Rim& from, const Rim& to) const;
+  double wedgeCap(const Rim& from, const Rim& to, const Angle& theta, double below) const;
   double capOfSide(std::size_t s, double enough);
 
-  /// The rim that ends the wedge which begins at `from`: the first one met when turning into it.
-  const Rim* partner(const Rim& from, const Rim* begin, const Rim* end, double& theta) const
+  /// The node of a side that is not on the rim.
+  Index tip(const Rim& rim) const
   {
-    const Rim* best = nullptr;
-    for (const Rim* rim = begin; rim != end; ++rim)
-    {
-      if (!rim->forward)
-      {
-        const double t = this->angle(from, *rim);
-        if (!best || t < theta)
-        {
-          best = rim;
-          theta = t;
-        }
-      }
-    }
-    return best;
+    return this->result_.sides[rim.side].nodes[D == 3 ? (rim.k + 2) % 3 : 1 - rim.k];
   }
+
+  /// A wedge begins at one rim, and ends at the one met first when turning into it.
+  struct Wedge
+  {
+    const Rim* from;
+    const Rim* to;
+    Angle theta;
+  };
+  bool findWedge(const Rim& from, const Rim* begin, const Rim* end, Wedge& wedge) const;
+  bool findWedges(const Rim* begin, const Rim* end, std::vector<Wedge>& wedges) const;
 
   const Vec<D>* points_;
   const SurfaceBoundOptions options_;
@@ -186,76 +201,152 @@ void BoundBuilder<D>::capSides()
 }
 
 template <int D>
+bool BoundBuilder<D>::findWedge(
+  const Rim& from, const Rim* begin, const Rim* end, Wedge& wedge) const
+{
+  wedge = { &from, nullptr, {} };
+  // A facet's own back side is behind all others, at 2 pi exactly; it is no use to compute this.
+  Angle back;
+  back.value = 2.0 * pi;
+  for (const Rim* rim = begin; rim != end; ++rim)
+  {
+    if (rim->forward)
+    {
+      continue;
+    }
+    const bool own = this->tip(*rim) == this->tip(from);
+    const Angle t = own ? back : this->angle(from, *rim);
+    if (!own && !t.known())
+    {
+      return false;
+    }
+    if (!wedge.to || t.value < wedge.theta.value)
+    {
+      wedge.to = rim;
+      wedge.theta = t;
+    }
+  }
+  // nothing may be as near as the end, but for the front of that facet
+  for (const Rim* rim = begin; wedge.to && rim != end; ++rim)
+  {
+    if (rim == &from || rim == wedge.to)
+    {
+      continue;
+    }
+    const Index tip = this->tip(*rim);
+    if (tip == this->tip(rim->forward ? from : *wedge.to))
+    {
+      return false; // one side twice
+    }
+    if (tip != this->tip(rim->forward ? *wedge.to : from))
+    {
+      const Angle t = this->angle(from, *rim);
+      if (!t.known() || !wedge.theta.isBelow(t))
+      {
+        return false;
+      }
+    }
+  }
+  return wedge.to != nullptr;
+}
+
+/// False where the sides at the edge do not bound wedges one after another, in an order that is
+/// beyond doubt: facets folded onto each other, wedges that overlap, sides missing.
+template <int D>
+bool BoundBuilder<D>::findWedges(const Rim* begin, const Rim* end, std::vector<Wedge>& wedges) const
+{
+  wedges.clear();
+  for (const Rim* rim = begin; rim != end; ++rim)
+  {
+    if (!this->result_.sides[rim->side].oriented)
+    {
+      return false;
+    }
+    if (rim->forward)
+    {
+      wedges.emplace_back();
+      if (!this->findWedge(*rim, begin, end, wedges.back()))
+      {
+        return false;
+      }
+    }
+  }
+  // as many ends as beginnings: then they alternate
+  return 2 * static_cast<std::ptrdiff_t>(wedges.size()) == end - begin;
+}
+
+template <int D>
 void BoundBuilder<D>::capWedges()
 {
   const std::vector<Rim> rims = collectRims(this->result_.sides);
-  const double list = this->options_.listEdgesBelow;
+  std::vector<Wedge> wedges;
   for (std::size_t i = 0, j = 0; i < rims.size(); i = j)
   {
     for (j = i + 1; j < rims.size() && rims[i].sameWedge(rims[j]);)
     {
       ++j;
     }
-    for (std::size_t r = i; r < j; ++r)
+    if (this->findWedges(rims.data() + i, rims.data() + j, wedges))
     {
-      if (!rims[r].forward)
+      for (const Wedge& wedge : wedges)
       {
-        continue;
-      }
-      double theta = 0.0;
-      const Rim* to = this->partner(rims[r], &rims[i], &rims[i] + (j - i), theta);
-      if (!to)
-      {
-        continue;
-      }
-      // only what the facets at the edge do not forbid by themselves
-      const double facets = std::min(
-        this->result_.sideCaps[rims[r].side], this->result_.sideCaps[to->side]);
-      const double below = std::min(facets, std::max(this->result_.bound, list));
-      const double cap = this->wedgeCap(rims[r], *to, theta, below * (1.0 - 1e-9));
-      if (cap < below * (1.0 - 1e-9))
-      {
-        if (cap < list)
-        {
-          this->result_.edges.push_back({ rims[r].low, D == 2 ? None : rims[r].high, cap });
-        }
-        this->result_.bound = std::min(this->result_.bound, cap);
+        this->capWedge(*wedge.from, *wedge.to, wedge.theta);
       }
     }
   }
 }
 
-template <>
-double BoundBuilder<2>::angle(const Rim& from, const Rim& to) const
+template <int D>
+void BoundBuilder<D>::capWedge(const Rim& from, const Rim& to, const Angle& theta)
 {
-  const Vec<2>& x = this->points_[from.low];
-  const Vec<2> u = this->points_[this->result_.sides[from.side].nodes[1]] - x;
-  const Vec<2> v = this->points_[this->result_.sides[to.side].nodes[0]] - x;
-  return positiveAngle(u[0] * v[1] - u[1] * v[0], u.dot(v));
+  // only what the facets at the edge do not forbid by themselves
+  const double list = this->options_.listEdgesBelow;
+  const double facets = std::min(
+    this->result_.sideCaps[from.side], this->result_.sideCaps[to.side]);
+  const double below = std::min(facets, std::max(this->result_.bound, list));
+  const double cap = this->wedgeCap(from, to, theta, below * (1.0 - 1e-9));
+  if (cap < below * (1.0 - 1e-9))
+  {
+    if (cap < list)
+    {
+      this->result_.edges.push_back({ from.low, D == 2 ? None : from.high, cap });
+    }
+    this->result_.bound = std::min(this->result_.bound, cap);
+  }
 }
 
 template <>
-double BoundBuilder<3>::angle(const Rim& from, const Rim& to) const
+Angle BoundBuilder<2>::angle(const Rim& from, const Rim& to) const
+{
+  const Vec<2>& x = this->points_[from.low];
+  const Vec<2> u = this->points_[this->tip(from)] - x;
+  const Vec<2> v = this->points_[this->tip(to)] - x;
+  return Angle(u[0] * v[1] - u[1] * v[0], u.dot(v), 1.0);
+}
+
+template <>
+Angle BoundBuilder<3>::angle(const Rim& from, const Rim& to) const
 {
   const Vec<3>& a = this->points_[from.low];
   const Vec<3> t = this->points_[from.high] - a;
-  const Vec<3> u = this->points_[this->result_.sides[from.side].nodes[(from.k + 2) % 3]] - a;
-  const Vec<3> v = this->points_[this->result_.sides[to.side].nodes[(to.k + 2) % 3]] - a;
+  const Vec<3> u = this->points_[this->tip(from)] - a;
+  const Vec<3> v = this->points_[this->tip(to)] - a;
   // normals of both half planes, turned the same way: (t x u) . (t x v) and t . ((t x u) x (t x v))
   const Vec<3> m = t.cross(u), n = t.cross(v);
-  return positiveAngle(t.norm() * u.dot(v.cross(t)), m.dot(n));
+  // of a needle along the edge the normal is known badly
+  const double l = t.norm();
+  const double blur = 1.0 + l * u.norm() / m.norm() + l * v.norm() / n.norm();
+  return Angle(l * u.dot(v.cross(t)), m.dot(n), blur);
 }
 
 template <>
-double BoundBuilder<2>::wedgeCap(const Rim& from, const Rim& to, double theta, double below) const
+double BoundBuilder<2>::wedgeCap(
+  const Rim& from, const Rim& to, const Angle& angle, double below) const
 {
   const Vec<2>& x = this->points_[from.low];
   const Vec<2>& b = this->points_[this->result_.sides[from.side].nodes[1]];
   const Vec<2>& c = this->points_[this->result_.sides[to.side].nodes[0]];
-  if (!std::isfinite(theta))
-  {
-    return 1.0;
-  }
+  const double theta = angle.value;
   double cap = theta < pi ? MeanEdgeShape<2>::value({ x, b, c }) : 0.0;
   const int last = 2 + static_cast<int>(theta); // angles under 60 degrees only get worse
   for (int k = 2; k <= last && cap < below; ++k)
@@ -265,29 +356,32 @@ double BoundBuilder<2>::wedgeCap(const Rim& from, const Rim& to, double theta, d
       cap = std::max(cap, angleCap2(theta / k));
     }
   }
-  return cap;
+  return cap + angle.error; // more than what the error of theta can do
 }
 
 template <>
-double BoundBuilder<3>::wedgeCap(const Rim& from, const Rim& to, double theta, double below) const
+double BoundBuilder<3>::wedgeCap(
+  const Rim& from, const Rim& to, const Angle& angle, double below) const
 {
-  const auto apexOf = [this](const Rim& rim)
-  { return this->points_[this->result_.sides[rim.side].nodes[(rim.k + 2) % 3]]; };
+  const double theta = angle.value, slack = angle.error;
   const Vec<3>&a = this->points_[from.low], &b = this->points_[from.high];
-  const Vec<3> c = apexOf(from), d = apexOf(to);
-  const double spanned = theta < pi ? MeanEdgeShape<3>::value({ a, b, c, d }) : 0.0;
+  const Vec<3>&c = this->points_[this->tip(from)], &d = this->points_[this->tip(to)];
+  // rounding: seen from other corners the volume of a flat one differs by some 1e-14
+  const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + 1e-13 : 0.0;
   const EdgeView first(a, b, c, this->apexes_[from.side]);
   const EdgeView last(a, b, d, this->apexes_[to.side]);
-  if (!edgeForbids(below, theta, first, last, spanned))
+  if (!edgeForbids(below, theta, first, last, spanned, slack))
   {
     return 1.0;
   }
   // exactly only what sets the bound
-  if (below > this->result_.bound && edgeForbids(this->result_.bound, theta, first, last, spanned))
+  if (below > this->result_.bound &&
+    edgeForbids(this->result_.bound, theta, first, last, spanned, slack))
   {
-    return edgeCap(this->result_.bound, theta, first, last, spanned);
+    return edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack);
   }
-  return edgeCap(below, theta, first, last, spanned, below > this->result_.bound ? 1e-3 : 1e-7);
+  return edgeCap(
+    below, theta, first, last, spanned, below > this->result_.bound ? 1e-3 : 1e-7, slack);
 }
 }
 
