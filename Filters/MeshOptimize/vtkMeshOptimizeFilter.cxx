@@ -50,6 +50,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Reconnect: " << this->Reconnect << "\n";
   os << indent << "InsertNodes: " << this->InsertNodes << "\n";
   os << indent << "RemoveNodes: " << this->RemoveNodes << "\n";
+  os << indent << "LookAhead: " << this->LookAhead << "\n";
   os << indent << "Effort: " << this->Effort << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "GrowthBudget: " << this->GrowthBudget << "\n";
@@ -160,6 +161,7 @@ vtkMeshOptimizeBridge::Request vtkMeshOptimizeFilter::MakeRequest()
   o.reconnect = this->Reconnect;
   o.insertNodes = this->InsertNodes;
   o.removeNodes = this->RemoveNodes;
+  o.lookAhead = this->LookAhead;
   o.neighborhoodLevel = this->NeighborhoodLevel;
   o.maximumNumberOfIterations = this->MaximumNumberOfIterations;
   o.epsilon = this->Epsilon;

@@ -235,6 +235,17 @@ public:
   vtkBooleanMacro(RemoveNodes, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether, when nothing else gains, changes are tried that pay only together or after nodes have
+   * moved. On by default. The paper has no such thing: with it off, PAPER_1996 is the algorithm as
+   * printed, which stops at a lower quality where the surface leaves little freedom.
+   */
+  vtkSetMacro(LookAhead, bool);
+  vtkGetMacro(LookAhead, bool);
+  vtkBooleanMacro(LookAhead, bool);
+  ///@}
+
   enum EffortType
   {
     Quick = 0,
@@ -382,6 +393,7 @@ private:
   bool Reconnect = true;
   bool InsertNodes = true;
   bool RemoveNodes = true;
+  bool LookAhead = true;
   int Effort = Default;
   int NumberOfThreads = 0;
   double GrowthBudget = 0.1;

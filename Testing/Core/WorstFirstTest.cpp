@@ -331,8 +331,7 @@ TYPED_TEST(WorstFirst, GrowthBudgetIsHonoured)
     options.effort = Effort::Quick;
     SimplexMesh<D> mesh = buildMesh(in);
     run<D>(mesh, options);
-    // 2-3 flips count, but are not held up: a little more is possible
-    EXPECT_LE(mesh.countCells(), (1.01 + budget) * in.cells.size()) << budget;
+    EXPECT_LE(mesh.countCells(), (1.0 + budget) * in.cells.size()) << budget;
   }
 }
 

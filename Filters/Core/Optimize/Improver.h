@@ -5,6 +5,7 @@
 #define meshopt_Optimize_Improver_h
 
 #include "Boundary/ApexBound.h"
+#include "Mesh/CavityFit.h"
 #include "Optimize/Options.h"
 #include "Optimize/QualityModel.h"
 #include "Reconnect/Cavity.h"
@@ -84,7 +85,6 @@ private:
   long badBalance() const;
   bool insertHere(Index t, Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells);
-  bool misfits(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }

@@ -88,7 +88,13 @@ template <int D, class Shape>
 bool Improver<D, Shape>::replace(
   const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells)
 {
-  if (this->tangled_ && (!fillsCavity<D>(this->editor_->mesh(), cavity, cells) || this->conflicts(cavity, cells)))
+  if (this->tangled_ &&
+    (!fillsCavity<D>(this->editor_->mesh(), cavity, cells) || this->conflicts(cavity, cells)))
+  {
+    return false;
+  }
+  const long growth = static_cast<long>(cells.size()) - static_cast<long>(cavity.size());
+  if (growth > 0 && growth > this->growth_)
   {
     return false;
   }
@@ -111,7 +117,7 @@ bool Improver<D, Shape>::replace(
     return false;
   }
   this->bad_ += bad;
-  this->growth_ -= static_cast<long>(cells.size()) - static_cast<long>(cavity.size());
+  this->growth_ -= growth;
   const std::vector<Index>& created = this->editor_->created();
   this->changed_.insert(this->changed_.end(), created.begin(), created.end());
   return true;
@@ -442,12 +448,6 @@ double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGa
 template <int D, class Shape>
 bool Improver<D, Shape>::insertHere(Index, Index p, const Vec<D>& x)
 {
-  if (static_cast<long>(this->cavity_.facets().size()) -
-      static_cast<long>(this->cavity_.cells().size()) >
-    this->growth_)
-  {
-    return false;
-  }
   this->place(p, x, this->cavity_.facets()[0][0]);
   this->cells_.clear();
   for (const Facet<D>& f : this->cavity_.facets())

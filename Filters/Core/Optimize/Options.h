@@ -40,6 +40,10 @@ struct Options
   bool insertNodes = true; ///< changes of topology that add points
   bool removeNodes = true; ///< changes of topology that take points away
 
+  /// When nothing else gains: changes that pay only together, or after nodes have moved. The paper
+  /// has no such thing; without it Algorithm::Paper1996 is what the paper says.
+  bool lookAhead = true;
+
   // --- the paper's parameters
   int neighborhoodLevel = 1;            ///< NL >= 0
   long maximumNumberOfIterations = 0;   ///< M, per repositioning; 0: no limit

@@ -114,7 +114,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   ReconnectionParameters parameters;
   parameters.target = o.targetQuality;
   parameters.naiveSearch = o.naiveSearch;
-  parameters.lookAhead = o.moveNodes ? lookAhead : 0;
+  parameters.lookAhead = o.moveNodes && o.lookAhead ? lookAhead : 0;
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
   allow(Filling::RingNode, o.reconnect);

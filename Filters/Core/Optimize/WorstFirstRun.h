@@ -413,7 +413,7 @@ template <int D, class Shape>
 void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
 {
   const SimplexMesh<D>& mesh = this->mesh();
-  for (long tries = Tries[level]; tries > 0 && !w.queue.empty();)
+  for (long tries = Tries[level]; tries > 0 && !w.queue.empty() && !this->outOfTime();)
   {
     const auto [q, c] = w.queue.top();
     w.queue.pop();

@@ -4,6 +4,7 @@
 #ifndef meshopt_Reconnect_FillingTrial_h
 #define meshopt_Reconnect_FillingTrial_h
 
+#include "Mesh/CavityFit.h"
 #include "Metric/NodalMetric.h"
 #include "Quality/ElementQuality.h"
 #include "Reconnect/Filling.h"
@@ -68,8 +69,7 @@ bool FillingTrial<D, Shape>::isBetter(const Part<D>& part, Apex<D>& apex, double
     this->oldSample_ = this->metric_.sample(apex.id);
     this->metric_.resample(apex.id, apex.x, isNew ? part.core[0] : None);
   }
-  const auto qualityOf = [&](const Simplex<D>& nodes, const Corners<D>& x)
-  {
+  const auto qualityOf = [&](const Simplex<D>& nodes, const Corners<D>& x) {
     return this->quality_.value(x, this->trivial_ ? this->common_ : this->metric_.element(nodes));
   };
   return fillFromApex<D>(part.cluster, apex, required, qualityOf, this->fan_) &&
@@ -94,6 +94,11 @@ void FillingTrial<D, Shape>::giveUp(const Part<D>& part, const Apex<D>& apex)
 template <int D, class Shape>
 bool FillingTrial<D, Shape>::keepsWhatItMust(const Part<D>& part, const Apex<D>& apex)
 {
+  const bool moves = apex.local < 0 && apex.id == part.core[0];
+  if (!moves && !fillsCavity<D>(this->mesh_, part.cluster.cells, this->fan_.cells))
+  {
+    return false;
+  }
   if (apex.local >= 0)
   {
     this->editor_.star(apex.id, this->star_);
@@ -149,8 +154,8 @@ void FillingTrial<D, Shape>::make(const Part<D>& part, const Apex<D>& apex)
   this->editor_.movePoint(apex.id, apex.x);
   for (Index c : part.cluster.cells)
   {
-    const ElementMetric<D> m =
-      this->trivial_ ? this->common_ : this->metric_.element(this->mesh_.nodes(c));
+    const ElementMetric<D> m = this->trivial_ ? this->common_
+                                              : this->metric_.element(this->mesh_.nodes(c));
     this->editor_.setQuality(c, this->quality_.value(this->mesh_.corners(c), m));
   }
   this->made_ = part.cluster.cells;
