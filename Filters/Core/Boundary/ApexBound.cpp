@@ -201,15 +201,15 @@ namespace
 /// The place between `out` (where f < c) and `in` (f >= c) at which f reaches c, from without: by
 /// false position, halving the weight of an end that stays (Illinois).
 template <class F>
-double crossing(double out, double fOut, double in, double fIn, double c, F&& f)
+double crossing(double out, double fOut, double in, double fIn, double c, double width, F&& f)
 {
   double a = fOut - c, b = fIn - c;
-  for (int i = 0; i < 100 && std::fabs(in - out) > 1e-9; ++i)
+  for (int i = 0; i < 100 && std::fabs(in - out) > width; ++i)
   {
     double x = b > a ? out + (in - out) * (-a / (b - a)) : 0.5 * (in + out);
     // keeps a little off both ends, so that the interval closes from both sides
-    const double margin = 4e-10 * (in > out ? 1.0 : -1.0);
-    x = std::fabs(x - out) < 4e-10 ? out + margin : std::fabs(x - in) < 4e-10 ? in - margin : x;
+    const double least = 0.4 * width, margin = in > out ? least : -least;
+    x = std::fabs(x - out) < least ? out + margin : std::fabs(x - in) < least ? in - margin : x;
     const double y = f(x) - c;
     if (y >= 0.0)
     {
@@ -228,11 +228,11 @@ double crossing(double out, double fOut, double in, double fIn, double c, F&& f)
 }
 }
 
-void angleCapLevel(double c, double& low, double& high)
+void angleCapLevel(double c, double& low, double& high, double width)
 {
   const double best = std::acos(1.0 / 3.0);
-  low = crossing(0.0, 0.0, best, 1.0, c, angleCap);
-  high = crossing(pi, 0.0, best, 1.0, c, angleCap);
+  low = crossing(0.0, 0.0, best, 1.0, c, width, angleCap);
+  high = crossing(pi, 0.0, best, 1.0, c, width, angleCap);
 }
 
 EdgeView::EdgeView(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& apex)
@@ -276,7 +276,7 @@ double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p) const
   return shapeOf(problem.maximize(p, target), area);
 }
 
-bool EdgeView::level(double c, double& low, double& high) const
+bool EdgeView::level(double c, double& low, double& high, double width) const
 {
   // each search starts from the best place of the one before
   const double exact = std::numeric_limits<double>::infinity();
@@ -288,9 +288,9 @@ bool EdgeView::level(double c, double& low, double& high) const
     return false;
   }
   const Eigen::Vector2d top = p;
-  low = crossing(0.0, 0.0, this->best, std::max(most, c), c, value);
+  low = crossing(0.0, 0.0, this->best, std::max(most, c), c, width, value);
   p = top;
-  high = crossing(pi, 0.0, this->best, std::max(most, c), c, value);
+  high = crossing(pi, 0.0, this->best, std::max(most, c), c, width, value);
   return true;
 }
 
@@ -328,8 +328,8 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
 }
 }
 
-bool edgeForbids(
-  double c, double theta, const EdgeView& first, const EdgeView& last, double spanned, double slack)
+bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
+  double spanned, double slack, double width)
 {
   if (!first.usable || !last.usable || !std::isfinite(theta) || c <= 0.0 || spanned >= c)
   {
@@ -341,9 +341,9 @@ bool edgeForbids(
   }
   c *= 1.0 - 8.0 * slack;
   double low, high;
-  angleCapLevel(c, low, high);
+  angleCapLevel(c, low, high, width);
   double l1, u1, l2, u2;
-  if (!first.level(c, l1, u1) || !last.level(c, l2, u2))
+  if (!first.level(c, l1, u1, width) || !last.level(c, l2, u2, width))
   {
     return false; // the best place is not known well enough
   }
@@ -354,13 +354,13 @@ bool edgeForbids(
 }
 
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double tolerance, double slack)
+  double spanned, double tolerance, double slack, double width)
 {
   double low = std::max(0.0, spanned), high = above;
   while (high - low > tolerance * high && high > 1e-12)
   {
     const double middle = low > 0.1 * high ? 0.5 * (low + high) : 0.3 * high;
-    (edgeForbids(middle, theta, first, last, spanned, slack) ? high : low) = middle;
+    (edgeForbids(middle, theta, first, last, spanned, slack, width) ? high : low) = middle;
   }
   return high;
 }

@@ -31,8 +31,9 @@ double angleCap(double phi);
 /// Greatest S of a triangle with one angle phi, in radians, 0 < phi < pi: the isosceles one.
 double angleCap2(double phi);
 
-/// Where angleCap() is at least c, 0 < c <= 1: all phi in [low, high], rounded outwards.
-void angleCapLevel(double c, double& low, double& high);
+/// Where angleCap() is at least c, 0 < c <= 1: all phi in [low, high], rounded outwards by at
+/// most `width`.
+void angleCapLevel(double c, double& low, double& high, double width = 1e-9);
 
 /// A facet seen from one of its edges, whose length is the unit of length: the third node is at
 /// `along` on the edge's line, `off` away from it.
@@ -54,8 +55,9 @@ struct EdgeView
   /// pi; above `enough` as in facetCap().
   double cap(double phi, double enough = std::numeric_limits<double>::infinity()) const;
 
-  /// Where cap() is at least c: all phi in [low, high], rounded outwards. False if nowhere.
-  bool level(double c, double& low, double& high) const;
+  /// Where cap() is at least c: all phi in [low, high], rounded outwards by at most `width`.
+  /// False if nowhere.
+  bool level(double c, double& low, double& high, double width = 1e-9) const;
 
 private:
   double capFrom(double phi, double enough, Eigen::Vector2d& place) const;
@@ -65,14 +67,15 @@ private:
 /// The first and the last have a given facet, and k = 1 is the tetrahedron that both span, of
 /// quality `spanned` (<= 0 or so where theta >= pi). True if no way to fill it has a worst S of c
 /// or more; c must not be above what both facets allow. theta is known up to `slack`, and what is
-/// computed from the facets up to that relative error.
+/// computed from the facets up to that relative error. The greater `width` (of the levels), the
+/// quicker, and the more edges seem to forbid nothing.
 bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double slack = 0.0);
+  double spanned, double slack = 0.0, double width = 1e-9);
 
 /// Least c that edgeForbids(), for an edge that forbids c = `above`: the certified bound of the
 /// edge, rounded upwards by at most the relative tolerance.
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double tolerance = 1e-7, double slack = 0.0);
+  double spanned, double tolerance = 1e-7, double slack = 0.0, double width = 1e-9);
 }
 
 #endif

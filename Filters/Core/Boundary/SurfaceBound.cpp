@@ -370,18 +370,20 @@ double BoundBuilder<3>::wedgeCap(
   const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + 1e-13 : 0.0;
   const EdgeView first(a, b, c, this->apexes_[from.side]);
   const EdgeView last(a, b, d, this->apexes_[to.side]);
-  if (!edgeForbids(below, theta, first, last, spanned, slack))
+  // exactly only what sets the bound
+  const bool exact = below <= this->result_.bound;
+  const double width = exact ? 1e-9 : 1e-3 * std::min(1.0, theta);
+  if (!edgeForbids(below, theta, first, last, spanned, slack, width))
   {
     return 1.0;
   }
-  // exactly only what sets the bound
-  if (below > this->result_.bound &&
+  const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 1e-3, slack, width);
+  if (!exact && 0.9 * cap < this->result_.bound &&
     edgeForbids(this->result_.bound, theta, first, last, spanned, slack))
   {
     return edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack);
   }
-  return edgeCap(
-    below, theta, first, last, spanned, below > this->result_.bound ? 1e-3 : 1e-7, slack);
+  return cap;
 }
 }
 
