@@ -83,7 +83,7 @@ private:
   double tryInsertion(Index t, Index p, Vec<D>& x, bool needGain);
   void seeds(Index t, std::vector<Vec<D>>& x) const;
   long badBalance() const;
-  bool insertHere(Index t, Index p, const Vec<D>& x);
+  bool insertHere(Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells);
   bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);

@@ -446,7 +446,7 @@ double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGa
 }
 
 template <int D, class Shape>
-bool Improver<D, Shape>::insertHere(Index, Index p, const Vec<D>& x)
+bool Improver<D, Shape>::insertHere(Index p, const Vec<D>& x)
 {
   this->place(p, x, this->cavity_.facets()[0][0]);
   this->cells_.clear();
@@ -490,7 +490,7 @@ bool Improver<D, Shape>::insert(Index t)
     const double old = this->cavity_.oldWorst();
     if (q > old + gain(old) && this->badBalance() <= 0)
     {
-      done = this->insertHere(t, p, x[k]);
+      done = this->insertHere(p, x[k]);
     }
   }
   this->count(Operation::NodeInsertion, done);
@@ -516,8 +516,7 @@ bool Improver<D, Shape>::lookAhead(Index t, int operations)
     std::vector<Index> affected;
     bool done = false;
     this->changed_.clear();
-    if (p != None && this->tryInsertion(t, p, seed, false) > 0.3 * old &&
-      this->insertHere(t, p, seed))
+    if (p != None && this->tryInsertion(t, p, seed, false) > 0.3 * old && this->insertHere(p, seed))
     {
       affected = this->changed_;
       done = this->settle(affected, goal, operations) && this->bad_ <= start.bad;

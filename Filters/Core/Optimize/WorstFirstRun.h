@@ -67,8 +67,8 @@ private:
   bool stage(double target);
   bool polish(double target);
   void pass(double target, int level, const std::vector<Index>& bad);
-  void collect(double target, int level, std::vector<Index>& bad, long& capped) const;
-  void distribute(double target, int level, const std::vector<Index>& bad);
+  void collect(double target, int level, std::vector<Index>& bad) const;
+  void distribute(double target, const std::vector<Index>& bad);
   void work(Worker& worker, double target, int level);
   void gather();
   bool worthTrying(Index c, int level) const;
@@ -224,8 +224,7 @@ bool WorstFirst<D, Shape>::stage(double target)
   for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
   {
     const int level = std::min(pass, highest);
-    long capped = 0;
-    this->collect(target, level, bad, capped);
+    this->collect(target, level, bad);
     if (bad.empty() && level == highest)
     {
       break;
@@ -269,30 +268,22 @@ bool WorstFirst<D, Shape>::worthTrying(Index c, int level) const
 }
 
 template <int D, class Shape>
-void WorstFirst<D, Shape>::collect(
-  double target, int level, std::vector<Index>& bad, long& capped) const
+void WorstFirst<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
 {
   bad.clear();
-  capped = 0;
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
-    if (this->mesh().quality(c) < target && this->mesh().isAlive(c) && this->worthTrying(c, level))
+    if (this->mesh().quality(c) < target && this->mesh().isAlive(c) &&
+      this->worthTrying(c, level) && !this->caps_.isCapped(this->mesh(), c))
     {
-      if (this->caps_.isCapped(this->mesh(), c))
-      {
-        ++capped;
-      }
-      else
-      {
-        bad.push_back(c);
-      }
+      bad.push_back(c);
     }
   }
 }
 
 /// Chunks, their queues and slots: a function of the mesh and of the bad cells only.
 template <int D, class Shape>
-void WorstFirst<D, Shape>::distribute(double target, int, const std::vector<Index>& bad)
+void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& bad)
 {
   const Index cells = this->mesh().numberOfCellSlots();
   int n = static_cast<int>(
@@ -383,7 +374,7 @@ void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Inde
   this->kept_ = 0;
   this->tried_.fill(0);
   this->done_.fill(0);
-  this->distribute(target, level, bad);
+  this->distribute(target, bad);
   const auto body = [&](int k) { this->work(*this->workers_[k], target, level); };
   bool more = true;
   while (more && this->keepGoing(target))
