@@ -102,10 +102,11 @@ public:
   };
   ///@{
   /**
-   * How to optimize. Paper1996 alternates the reconnection and the node repositioning of the paper;
-   * it uses NeighborhoodLevel, MaximumNumberOfIterations, Epsilon, ArmijoFactor and
-   * MaximumNumberOfAlternations. WorstFirst is faster and reaches more; it uses Effort,
-   * NumberOfThreads, GrowthBudget. Everything else is used by both. Default: Paper1996.
+   * How to optimize. WorstFirst takes the worst cells from a queue and makes the cheapest change
+   * that helps; it uses Effort, NumberOfThreads and GrowthBudget. Paper1996 alternates the
+   * reconnection and the node repositioning of the paper; it uses NeighborhoodLevel,
+   * MaximumNumberOfIterations, Epsilon, ArmijoFactor and MaximumNumberOfAlternations. Everything
+   * else is used by both. Default: WorstFirst.
    */
   vtkSetClampMacro(Algorithm, int, Paper1996, WorstFirst);
   vtkGetMacro(Algorithm, int);
@@ -115,8 +116,9 @@ public:
 
   ///@{
   /**
-   * Stop once the worst quality is at least this. Range ]0, 1], default 0.6; 1: go on as long as
-   * something gets better. Cells under it are counted as BelowTarget in the history.
+   * Stop once the worst quality is at least this (WorstFirst with the effort Best goes on). Range
+   * ]0, 1], default 0.6; 1: go on as long as something gets better. Cells under it are counted as
+   * BelowTarget in the history.
    */
   vtkSetClampMacro(TargetQuality, double, 0.0, 1.0);
   vtkGetMacro(TargetQuality, double);
@@ -248,13 +250,17 @@ public:
 
   enum EffortType
   {
-    Quick = 0,
-    Default = 1,
-    Best = 2
+    Quick = 0,   ///< up to TargetQuality, by cheap changes only
+    Default = 1, ///< up to TargetQuality
+    Best = 2     ///< past TargetQuality, until nothing gains any more
   };
   ///@{
   /**
-   * How hard WorstFirst tries before it gives up. Default: Default.
+   * How long WorstFirst insists. Quick makes single changes (reconnecting, moving, removing and
+   * inserting nodes), tries more only for the few worst cells, and stops at TargetQuality. Default
+   * also looks ahead: it tries changes that pay only together; it, too, stops at TargetQuality.
+   * Best looks further ahead and goes on past TargetQuality, until nothing lifts the worst cell any
+   * more; this costs many times what Default does. Default: Default.
    */
   vtkSetClampMacro(Effort, int, Quick, Best);
   vtkGetMacro(Effort, int);
@@ -379,7 +385,7 @@ private:
   void StoreResults(const vtkMeshOptimizeBridge::Outcome& outcome);
   void Warn(const vtkMeshOptimizeBridge::Outcome& outcome);
 
-  int Algorithm = Paper1996;
+  int Algorithm = WorstFirst;
   double TargetQuality = 0.6;
   int QualityMeasure = Shape;
   double Beta = 0.0;

@@ -1,6 +1,6 @@
 """Before and after: optimizes a mesh, prints a table, writes the mesh and a picture.
 
-    pvpython demo.py IN.vtu FOLDER [--target Q] [--algorithm "Paper 1996"]
+    pvpython demo.py IN.vtu FOLDER [--target Q] [--algorithm "Paper 1996"] [--effort Best]
 
 Writes FOLDER/optimized.vtu and FOLDER/before_after.png. Needs a display (xvfb-run) for the picture.
 ./bootstrap.sh demo runs it on Data/crack40.vtu.
@@ -184,6 +184,7 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--target", type=float, default=0.6)
     parser.add_argument("--algorithm")
+    parser.add_argument("--effort")
     options = parser.parse_args()
     os.makedirs(options.folder, exist_ok=True)
 
@@ -191,6 +192,8 @@ def main():
     optimize = MeshOptimize(Input=reader, TargetQuality=options.target)
     if options.algorithm:
         optimize.Algorithm = options.algorithm
+    if options.effort:
+        optimize.Effort = options.effort
     optimize.UpdatePipeline()
     optimize.UpdatePropertyInformation()
 

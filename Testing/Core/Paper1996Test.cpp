@@ -21,6 +21,7 @@ Report run(SimplexMesh<D>& mesh, const Options& options = {}, const Control& con
 Options target(double quality)
 {
   Options options;
+  options.algorithm = Algorithm::Paper1996;
   options.targetQuality = quality;
   return options;
 }

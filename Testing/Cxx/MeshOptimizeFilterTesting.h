@@ -57,6 +57,36 @@ using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 using Point = std::array<double, 3>;
 
 /**
+ * What the filters of a test run.
+ */
+inline int Algorithm = vtkMeshOptimizeFilter::WorstFirst;
+
+template <class Tests>
+void ForBothAlgorithms(const Tests& tests)
+{
+  for (const int algorithm :
+    { vtkMeshOptimizeFilter::Paper1996, vtkMeshOptimizeFilter::WorstFirst })
+  {
+    Algorithm = algorithm;
+    const int before = Failures;
+    tests();
+    if (Failures > before)
+    {
+      std::cerr << Failures - before << " failures with algorithm " << algorithm << "\n";
+    }
+  }
+}
+
+/**
+ * A filter that runs it.
+ */
+class OptimizeFilter : public vtkNew<vtkMeshOptimizeFilter>
+{
+public:
+  OptimizeFilter() { this->Get()->SetAlgorithm(Algorithm); }
+};
+
+/**
  * The same numbers on every machine, in [-1, 1].
  */
 class Random

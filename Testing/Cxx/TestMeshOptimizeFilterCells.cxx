@@ -51,7 +51,7 @@ void TestPlanes()
   for (const Map& map : maps)
   {
     Grid input = MakeSquare(8, 0.35, map);
-    vtkNew<vtkMeshOptimizeFilter> filter;
+    OptimizeFilter filter;
     Messages messages(filter);
     filter->SetInputData(input);
     filter->Update();
@@ -95,7 +95,7 @@ void TestPlanes()
 void TestFlatPlaneIsExact()
 {
   Grid input = MakeSquare(6, 0.35, [](double u, double v) { return Point{ { u, 0.1, v } }; });
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   for (vtkIdType p = 0; p < filter->GetOutput()->GetNumberOfPoints(); ++p)
@@ -112,7 +112,7 @@ void TestLargeReversedTriangle()
   Grid input = MakeSquare(8, 0.2, [](double u, double v) { return Point{ { u, v, u + v } }; });
   const vtkIdType p = input->GetPoints()->InsertNextPoint(-3, 0, -3);
   AddCell(input, VTK_TRIANGLE, { 0, 9, p });
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   Messages messages(filter);
   filter->SetInputData(input);
   filter->Update();
@@ -145,7 +145,7 @@ void TestLinesInPlane()
     AddCell(input, VTK_LINE, { 10 * j, 10 * j + 10 });
     wanted.insert({ GetPoint(input, 10 * j), GetPoint(input, 10 * j + 10) });
   }
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->SetTargetQuality(1.0);
   const auto countEdges = [&]()
@@ -281,7 +281,7 @@ void TestMixedCells()
     id->InsertNextValue(static_cast<int>(c));
   }
   input->GetCellData()->AddArray(id);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   Messages messages(filter);
   filter->SetInputData(input);
   filter->SetTargetQuality(1.0);
@@ -337,7 +337,7 @@ void TestNothingToOptimize()
   AddCell(hexahedra, VTK_HEXAHEDRON, { 0, 1, 3, 2, 4, 5, 7, 6 });
   AddCell(hexahedra, VTK_TRIANGLE, { 0, 1, 3 });
   AddCell(hexahedra, VTK_TRIANGLE, { 0, 4, 5 }); // not in one plane: no matter
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   Messages messages(filter);
   filter->SetInputData(hexahedra);
   filter->Update();
@@ -370,7 +370,7 @@ void TestNothingToOptimize()
 void TestPrecision()
 {
   Grid input = MakeBox(4, 0.28, VTK_FLOAT);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   CHECK(filter->GetNumberOfOperations() > 0);
@@ -385,7 +385,7 @@ void TestPrecision()
 void CheckBlocks(
   vtkDataObject* input, const std::function<vtkDataObject*(vtkDataObject*, int)>& leaf)
 {
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   Messages messages(filter);
   filter->SetInputDataObject(input);
   filter->SetSizeArray("");
@@ -397,7 +397,7 @@ void CheckBlocks(
   vtkIdType operations = 0;
   for (const int i : { 0, 1 })
   {
-    vtkNew<vtkMeshOptimizeFilter> alone;
+    OptimizeFilter alone;
     alone->SetInputDataObject(leaf(input, i));
     alone->Update();
     auto grid = vtkUnstructuredGrid::SafeDownCast(leaf(output, i));
@@ -457,13 +457,17 @@ void TestBlocks()
 
 int main(int, char*[])
 {
-  TestPlanes();
-  TestFlatPlaneIsExact();
-  TestLargeReversedTriangle();
-  TestLinesInPlane();
-  TestMixedCells();
-  TestNothingToOptimize();
-  TestPrecision();
-  TestBlocks();
+  ForBothAlgorithms(
+    []()
+    {
+      TestPlanes();
+      TestFlatPlaneIsExact();
+      TestLargeReversedTriangle();
+      TestLinesInPlane();
+      TestMixedCells();
+      TestNothingToOptimize();
+      TestPrecision();
+      TestBlocks();
+    });
   return Testing::Failures;
 }

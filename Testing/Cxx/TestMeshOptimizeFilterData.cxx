@@ -102,7 +102,7 @@ void CheckShape(vtkDataSetAttributes* before, vtkDataSetAttributes* after)
 void TestPointData()
 {
   Grid input = BoxWithPointData();
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   vtkUnstructuredGrid* output = filter->GetOutput();
@@ -168,7 +168,7 @@ void TestLinearInFlatCells()
     linear->InsertNextValue(Linear(GetPoint(input, p)));
   }
   input->GetPointData()->AddArray(linear);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   double worst = 0.0;
@@ -193,7 +193,7 @@ void TestNaN()
   array->Fill(1.0);
   array->SetValue(0, std::numeric_limits<double>::quiet_NaN());
   input->GetPointData()->AddArray(array);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   vtkDataArray* after = filter->GetOutput()->GetPointData()->GetArray("holes");
@@ -227,7 +227,7 @@ void TestCellData()
   input->GetCellData()->AddArray(name);
   input->GetCellData()->SetTensors(stress);
   input->GetCellData()->AddArray(old);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   vtkUnstructuredGrid* output = filter->GetOutput();
@@ -270,7 +270,7 @@ void TestFieldData()
   input->GetFieldData()->AddArray(time);
   input->GetFieldData()->AddArray(title);
   input->GetFieldData()->AddArray(reason);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   vtkFieldData* after = filter->GetOutput()->GetFieldData();
@@ -303,7 +303,7 @@ void TestIds()
   input->GetPointData()->SetGlobalIds(global);
   input->GetPointData()->SetPedigreeIds(pedigree);
   input->GetCellData()->SetGlobalIds(globalCell);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   vtkUnstructuredGrid* output = filter->GetOutput();
@@ -361,7 +361,7 @@ void TestGhosts()
   }
   input->GetCellData()->AddArray(ghost);
   input->GetPointData()->AddArray(ghostPoint);
-  vtkNew<vtkMeshOptimizeFilter> filter;
+  OptimizeFilter filter;
   filter->SetInputData(input);
   filter->Update();
   vtkUnstructuredGrid* output = filter->GetOutput();
@@ -394,12 +394,16 @@ void TestGhosts()
 
 int main(int, char*[])
 {
-  TestPointData();
-  TestLinearInFlatCells();
-  TestNaN();
-  TestCellData();
-  TestFieldData();
-  TestIds();
-  TestGhosts();
+  ForBothAlgorithms(
+    []()
+    {
+      TestPointData();
+      TestLinearInFlatCells();
+      TestNaN();
+      TestCellData();
+      TestFieldData();
+      TestIds();
+      TestGhosts();
+    });
   return Testing::Failures;
 }

@@ -24,7 +24,7 @@ source = source_of(jittered_box())
 simple.SaveData(mesh, proxy=source, DataMode="Binary")
 simple.Delete(source)
 demo = os.path.join(os.environ["MESHOPTIMIZE_SOURCE"], "ParaViewPlugin", "Examples", "demo.py")
-sys.argv = [demo, mesh, folder, "--algorithm", "Paper 1996"]
+sys.argv = [demo, mesh, folder]
 runpy.run_path(demo)
 
 picture = os.path.join(folder, "before_after.png")

@@ -29,8 +29,13 @@ check(servermanager.Fetch(quality, idx=3).GetNumberOfCells() == 3, "three worst 
 optimize = simple.MeshOptimize(Input=source)
 for name in ("RegionArray", "FixedPointArray", "SizeArray", "MetricArray"):
     check(optimize.GetPropertyValue(name)[1] in ("None", ""), name, "grabbed", optimize.GetPropertyValue(name))
-optimize.Algorithm = "Paper 1996"
+check(optimize.Algorithm == "Worst First" and optimize.Effort == "Default", "defaults", optimize.Algorithm, optimize.Effort)
 optimize.TargetQuality = 0.3
+optimize.Algorithm = "Paper 1996"
+optimize.UpdatePipeline()
+optimize.UpdatePropertyInformation()
+check(optimize.WorstQualityAfter > 2 * max(low, 0), "hardly better with Paper 1996:", low, optimize.WorstQualityAfter)
+optimize.Algorithm = "Worst First"
 optimize.UpdatePipeline()
 optimize.UpdatePropertyInformation()
 check(abs(optimize.WorstQualityBefore - low) < 1e-12, "worst before", optimize.WorstQualityBefore, low)

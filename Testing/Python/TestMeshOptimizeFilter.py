@@ -100,6 +100,7 @@ def test_reproducible():
 
 def test_names():
     f = vtkMeshOptimizeFilter()
+    assert f.GetAlgorithm() == vtkMeshOptimizeFilter.WorstFirst and f.GetEffort() == vtkMeshOptimizeFilter.Default
     f.SetAlgorithmToPaper1996()
     assert f.GetAlgorithm() == vtkMeshOptimizeFilter.Paper1996 == 0
     f.SetAlgorithmToWorstFirst()

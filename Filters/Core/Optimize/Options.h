@@ -19,14 +19,14 @@ enum class Algorithm
 
 enum class Effort
 {
-  Quick = 0,
-  Default = 1,
-  Best = 2
+  Quick = 0,   ///< up to the target, by single changes; look-ahead only for the very worst cells
+  Default = 1, ///< up to the target, with look-ahead
+  Best = 2     ///< past the target, with more look-ahead, until nothing lifts the worst cell
 };
 
 struct Options
 {
-  Algorithm algorithm = Algorithm::Paper1996;
+  Algorithm algorithm = Algorithm::WorstFirst;
   Measure measure = Measure::Shape;
   /// Weight of the size factor of (2.2); 0: shape only.
   double beta = 0.0;
