@@ -10,10 +10,10 @@ endif ()
 
 # Everything that a vtk.module here names in DEPENDS, PRIVATE_DEPENDS or TEST_DEPENDS.
 set(_meshoptimize_vtk_required
-  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem ParallelCore)
+  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonSystem FiltersCore ParallelCore)
 # What the wrapping and the tests take when it is there.
 set(_meshoptimize_vtk_optional
-  Python WrappingPythonCore PythonInterpreter FiltersCore FiltersGeneral FiltersExtraction FiltersSources
+  Python WrappingPythonCore PythonInterpreter FiltersGeneral FiltersExtraction FiltersSources
   FiltersVerdict IOXML IOLegacy ParallelMPI TestingCore)
 
 if (NOT DEFINED MESHOPTIMIZE_WITH_PARAVIEW OR MESHOPTIMIZE_WITH_PARAVIEW)

@@ -1,0 +1,364 @@
+#include "vtkTetGenChild.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <mutex>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+
+namespace vtkTetGenBridge
+{
+
+namespace
+{
+
+constexpr int PollMilliseconds = 100;
+constexpr std::size_t KeptText = std::size_t(4) << 20;
+
+/**
+ * What the child sends, followed by the three arrays. The magic number tells a complete message.
+ */
+struct Header
+{
+  std::uint64_t Magic = 0;
+  std::int64_t Error = 0;
+  std::uint64_t Points = 0, Tetrahedra = 0, Regions = 0; // lengths of the arrays
+};
+constexpr std::uint64_t HeaderMagic = 0x7465747261686564ULL;
+
+class Pipe
+{
+public:
+  Pipe()
+  {
+    if (::pipe(this->Ends) != 0)
+    {
+      this->Ends[0] = this->Ends[1] = -1;
+      return;
+    }
+    for (const int end : this->Ends)
+    {
+      // Other programs that this process starts meanwhile must not hold the pipe open.
+      ::fcntl(end, F_SETFD, FD_CLOEXEC);
+    }
+  }
+  ~Pipe()
+  {
+    this->Close(0);
+    this->Close(1);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  bool IsOpen() const { return this->Ends[0] >= 0; }
+  int ReadEnd() const { return this->Ends[0]; }
+  int WriteEnd() const { return this->Ends[1]; }
+  void Close(int end)
+  {
+    if (this->Ends[end] >= 0)
+    {
+      ::close(this->Ends[end]);
+      this->Ends[end] = -1;
+    }
+  }
+
+private:
+  int Ends[2];
+};
+
+//------------------------------------------------------------------------------
+bool WriteAll(int file, const void* data, std::size_t bytes)
+{
+  auto from = static_cast<const char*>(data);
+  while (bytes > 0)
+  {
+    const ssize_t n = ::write(file, from, bytes);
+    if (n < 0 && errno == EINTR)
+    {
+      continue;
+    }
+    if (n <= 0)
+    {
+      return false;
+    }
+    from += n;
+    bytes -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+template <typename T>
+bool WriteArray(int file, const std::vector<T>& array)
+{
+  return WriteAll(file, array.data(), array.size() * sizeof(T));
+}
+
+/**
+ * The life of the child. It ends by _exit: destructors and exit handlers belong to the parent.
+ */
+[[noreturn]] void BeChild(const Job& job, int textFile, int meshFile)
+{
+#ifdef __linux__
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // not left behind when the application is killed
+#endif
+  // A crash of the child is an error message of the filter: no handler of the application, no core.
+  for (const int deadly : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT })
+  {
+    std::signal(deadly, SIG_DFL);
+  }
+  const struct rlimit none = { 0, 0 };
+  ::setrlimit(RLIMIT_CORE, &none);
+  ::dup2(textFile, STDOUT_FILENO);
+  ::dup2(textFile, STDERR_FILENO);
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ); // what was printed is out before a crash
+
+  int status = 1;
+  try
+  {
+    Mesh mesh;
+    Header header;
+    header.Magic = HeaderMagic;
+    header.Error = RunTetGen(job, mesh);
+    header.Points = mesh.Points.size();
+    header.Tetrahedra = mesh.Tetrahedra.size();
+    header.Regions = mesh.Regions.size();
+    std::fflush(stdout);
+    const bool sent = WriteAll(meshFile, &header, sizeof header) &&
+      WriteArray(meshFile, mesh.Points) && WriteArray(meshFile, mesh.Tetrahedra) &&
+      WriteArray(meshFile, mesh.Regions);
+    status = sent ? 0 : 1;
+  }
+  catch (const std::exception& e)
+  {
+    std::fprintf(stderr, "%s\n", e.what());
+  }
+  ::_exit(status);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * How far along TetGen is when it begins to print about a phase. The shares are rough: refinement
+ * takes most of the time where there is any.
+ */
+struct Phase
+{
+  const char* Begins; ///< how TetGen's line begins
+  double Fraction;
+  const char* Text;
+};
+constexpr std::array<Phase, 10> Phases = { {
+  { "Delaunizing vertices", 0.02, "Delaunay tetrahedra of the surface points" },
+  { "Creating surface mesh", 0.10, "Reading the surface" },
+  { "Detecting self-inters", 0.10, "Looking for facets that intersect" },
+  { "Recovering boundaries", 0.12, "Recovering the surface" },
+  { "Constrained Delaunay", 0.12, "Recovering the surface" },
+  { "Removing exterior", 0.25, "Removing the exterior" },
+  { "Inserting constrained", 0.28, "Inserting interior points" },
+  { "Refining mesh", 0.30, "Refining" },
+  { "Optimizing mesh", 0.85, "Optimizing" },
+  { "Writing nodes", 0.97, "Reading the mesh" },
+} };
+
+/**
+ * Takes what TetGen prints and knows the phase it is in.
+ */
+class TextReader
+{
+public:
+  void Add(const char* data, std::size_t bytes)
+  {
+    const std::size_t begin = this->Text.rfind('\n') + 1; // npos + 1 is 0
+    this->Text.append(data, std::min(bytes, KeptText - std::min(KeptText, this->Text.size())));
+    for (const Phase& phase : Phases)
+    {
+      if (phase.Fraction >= this->Current.Fraction &&
+        this->Text.find(phase.Begins, begin) != std::string::npos)
+      {
+        this->Current = phase;
+      }
+    }
+  }
+  std::string Text;
+  Phase Current = { "", 0.0, "Starting TetGen" };
+};
+
+/**
+ * Reads what is there and appends it. False at the end of the file.
+ */
+template <typename Append>
+bool ReadSome(int file, const Append& append)
+{
+  char buffer[1 << 16];
+  const ssize_t n = ::read(file, buffer, sizeof buffer);
+  if (n > 0)
+  {
+    append(buffer, static_cast<std::size_t>(n));
+  }
+  return n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
+}
+
+/**
+ * Reads both pipes until the child has closed them. Returns false when progress said to stop.
+ */
+bool Listen(int textFile, int meshFile, const ChildProgress& progress, TextReader& text,
+  std::vector<char>& message)
+{
+  struct pollfd files[2] = { { textFile, POLLIN, 0 }, { meshFile, POLLIN, 0 } };
+  while (files[0].fd >= 0 || files[1].fd >= 0)
+  {
+    const int ready = ::poll(files, 2, PollMilliseconds);
+    if (ready > 0 && files[0].fd >= 0 && files[0].revents != 0 &&
+      !ReadSome(textFile, [&](const char* data, std::size_t n) { text.Add(data, n); }))
+    {
+      files[0].fd = -1;
+    }
+    if (ready > 0 && files[1].fd >= 0 && files[1].revents != 0 &&
+      !ReadSome(meshFile,
+        [&](const char* data, std::size_t n) { message.insert(message.end(), data, data + n); }))
+    {
+      files[1].fd = -1;
+    }
+    if (!progress(text.Current.Fraction, text.Current.Text))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+template <typename T>
+const char* Unpack(const char* from, std::uint64_t length, std::vector<T>& array)
+{
+  array.resize(length);
+  std::memcpy(array.data(), from, length * sizeof(T));
+  return from + length * sizeof(T);
+}
+
+/**
+ * The mesh out of what the child has sent, if that is complete. `error` is TetGen's own number.
+ */
+bool Unpack(const std::vector<char>& message, std::int64_t& error, Mesh& mesh)
+{
+  Header header;
+  if (message.size() < sizeof header)
+  {
+    return false;
+  }
+  std::memcpy(&header, message.data(), sizeof header);
+  const std::size_t expected = sizeof header + header.Points * sizeof(double) +
+    (header.Tetrahedra + header.Regions) * sizeof(int);
+  if (header.Magic != HeaderMagic || message.size() != expected)
+  {
+    return false;
+  }
+  error = header.Error;
+  const char* from = Unpack(message.data() + sizeof header, header.Points, mesh.Points);
+  from = Unpack(from, header.Tetrahedra, mesh.Tetrahedra);
+  Unpack(from, header.Regions, mesh.Regions);
+  return true;
+}
+
+/**
+ * Waits for the end of the child and says how it ended.
+ */
+std::string Bury(pid_t child)
+{
+  int status = 0;
+  pid_t ended;
+  do
+  {
+    ended = ::waitpid(child, &status, 0);
+  } while (ended < 0 && errno == EINTR);
+  if (ended != child) // an application that ignores SIGCHLD gets no status
+  {
+    return "it ended before it was done";
+  }
+  if (WIFSIGNALED(status))
+  {
+    return std::string("it was ended by signal ") + std::to_string(WTERMSIG(status)) + ", " +
+      ::strsignal(WTERMSIG(status));
+  }
+  return "it ended with status " + std::to_string(WEXITSTATUS(status));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mesh)
+{
+  // A child of another thread must not inherit the writing ends: this one would never see the end of the file.
+  static std::mutex oneFork;
+  std::unique_lock<std::mutex> lock(oneFork);
+  ChildOutcome outcome;
+  Pipe textPipe, meshPipe;
+  if (!textPipe.IsOpen() || !meshPipe.IsOpen())
+  {
+    outcome.Reason = std::strerror(errno);
+    return outcome;
+  }
+  std::fflush(stdout); // else the child would print again what waits there
+  const pid_t child = ::fork();
+  if (child < 0)
+  {
+    outcome.Reason = std::strerror(errno);
+    return outcome;
+  }
+  if (child == 0)
+  {
+    BeChild(job, textPipe.WriteEnd(), meshPipe.WriteEnd());
+  }
+  textPipe.Close(1);
+  meshPipe.Close(1);
+  lock.unlock();
+
+  TextReader text;
+  std::vector<char> message;
+  bool goesOn = false;
+  try
+  {
+    goesOn = Listen(textPipe.ReadEnd(), meshPipe.ReadEnd(), progress, text, message);
+  }
+  catch (...)
+  {
+    ::kill(child, SIGKILL);
+    Bury(child);
+    throw;
+  }
+  if (!goesOn)
+  {
+    ::kill(child, SIGKILL);
+  }
+  const std::string end = Bury(child);
+  std::int64_t error = 0;
+  outcome.Text = std::move(text.Text);
+  if (!goesOn)
+  {
+    outcome.State = ChildOutcome::Aborted;
+  }
+  else if (!Unpack(message, error, mesh))
+  {
+    outcome.State = ChildOutcome::Failed;
+    outcome.Reason = end;
+  }
+  else
+  {
+    outcome.State = error == 0 ? ChildOutcome::Done : ChildOutcome::Failed;
+    outcome.Reason = error == 0 ? "" : "error " + std::to_string(error);
+  }
+  return outcome;
+}
+
+} // namespace vtkTetGenBridge

@@ -1,0 +1,45 @@
+/**
+ * TetGen in a process of its own.
+ *
+ * TetGen 1.5 as a library prints to stdout, keeps its state in statics, frees its memory twice after
+ * most errors, and ends the process by assertions. In a forked child all this does no harm, the user
+ * can abort at any time, and what it prints becomes progress and error messages.
+ */
+#ifndef vtkTetGenChild_h
+#define vtkTetGenChild_h
+
+#include "vtkTetGenJob.h"
+
+#include <functional>
+#include <string>
+
+namespace vtkTetGenBridge
+{
+
+struct ChildOutcome
+{
+  enum StateType
+  {
+    Done,      ///< the mesh is there
+    Failed,    ///< TetGen said no, or the child came to grief
+    Aborted,   ///< the progress callback said so
+    NotStarted ///< no pipe or no process to be had
+  };
+  StateType State = NotStarted;
+  std::string Text;   ///< all that TetGen has printed (the first megabytes)
+  std::string Reason; ///< how a child that Failed has ended, or why it did NotStart; else empty
+};
+
+/**
+ * Gets a fraction in [0, 1] and the name of a phase, some ten times a second. False: stop.
+ */
+using ChildProgress = std::function<bool(double fraction, const std::string& phase)>;
+
+/**
+ * Runs TetGen in a child process and waits for it. May throw std::bad_alloc.
+ */
+ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mesh);
+
+} // namespace vtkTetGenBridge
+
+#endif

@@ -1,0 +1,186 @@
+#include "vtkTetGenJob.h"
+
+#include <tetgen.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+namespace vtkTetGenBridge
+{
+
+namespace
+{
+
+double* NewArray(const std::vector<double>& values)
+{
+  double* array = new double[values.size()];
+  std::copy(values.begin(), values.end(), array);
+  return array;
+}
+
+/**
+ * Fills TetGen's own structure, which deletes its arrays itself. Facet markers are the indices of
+ * triangles, counted from 1: 0 would mean "no marker".
+ */
+void FillSurface(const Job& job, tetgenio& in)
+{
+  in.numberofpoints = static_cast<int>(job.Points.size() / 3);
+  in.pointlist = NewArray(job.Points);
+  in.numberoffacets = static_cast<int>(job.Triangles.size() / 3);
+  in.facetlist = new tetgenio::facet[in.numberoffacets];
+  in.facetmarkerlist = new int[in.numberoffacets];
+  for (int f = 0; f < in.numberoffacets; ++f)
+  {
+    tetgenio::facet& facet = in.facetlist[f];
+    tetgenio::init(&facet);
+    facet.numberofpolygons = 1;
+    facet.polygonlist = new tetgenio::polygon[1];
+    facet.polygonlist[0].numberofvertices = 3;
+    facet.polygonlist[0].vertexlist = new int[3];
+    std::copy_n(job.Triangles.begin() + 3 * f, 3, facet.polygonlist[0].vertexlist);
+    in.facetmarkerlist[f] = f + 1;
+  }
+}
+
+void FillSeeds(const Job& job, tetgenio& in)
+{
+  if (!job.Holes.empty())
+  {
+    in.numberofholes = static_cast<int>(job.Holes.size() / 3);
+    in.holelist = NewArray(job.Holes);
+  }
+  if (!job.Regions.empty())
+  {
+    in.numberofregions = static_cast<int>(job.Regions.size() / 5);
+    in.regionlist = NewArray(job.Regions);
+    for (int r = 0; r < in.numberofregions; ++r)
+    {
+      double& volume = in.regionlist[5 * r + 4];
+      volume = volume > 0.0 ? volume : -1.0; // TetGen's "no limit"
+    }
+  }
+}
+
+bool HasRegionVolumes(const Job& job)
+{
+  for (std::size_t i = 4; i < job.Regions.size(); i += 5)
+  {
+    if (job.Regions[i] > 0.0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/**
+ * Switches go through TetGen's parser, since it derives further values from them; numbers are set
+ * afterwards, since it would cut them off.
+ */
+void FillBehavior(const Job& job, tetgenbehavior& behavior)
+{
+  std::string switches = "pzJA"; // a surface; count from 0; keep all points; regions as attribute
+  const bool byVolume = job.MaximumVolume > 0.0;
+  const bool byRegion = HasRegionVolumes(job);
+  const bool byShape = job.MaximumRadiusEdgeRatio > 0.0 || job.MinimumDihedralAngle > 0.0;
+  switches += job.OnlyFindIntersections ? "d" : "";
+  switches += job.KeepSurface ? "Y" : "";
+  switches += byShape || byVolume || byRegion ? "q" : "";
+  switches += byVolume ? "a1" : "";
+  switches += byRegion ? "a" : "";
+  switches += job.InteriorPoints.empty() ? "" : "i";
+  switches += "O" + std::to_string(job.OptimizationLevel);
+  behavior.parse_commandline(&switches[0]);
+
+  behavior.maxvolume = byVolume ? job.MaximumVolume : -1.0;
+  // Without a limit on shapes (0) TetGen would still use its own.
+  behavior.minratio = job.MaximumRadiusEdgeRatio > 0.0 ? job.MaximumRadiusEdgeRatio : 1e30;
+  behavior.mindihedral = job.MinimumDihedralAngle;
+  // Level 0 leaves out flips, smoothing and splitting altogether; the parser raises it for points.
+  behavior.optlevel = job.OptimizationLevel;
+}
+
+double SixVolumes(const double* a, const double* b, const double* c, const double* d)
+{
+  double e[3][3];
+  for (int i = 0; i < 3; ++i)
+  {
+    e[0][i] = b[i] - a[i];
+    e[1][i] = c[i] - a[i];
+    e[2][i] = d[i] - a[i];
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+    e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+    e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+/**
+ * Points of the surface stay first, also unused ones, so that they keep their numbers. Of the
+ * others those go that no tetrahedron uses (interior points that lie on the surface).
+ */
+void Collect(const Job& job, const tetgenio& out, Mesh& mesh)
+{
+  const int kept = static_cast<int>(job.Points.size() / 3);
+  std::vector<int> number(out.numberofpoints, -1);
+  const int corners = 4 * out.numberoftetrahedra;
+  for (int i = 0; i < corners; ++i)
+  {
+    number[out.tetrahedronlist[i]] = 0;
+  }
+  int next = 0;
+  for (int p = 0; p < out.numberofpoints; ++p)
+  {
+    if (p < kept || number[p] == 0)
+    {
+      number[p] = next++;
+      mesh.Points.insert(mesh.Points.end(), out.pointlist + 3 * p, out.pointlist + 3 * p + 3);
+    }
+  }
+  for (int t = 0; t < out.numberoftetrahedra; ++t)
+  {
+    int c[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      c[i] = number[out.tetrahedronlist[4 * t + i]];
+    }
+    const double* x = mesh.Points.data();
+    if (SixVolumes(x + 3 * c[0], x + 3 * c[1], x + 3 * c[2], x + 3 * c[3]) < 0.0)
+    {
+      std::swap(c[0], c[1]);
+    }
+    mesh.Tetrahedra.insert(mesh.Tetrahedra.end(), c, c + 4);
+    const double* attributes = out.tetrahedronattributelist;
+    mesh.Regions.push_back(
+      attributes ? static_cast<int>(attributes[t * out.numberoftetrahedronattributes]) : 1);
+  }
+}
+
+} // namespace
+
+int RunTetGen(const Job& job, Mesh& mesh)
+{
+  std::srand(1); // TetGen draws from rand(): the same mesh every time
+  tetgenio in, out, interior;
+  FillSurface(job, in);
+  FillSeeds(job, in);
+  if (!job.InteriorPoints.empty())
+  {
+    interior.numberofpoints = static_cast<int>(job.InteriorPoints.size() / 3);
+    interior.pointlist = NewArray(job.InteriorPoints);
+  }
+  tetgenbehavior behavior;
+  FillBehavior(job, behavior);
+  try
+  {
+    tetrahedralize(&behavior, &in, &out, job.InteriorPoints.empty() ? nullptr : &interior);
+  }
+  catch (int error)
+  {
+    return error;
+  }
+  Collect(job, out, mesh);
+  return 0;
+}
+
+} // namespace vtkTetGenBridge

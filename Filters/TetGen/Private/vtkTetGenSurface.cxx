@@ -1,0 +1,446 @@
+#include "vtkTetGenSurface.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkTriangleFilter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace vtkTetGenBridge
+{
+
+namespace
+{
+
+using Triangle = std::array<int, 3>;
+using Edge = std::array<int, 2>;
+
+const char* const CellIdName = "vtkTetGenCellId";
+/// A triangle whose height is less than this part of its longest edge has no area.
+constexpr double Flat = 1e-14;
+
+const double* At(const Surface& surface, int point)
+{
+  return surface.Points.data() + 3 * static_cast<std::size_t>(point);
+}
+
+std::string Coordinates(const double* x)
+{
+  std::ostringstream text;
+  text.precision(8);
+  text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+  return text.str();
+}
+
+std::string DescribePoint(const Surface& surface, int point)
+{
+  return "point " + std::to_string(surface.PointIds[point]) + " " + Coordinates(At(surface, point));
+}
+
+Triangle TriangleAt(const Surface& surface, int triangle)
+{
+  Triangle t;
+  std::copy_n(surface.Triangles.begin() + 3 * static_cast<std::ptrdiff_t>(triangle), 3, t.begin());
+  return t;
+}
+
+int NumberOfTriangles(const Surface& surface)
+{
+  return static_cast<int>(surface.Triangles.size() / 3);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Ids in range, polygons of three points and more, no point twice in a cell. Returns an error, or "".
+ */
+std::string CheckCells(vtkPolyData* input)
+{
+  vtkIdType cell = input->GetNumberOfVerts() + input->GetNumberOfLines();
+  for (vtkCellArray* cells : { input->GetPolys(), input->GetStrips() })
+  {
+    const bool isStrip = cells == input->GetStrips();
+    for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i, ++cell)
+    {
+      vtkIdType size;
+      const vtkIdType* ids;
+      cells->GetCellAtId(i, size, ids);
+      const std::string name = "Cell " + std::to_string(cell);
+      if (size < 3)
+      {
+        return name + " of the surface has " + std::to_string(size) + " points only.";
+      }
+      std::vector<vtkIdType> sorted(ids, ids + size);
+      std::sort(sorted.begin(), sorted.end());
+      if (sorted.front() < 0 || sorted.back() >= input->GetNumberOfPoints())
+      {
+        const vtkIdType wrong = sorted.front() < 0 ? sorted.front() : sorted.back();
+        return name + " of the surface uses point " + std::to_string(wrong) + ", but there are " +
+          std::to_string(input->GetNumberOfPoints()) + " points.";
+      }
+      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+      if (!isStrip && twice != sorted.end()) // a strip may come back to a point
+      {
+        return name + " of the surface has point " + std::to_string(*twice) + " twice.";
+      }
+    }
+  }
+  return {};
+}
+
+/**
+ * A polygon of n points is n - 2 triangles, but vtkTriangleFilter gives fewer where it finds no way.
+ */
+std::string CheckTriangulation(vtkPolyData* input, const std::vector<vtkIdType>& cellIds)
+{
+  const vtkIdType first = input->GetNumberOfVerts() + input->GetNumberOfLines();
+  std::vector<vtkIdType> found(input->GetNumberOfPolys(), 0);
+  for (const vtkIdType cell : cellIds)
+  {
+    if (cell - first < input->GetNumberOfPolys())
+    {
+      ++found[cell - first];
+    }
+  }
+  for (vtkIdType i = 0; i < input->GetNumberOfPolys(); ++i)
+  {
+    const vtkIdType size = input->GetPolys()->GetCellSize(i);
+    if (found[i] != size - 2)
+    {
+      return "Cell " + std::to_string(first + i) + " of the surface, a polygon of " +
+        std::to_string(size) + " points, cannot be cut into triangles.";
+    }
+  }
+  return {};
+}
+
+/**
+ * `input` with its ids as cell data, cut into triangles.
+ */
+vtkSmartPointer<vtkPolyData> CutIntoTriangles(vtkPolyData* input)
+{
+  vtkNew<vtkPolyData> numbered;
+  numbered->CopyStructure(input);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName(CellIdName);
+  ids->SetNumberOfTuples(input->GetNumberOfCells());
+  std::iota(ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfTuples(), vtkIdType(0));
+  numbered->GetCellData()->AddArray(ids);
+  vtkNew<vtkTriangleFilter> cut;
+  cut->PassVertsOff();
+  cut->PassLinesOff();
+  cut->SetInputData(numbered);
+  cut->Update();
+  return cut->GetOutput();
+}
+
+//------------------------------------------------------------------------------
+std::string CheckCoordinates(const Surface& surface)
+{
+  double lower[3], upper[3];
+  std::fill_n(lower, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(upper, 3, -std::numeric_limits<double>::infinity());
+  for (std::size_t p = 0; p < surface.PointIds.size(); ++p)
+  {
+    const double* x = At(surface, static_cast<int>(p));
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+    {
+      return "Coordinates that are not finite: " + DescribePoint(surface, static_cast<int>(p)) +
+        ".";
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      lower[i] = std::min(lower[i], x[i]);
+      upper[i] = std::max(upper[i], x[i]);
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    if (lower[i] == upper[i])
+    {
+      return std::string("The surface is flat: ") + "xyz"[i] + " is " + std::to_string(lower[i]) +
+        " everywhere. It must enclose a volume.";
+    }
+  }
+  return {};
+}
+
+std::string CheckDuplicatePoints(const Surface& surface)
+{
+  std::vector<int> order(surface.PointIds.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto compare = [&](int a, int b)
+  {
+    return std::lexicographical_compare(
+      At(surface, a), At(surface, a) + 3, At(surface, b), At(surface, b) + 3);
+  };
+  std::sort(order.begin(), order.end(),
+    [&](int a, int b) { return compare(a, b) || (!compare(b, a) && a < b); });
+  int pairs = 0;
+  std::array<int, 2> first{ { -1, -1 } };
+  for (std::size_t i = 1; i < order.size(); ++i)
+  {
+    if (!compare(order[i - 1], order[i]))
+    {
+      first = pairs++ == 0 || order[i - 1] < first[0]
+        ? std::array<int, 2>{ { order[i - 1], order[i] } }
+        : first;
+    }
+  }
+  return pairs == 0 ? ""
+                    : "Points of the surface lie on each other (" + std::to_string(pairs) +
+      " times), the first: " + DescribePoint(surface, first[0]) + " and point " +
+      std::to_string(surface.PointIds[first[1]]) + ". Merge them first (Clean, vtkCleanPolyData).";
+}
+
+double Distance2(const double* a, const double* b)
+{
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+    (a[2] - b[2]) * (a[2] - b[2]);
+}
+
+bool HasArea(const Surface& surface, const Triangle& t)
+{
+  const double *a = At(surface, t[0]), *b = At(surface, t[1]), *c = At(surface, t[2]);
+  const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+  const double v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
+  const double n[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+    u[0] * v[1] - u[1] * v[0] };
+  const double longest2 = std::max({ Distance2(a, b), Distance2(b, c), Distance2(c, a) });
+  return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > Flat * longest2;
+}
+
+std::string CheckTriangles(const Surface& surface)
+{
+  std::vector<std::pair<Triangle, int>> sorted;
+  for (int i = 0; i < NumberOfTriangles(surface); ++i)
+  {
+    Triangle t = TriangleAt(surface, i);
+    if (!HasArea(surface, t))
+    {
+      return "A facet of the surface has no area: " + DescribeTriangle(surface, i) + ".";
+    }
+    std::sort(t.begin(), t.end());
+    sorted.emplace_back(t, i);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+  {
+    if (sorted[i].first == sorted[i - 1].first)
+    {
+      return "A facet of the surface is there twice: " +
+        DescribeTriangle(surface, sorted[i - 1].second) + " and cell " +
+        std::to_string(surface.CellIds[sorted[i].second]) + ".";
+    }
+  }
+  return {};
+}
+
+std::string CheckClosed(const Surface& surface)
+{
+  std::vector<std::pair<Edge, int>> edges;
+  edges.reserve(surface.Triangles.size());
+  for (int i = 0; i < NumberOfTriangles(surface); ++i)
+  {
+    const Triangle t = TriangleAt(surface, i);
+    for (int k = 0; k < 3; ++k)
+    {
+      const int a = t[k], b = t[(k + 1) % 3];
+      edges.emplace_back(Edge{ { std::min(a, b), std::max(a, b) } }, i);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  int open = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0, next; i < edges.size(); i = next)
+  {
+    for (next = i + 1; next < edges.size() && edges[next].first == edges[i].first; ++next)
+    {
+    }
+    if (next - i == 1)
+    {
+      first = open++ == 0 ? i : first;
+    }
+  }
+  if (open == 0)
+  {
+    return {};
+  }
+  const Edge e = edges[first].first;
+  return "The surface is not closed: " + std::to_string(open) +
+    " edges have a facet on one side only, the first from " + DescribePoint(surface, e[0]) +
+    " to " + DescribePoint(surface, e[1]) + ", of cell " +
+    std::to_string(surface.CellIds[edges[first].second]) + ".";
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string ReadSurface(vtkPolyData* input, Surface& surface)
+{
+  if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
+  {
+    return "The input has no facets: no triangle, polygon or strip among its " +
+      std::to_string(input->GetNumberOfCells()) + " cells.";
+  }
+  const std::string error = CheckCells(input);
+  if (!error.empty())
+  {
+    return error;
+  }
+  const vtkSmartPointer<vtkPolyData> cut = CutIntoTriangles(input);
+  vtkCellArray* triangles = cut->GetPolys();
+  auto cellIds = vtkIdTypeArray::SafeDownCast(cut->GetCellData()->GetArray(CellIdName));
+  constexpr vtkIdType most = std::numeric_limits<int>::max() / 4;
+  if (triangles->GetNumberOfCells() > most || input->GetNumberOfPoints() > most)
+  {
+    return "The surface is too large for TetGen, which counts in 32 bits.";
+  }
+
+  // Used points, in the order of the input.
+  std::vector<int> number(input->GetNumberOfPoints(), -1);
+  for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    triangles->GetCellAtId(i, size, ids);
+    for (int k = 0; k < 3; ++k)
+    {
+      number[ids[k]] = 0;
+    }
+    surface.CellIds.push_back(cellIds->GetValue(i));
+  }
+  for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)
+  {
+    if (number[p] == 0)
+    {
+      number[p] = static_cast<int>(surface.PointIds.size());
+      surface.PointIds.push_back(p);
+      double x[3];
+      input->GetPoint(p, x);
+      surface.Points.insert(surface.Points.end(), x, x + 3);
+    }
+  }
+  for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    triangles->GetCellAtId(i, size, ids);
+    for (int k = 0; k < 3; ++k)
+    {
+      surface.Triangles.push_back(number[ids[k]]);
+    }
+  }
+  return CheckTriangulation(input, surface.CellIds);
+}
+
+std::string CheckSurface(const Surface& surface)
+{
+  for (const auto check : { CheckCoordinates, CheckDuplicatePoints, CheckTriangles, CheckClosed })
+  {
+    const std::string error = check(surface);
+    if (!error.empty())
+    {
+      return error;
+    }
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeTriangle(const Surface& surface, int triangle)
+{
+  const Triangle t = TriangleAt(surface, triangle);
+  double centre[3] = { 0.0, 0.0, 0.0 };
+  std::string ids;
+  for (const int p : t)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      centre[i] += At(surface, p)[i] / 3.0;
+    }
+    ids += (ids.empty() ? "" : ", ") + std::to_string(surface.PointIds[p]);
+  }
+  return "cell " + std::to_string(surface.CellIds[triangle]) + " (points " + ids + " around " +
+    Coordinates(centre) + ")";
+}
+
+std::vector<std::pair<int, int>> ParseIntersections(const std::string& text)
+{
+  // Lines of TetGen: "  Facet #41 intersects facet #50 at triangles:", "  Facet #1 duplicates facet #49 ..."
+  std::vector<std::pair<int, int>> pairs;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+  {
+    int a = 0, b = 0;
+    char verb[16];
+    if (std::sscanf(line.c_str(), " Facet #%d %15s facet #%d", &a, verb, &b) == 3)
+    {
+      pairs.emplace_back(std::min(a, b) - 1, std::max(a, b) - 1); // markers count from 1
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+std::string DescribeIntersections(
+  const Surface& surface, const std::vector<std::pair<int, int>>& pairs)
+{
+  constexpr std::size_t shown = 3;
+  std::string text = "The surface intersects itself: " + std::to_string(pairs.size()) +
+    " pairs of facets meet elsewhere than in common edges and points";
+  for (std::size_t i = 0; i < std::min(shown, pairs.size()); ++i)
+  {
+    text += (i == 0 ? ": " : "; ") + DescribeTriangle(surface, pairs[i].first) + " and " +
+      DescribeTriangle(surface, pairs[i].second);
+  }
+  return text + (pairs.size() > shown ? "; ..." : ".");
+}
+
+int FindLostTriangle(const Surface& surface, const std::vector<int>& tetrahedra)
+{
+  std::vector<Triangle> faces;
+  faces.reserve(tetrahedra.size());
+  const int corners = static_cast<int>(surface.PointIds.size());
+  for (std::size_t t = 0; t < tetrahedra.size(); t += 4)
+  {
+    for (std::size_t leftOut = 0; leftOut < 4; ++leftOut)
+    {
+      Triangle face;
+      int n = 0;
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        if (i != leftOut)
+        {
+          face[n++] = tetrahedra[t + i];
+        }
+      }
+      std::sort(face.begin(), face.end());
+      if (face[2] < corners) // else not of the surface
+      {
+        faces.push_back(face);
+      }
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  for (int i = 0; i < NumberOfTriangles(surface); ++i)
+  {
+    Triangle t = TriangleAt(surface, i);
+    std::sort(t.begin(), t.end());
+    if (!std::binary_search(faces.begin(), faces.end(), t))
+    {
+      return i;
+    }
+  }
+  return -1;
+}
+
+} // namespace vtkTetGenBridge
