@@ -153,6 +153,10 @@ std::string vtkTetGenFilter::MakeJob(
     }
     job.InteriorPoints.insert(job.InteriorPoints.end(), x, x + 3);
   }
+  if (wanted > 0)
+  {
+    job.InteriorPoints = bridge::PointsOffSurface(surface, job.InteriorPoints);
+  }
   return {};
 }
 

@@ -14,7 +14,7 @@
  * a cavity, unless AddHole() says otherwise. Orientation does not matter.
  *
  * <b>Input port 1: interior points</b>, any vtkPointSet, optional. Those strictly inside become
- * nodes; those outside or on the surface are left out. TetGen may add more nodes, and at an
+ * nodes; those outside or on the surface (within 1e-8 of its size) are left out. TetGen may add more nodes, and at an
  * OptimizationLevel above 0 may move them.
  *
  * <b>Output: the mesh</b>, a vtkUnstructuredGrid of tetrahedra with points of type double. The points
@@ -85,8 +85,9 @@ public:
   ///@{
   /**
    * Nodes are added until no tetrahedron has a larger ratio of its circumradius to its shortest edge
-   * (TetGen's -q); slivers have a small one and stay. 0.612 is the regular tetrahedron. Range 0 or
-   * >= 1, default 2; 0: no limit. Below about 1.2 TetGen may take very long.
+   * (TetGen's -q), except where the surface stands in the way: where it is kept, or has small angles.
+   * Slivers have a small ratio and stay. 0.612 is the regular tetrahedron. Range 0 or >= 1, default 2;
+   * 0: no limit. Below about 1.2 TetGen may take very long.
    */
   vtkSetClampMacro(MaximumRadiusEdgeRatio, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumRadiusEdgeRatio, double);
@@ -115,7 +116,8 @@ public:
   ///@{
   /**
    * How much TetGen improves the mesh in the end by flips, smoothing and splitting (TetGen's -O).
-   * Range 0 to 10, default 2. 0: not at all, the mesh as generated.
+   * Range 0 to 10, default 2. 0: not at all, the mesh as generated; where triangles of the surface are
+   * nearly coplanar it has tetrahedra that are flat to rounding.
    */
   vtkSetClampMacro(OptimizationLevel, int, 0, 10);
   vtkGetMacro(OptimizationLevel, int);

@@ -101,20 +101,6 @@ void FillBehavior(const Job& job, tetgenbehavior& behavior)
   behavior.optlevel = job.OptimizationLevel;
 }
 
-double SixVolumes(const double* a, const double* b, const double* c, const double* d)
-{
-  double e[3][3];
-  for (int i = 0; i < 3; ++i)
-  {
-    e[0][i] = b[i] - a[i];
-    e[1][i] = c[i] - a[i];
-    e[2][i] = d[i] - a[i];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-    e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-    e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
-
 /**
  * Points of the surface stay first, also unused ones, so that they keep their numbers. Of the
  * others those go that no tetrahedron uses (interior points that lie on the surface).
@@ -139,17 +125,10 @@ void Collect(const Job& job, const tetgenio& out, Mesh& mesh)
   }
   for (int t = 0; t < out.numberoftetrahedra; ++t)
   {
-    int c[4];
     for (int i = 0; i < 4; ++i)
     {
-      c[i] = number[out.tetrahedronlist[4 * t + i]];
+      mesh.Tetrahedra.push_back(number[out.tetrahedronlist[4 * t + i]]);
     }
-    const double* x = mesh.Points.data();
-    if (SixVolumes(x + 3 * c[0], x + 3 * c[1], x + 3 * c[2], x + 3 * c[3]) < 0.0)
-    {
-      std::swap(c[0], c[1]);
-    }
-    mesh.Tetrahedra.insert(mesh.Tetrahedra.end(), c, c + 4);
     const double* attributes = out.tetrahedronattributelist;
     mesh.Regions.push_back(
       attributes ? static_cast<int>(attributes[t * out.numberoftetrahedronattributes]) : 1);

@@ -35,7 +35,7 @@ struct Job
 struct Mesh
 {
   std::vector<double> Points;
-  std::vector<int> Tetrahedra; ///< four indices each, volumes positive in VTK's sense
+  std::vector<int> Tetrahedra; ///< four indices each, in VTK's order, which is TetGen's
   std::vector<int> Regions;    ///< one per tetrahedron
 };
 

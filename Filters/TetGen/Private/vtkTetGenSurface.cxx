@@ -2,9 +2,11 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkGenericCell.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkStaticCellLocator.h"
 #include "vtkTriangleFilter.h"
 
 #include <algorithm>
@@ -26,6 +28,8 @@ using Edge = std::array<int, 2>;
 const char* const CellIdName = "vtkTetGenCellId";
 /// A triangle whose height is less than this part of its longest edge has no area.
 constexpr double Flat = 1e-14;
+/// Nearer than this part of the diagonal of the bounding box is on the surface: TetGen's own tolerance.
+constexpr double OnSurface = 1e-8;
 
 const double* At(const Surface& surface, int point)
 {
@@ -352,6 +356,44 @@ std::string CheckSurface(const Surface& surface)
     }
   }
   return {};
+}
+
+std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<double>& points)
+{
+  vtkNew<vtkPoints> corners;
+  corners->SetDataTypeToDouble();
+  for (std::size_t p = 0; p < surface.PointIds.size(); ++p)
+  {
+    corners->InsertNextPoint(At(surface, static_cast<int>(p)));
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (int i = 0; i < NumberOfTriangles(surface); ++i)
+  {
+    const Triangle t = TriangleAt(surface, i);
+    triangles->InsertNextCell({ t[0], t[1], t[2] });
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(corners);
+  data->SetPolys(triangles);
+  vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(data);
+  locator->BuildLocator();
+  const double tolerance2 = std::pow(OnSurface * data->GetLength(), 2);
+  std::vector<double> off;
+  vtkNew<vtkGenericCell> cell;
+  for (std::size_t i = 0; i < points.size(); i += 3)
+  {
+    const double x[3] = { points[i], points[i + 1], points[i + 2] };
+    double closest[3], distance2 = 0.0;
+    vtkIdType cellId;
+    int subId;
+    locator->FindClosestPoint(x, closest, cell, cellId, subId, distance2);
+    if (distance2 > tolerance2)
+    {
+      off.insert(off.end(), x, x + 3);
+    }
+  }
+  return off;
 }
 
 //------------------------------------------------------------------------------

@@ -41,6 +41,12 @@ std::string ReadSurface(vtkPolyData* input, Surface& surface);
 std::string CheckSurface(const Surface& surface);
 
 /**
+ * Which of `points` (three numbers each) lie away from the surface, by more than 1e-8 of its size?
+ * TetGen would cut a triangle by a point on it, even where the surface is to be kept.
+ */
+std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<double>& points);
+
+/**
  * Where a triangle is: "cell 7 (points 1, 2, 3 around (x, y, z))", ids being those of the input.
  */
 std::string DescribeTriangle(const Surface& surface, int triangle);
