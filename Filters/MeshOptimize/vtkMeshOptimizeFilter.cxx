@@ -54,6 +54,8 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Effort: " << this->Effort << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "GrowthBudget: " << this->GrowthBudget << "\n";
+  os << indent << "OptimizeBelow: " << this->OptimizeBelow << "\n";
+  os << indent << "NumberOfLayers: " << this->NumberOfLayers << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "WorstQualityBefore: " << this->WorstQualityBefore << "\n";
   os << indent << "WorstQualityAfter: " << this->WorstQualityAfter << "\n";
@@ -171,6 +173,8 @@ vtkMeshOptimizeBridge::Request vtkMeshOptimizeFilter::MakeRequest()
   o.numberOfThreads = bridge::ResolveNumberOfThreads(this->NumberOfThreads);
   o.growthBudget = this->GrowthBudget;
   o.timeLimit = this->TimeLimit;
+  request.OptimizeBelow = this->OptimizeBelow;
+  request.NumberOfLayers = this->NumberOfLayers;
   return request;
 }
 
@@ -236,6 +240,10 @@ std::string CheckRequest(const bridge::Request& request, const std::vector<Task>
       return error;
     }
     hasSizes |= arrays.Size != nullptr;
+  }
+  if (!(request.OptimizeBelow >= 0.0))
+  {
+    return "OptimizeBelow, the quality under which cells may change, must be a number.";
   }
   const std::string error = bridge::CheckArraysAreThere(request.Filter, grids);
   return error.empty() ? request.Options.check(hasSizes) : error;

@@ -289,6 +289,30 @@ public:
 
   ///@{
   /**
+   * Change only cells whose quality is under this, and the layers around them that NumberOfLayers
+   * says: for touching up a mesh that is good nearly everywhere. All other cells, and all their
+   * points, stay bit for bit. Range 0 to 1, default 0: all cells may change.
+   *
+   * Qualities, counts and history are still about all cells; QualityBound then holds while the
+   * other cells are kept, too. TargetQuality, GrowthBudget, NumberOfCappedCells and StopReason are
+   * about those that may change; if there is none, the stop reason is NothingToDo. Cells that are
+   * numbered against their neighbours count as inverted, and so may change.
+   */
+  vtkSetClampMacro(OptimizeBelow, double, 0.0, 1.0);
+  vtkGetMacro(OptimizeBelow, double);
+  ///@}
+
+  ///@{
+  /**
+   * How many layers of cells around those under OptimizeBelow may change: a layer are the cells
+   * that share a node with those inside it. Range >= 0, default 2. Not used if OptimizeBelow is 0.
+   */
+  vtkSetClampMacro(NumberOfLayers, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfLayers, int);
+  ///@}
+
+  ///@{
+  /**
    * Stop after so many seconds. Range >= 0, default 0: no limit. With a limit, two runs can
    * differ.
    */
@@ -325,7 +349,7 @@ public:
     IterationLimit = 4,
     TimeLimitReached = 5,
     Aborted = 6,
-    NothingToDo = 7 ///< no cells to optimize
+    NothingToDo = 7 ///< no cells to optimize, or none under OptimizeBelow
   };
 
   ///@{
@@ -403,6 +427,8 @@ private:
   int Effort = Default;
   int NumberOfThreads = 0;
   double GrowthBudget = 0.1;
+  double OptimizeBelow = 0.0;
+  int NumberOfLayers = 2;
   double TimeLimit = 0.0;
 
   double WorstQualityBefore = 0.0;

@@ -294,6 +294,7 @@ void TestOptions()
   ExpectError(box, { "target" }, [](vtkMeshOptimizeFilter* f) { f->SetTargetQuality(0.0); });
   ExpectError(box, { "target" }, [](vtkMeshOptimizeFilter* f) { f->SetTargetQuality(NaN); });
   ExpectError(box, { "beta" }, [](vtkMeshOptimizeFilter* f) { f->SetBeta(NaN); });
+  ExpectError(box, { "OptimizeBelow" }, [](vtkMeshOptimizeFilter* f) { f->SetOptimizeBelow(NaN); });
   OptimizeFilter f;
   f->SetTargetQuality(7.0);
   CHECK(f->GetTargetQuality() == 1.0);
@@ -305,6 +306,10 @@ void TestOptions()
   CHECK(f->GetEpsilon() > 0.0);
   f->SetNumberOfThreads(-4);
   CHECK(f->GetNumberOfThreads() == 0);
+  f->SetOptimizeBelow(-1.0);
+  CHECK(f->GetOptimizeBelow() == 0.0);
+  f->SetNumberOfLayers(-3);
+  CHECK(f->GetNumberOfLayers() == 0);
 }
 
 /**

@@ -438,7 +438,10 @@ std::optional<MeshError> SimplexMesh<D>::build(const MeshInput<D>& input, Simple
   {
     return wrong;
   }
-  builder.orient();
+  if (!input.isOriented)
+  {
+    builder.orient();
+  }
   builder.constrain();
   return std::nullopt;
 }

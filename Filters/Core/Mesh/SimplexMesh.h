@@ -29,6 +29,9 @@ struct MeshInput
   std::vector<Facet<D>> constrainedFacets;
   /// Edges to be kept (any order of the points). For D = 2 use constrainedFacets.
   std::vector<std::array<Index, 2>> constrainedEdges;
+  /// True: every cell is numbered as it is to be taken, none is renumbered. For a part of a mesh
+  /// whose orientation is known: its own volume need not tell.
+  bool isOriented = false;
 };
 
 /// Why a mesh could not be built: a sentence for the user that names what is wrong and where.
@@ -100,8 +103,8 @@ public:
   /// twice in a cell, coordinates that are not finite, a facet with more than two cells, a cell that stands twice,
   /// arrays of a wrong length) is an error and leaves `mesh` empty. Inverted and flat cells are
   /// legal. Cells numbered against their neighbours are renumbered (the last two nodes swapped),
-  /// such that each connected component is consistently oriented with positive total volume;
-  /// numberOfReorientedCells() counts them.
+  /// such that each connected component is consistently oriented with positive total volume, unless
+  /// input.isOriented; numberOfReorientedCells() counts them.
   static std::optional<MeshError> build(const MeshInput<D>& input, SimplexMesh& mesh);
 
   // --- sizes

@@ -56,6 +56,12 @@ struct Cells
  */
 std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells);
 
+/**
+ * Takes simplices off the list: those that `isKept`, one value for each of them, does not name pass
+ * through from now on, as ghost cells do.
+ */
+void KeepSimplices(vtkUnstructuredGrid* grid, const std::vector<char>& isKept, Cells& cells);
+
 } // namespace vtkMeshOptimizeBridge
 
 #endif

@@ -8,6 +8,7 @@
 #include "vtkMeshOptimizeImport.h"
 #include "vtkMeshOptimizeQuality.h"
 #include "vtkMeshOptimizeTransfer.h"
+#include "vtkMeshOptimizeZone.h"
 
 #include "vtkCellData.h"
 #include "vtkPointData.h"
@@ -42,7 +43,6 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
   const Request& request, Outcome& outcome)
 {
   const auto start = std::chrono::steady_clock::now();
-  outcome.NumberOfReorientedCells = mesh.numberOfReorientedCells();
   outcome.NumberOfCellsBefore = mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(mesh, metric, request.Options, request.Control);
   if (outcome.Report.stopReason == meshopt::StopReason::Aborted && request.TimeLimit->WasSeen())
@@ -75,8 +75,8 @@ void Export(vtkUnstructuredGrid* input, const Cells& cells, const Frame<D>& fram
 }
 
 template <int D>
-std::string OptimizeSimplices(vtkUnstructuredGrid* input, const Cells& cells,
-  const InputArrays& arrays, const Request& request, vtkUnstructuredGrid* output, Outcome& outcome)
+std::string OptimizeSimplices(vtkUnstructuredGrid* input, Cells& cells, const InputArrays& arrays,
+  const Request& request, vtkUnstructuredGrid* output, Outcome& outcome)
 {
   Frame<D> frame;
   std::string error = FindFrame(input, cells, frame);
@@ -96,7 +96,15 @@ std::string OptimizeSimplices(vtkUnstructuredGrid* input, const Cells& cells,
   {
     return error;
   }
+  outcome.NumberOfReorientedCells = mesh.numberOfReorientedCells();
+  LeftOut rest;
+  if (request.OptimizeBelow > 0.0)
+  {
+    rest = RestrictToZone(input, arrays, frame, metric, request.Options, request.OptimizeBelow,
+      request.NumberOfLayers, cells, mesh);
+  }
   Optimize(mesh, metric, request, outcome);
+  AddLeftOut(rest, outcome);
   Export(input, cells, frame, mesh, metric, request, output);
   return {};
 }

@@ -27,6 +27,8 @@ struct Request
   meshopt::Options Options;
   meshopt::Control Control;
   const Deadline* TimeLimit = nullptr; ///< tells an abort by the clock from one by the user
+  double OptimizeBelow = 0.0; ///< only cells under it may change, and layers around; 0: all
+  int NumberOfLayers = 0;
 };
 
 /**

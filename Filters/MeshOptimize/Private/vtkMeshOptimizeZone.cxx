@@ -1,0 +1,186 @@
+#include "vtkMeshOptimizeZone.h"
+
+#include "vtkMeshOptimizeImport.h"
+
+#include "vtkUnstructuredGrid.h"
+
+#include "Quality/ElementQuality.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vtkMeshOptimizeBridge
+{
+
+using meshopt::Index;
+using meshopt::SimplexMesh;
+
+namespace
+{
+
+template <int D>
+std::vector<double> Qualities(const SimplexMesh<D>& mesh, const meshopt::NodalMetric<D>& metric,
+  const meshopt::Options& options)
+{
+  std::vector<double> values(mesh.numberOfInputCells());
+  meshopt::dispatch<D>(options.measure,
+    [&](auto shape)
+    {
+      const meshopt::ElementQuality<D, decltype(shape)> quality{ options.beta };
+      for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+      {
+        values[k] = quality.value(mesh.corners(k), metric.element(mesh.nodes(k)));
+      }
+    });
+  return values;
+}
+
+template <int D>
+bool IsReversed(vtkUnstructuredGrid* grid, vtkIdType cell, const meshopt::Simplex<D>& nodes)
+{
+  vtkIdType n = 0;
+  const vtkIdType* ids = nullptr;
+  grid->GetCellPoints(cell, n, ids);
+  return static_cast<Index>(ids[D]) != nodes[D];
+}
+
+/**
+ * Adds the cells that share a node with those in `isInside`. Returns whether there were any.
+ */
+template <int D>
+bool AddLayer(const SimplexMesh<D>& mesh, std::vector<char>& isInside)
+{
+  std::vector<char> isTouched(mesh.numberOfPointSlots(), 0);
+  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  {
+    for (Index p : mesh.nodes(k))
+    {
+      isTouched[p] |= isInside[k];
+    }
+  }
+  bool added = false;
+  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  {
+    const auto& nodes = mesh.nodes(k);
+    const bool touches = std::any_of(
+      nodes.begin(), nodes.end(), [&](Index p) { return isTouched[p] != 0; });
+    added |= touches && !isInside[k];
+    isInside[k] = touches;
+  }
+  return added;
+}
+
+template <int D>
+LeftOut SumUp(const SimplexMesh<D>& mesh, const std::vector<double>& qualities, double target,
+  const std::vector<char>& isInside)
+{
+  LeftOut rest;
+  rest.Worst = std::numeric_limits<double>::infinity();
+  std::vector<char> isInner(mesh.numberOfPointSlots(), 0), isOuter(mesh.numberOfPointSlots(), 0);
+  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  {
+    for (Index p : mesh.nodes(k))
+    {
+      (isInside[k] ? isInner : isOuter)[p] = 1;
+    }
+    if (!isInside[k])
+    {
+      ++rest.NumberOfCells;
+      rest.BelowTarget += qualities[k] < target;
+      rest.Worst = std::min(rest.Worst, qualities[k]);
+      rest.Sum += qualities[k];
+    }
+  }
+  for (std::size_t p = 0; p < isOuter.size(); ++p)
+  {
+    rest.NumberOfPoints += isOuter[p] && !isInner[p];
+  }
+  return rest;
+}
+
+/**
+ * Builds the mesh of the simplices in `cells`, which are numbered as those of `whole`.
+ */
+template <int D>
+void BuildZone(vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays,
+  const Frame<D>& frame, const std::vector<char>& isInside, SimplexMesh<D>& mesh)
+{
+  meshopt::MeshInput<D> input = ImportMesh(grid, cells, arrays, frame);
+  Index next = 0;
+  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  {
+    if (isInside[k])
+    {
+      input.cells[next++] = mesh.nodes(k);
+    }
+  }
+  input.isOriented = true;
+  SimplexMesh<D>::build(input, mesh); // went well with all of them
+}
+
+} // namespace
+
+template <int D>
+LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, const Frame<D>& frame,
+  const meshopt::NodalMetric<D>& metric, const meshopt::Options& options, double threshold,
+  int layers, Cells& cells, SimplexMesh<D>& mesh)
+{
+  const std::vector<double> qualities = Qualities(mesh, metric, options);
+  std::vector<char> isInside(qualities.size());
+  bool grows = false;
+  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  {
+    isInside[k] = qualities[k] < threshold ||
+      IsReversed<D>(grid, cells.Simplices[k], mesh.nodes(k));
+    grows |= isInside[k] != 0;
+  }
+  for (int layer = 0; layer < layers && grows; ++layer)
+  {
+    grows = AddLayer(mesh, isInside);
+  }
+  const LeftOut rest = SumUp(mesh, qualities, options.targetQuality, isInside);
+  if (rest.NumberOfCells > 0)
+  {
+    KeepSimplices(grid, isInside, cells);
+    BuildZone(grid, cells, arrays, frame, isInside, mesh);
+  }
+  return rest;
+}
+
+void AddLeftOut(const LeftOut& rest, Outcome& outcome)
+{
+  if (rest.NumberOfCells == 0)
+  {
+    return;
+  }
+  const auto lower = [&](double& worst, vtkIdType cells)
+  { worst = cells > 0 ? std::min(worst, rest.Worst) : rest.Worst; };
+  const auto average = [&](double& mean, vtkIdType cells)
+  {
+    mean = (mean * static_cast<double>(cells) + rest.Sum) /
+      static_cast<double>(cells + rest.NumberOfCells);
+  };
+  meshopt::Report& report = outcome.Report;
+  for (meshopt::PassRecord& row : report.history)
+  {
+    lower(row.worst, row.cells);
+    average(row.mean, row.cells);
+    row.belowTarget += static_cast<long>(rest.BelowTarget);
+    row.cells += static_cast<long>(rest.NumberOfCells);
+    row.points += static_cast<long>(rest.NumberOfPoints);
+  }
+  lower(report.worstBefore, outcome.NumberOfCellsBefore);
+  lower(report.worstAfter, outcome.NumberOfCells);
+  average(report.meanBefore, outcome.NumberOfCellsBefore);
+  average(report.meanAfter, outcome.NumberOfCells);
+  report.bound = std::min(report.bound, rest.Worst);
+  outcome.NumberOfCellsBefore += rest.NumberOfCells;
+  outcome.NumberOfCells += rest.NumberOfCells;
+}
+
+template LeftOut RestrictToZone<2>(vtkUnstructuredGrid*, const InputArrays&, const Frame<2>&,
+  const meshopt::NodalMetric<2>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<2>&);
+template LeftOut RestrictToZone<3>(vtkUnstructuredGrid*, const InputArrays&, const Frame<3>&,
+  const meshopt::NodalMetric<3>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<3>&);
+
+} // namespace vtkMeshOptimizeBridge

@@ -1,0 +1,56 @@
+/**
+ * The part of a mesh that may change where only cells under a threshold, and some layers around
+ * them, may.
+ */
+#ifndef vtkMeshOptimizeZone_h
+#define vtkMeshOptimizeZone_h
+
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeCells.h"
+#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshOptimizeRun.h"
+
+#include "Mesh/SimplexMesh.h"
+#include "Metric/NodalMetric.h"
+#include "Optimize/Options.h"
+
+class vtkUnstructuredGrid;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * Simplices that are left as they are: what a report about all simplices has to add.
+ */
+struct LeftOut
+{
+  vtkIdType NumberOfCells = 0;
+  vtkIdType NumberOfPoints = 0; ///< that no other simplex uses
+  vtkIdType BelowTarget = 0;
+  double Worst = 0.0; ///< not to be looked at without cells
+  double Sum = 0.0;   ///< of the qualities
+};
+
+/**
+ * Finds the cells of `mesh` under `threshold` and `layers` times those that share a node with them,
+ * and makes `mesh` the mesh of these; `cells` is changed likewise. Its surface then holds the other
+ * cells in place. Cells that were numbered the wrong way round count as inverted ones, which they
+ * were in the grid: none is left out.
+ *
+ * `mesh` comes with all simplices of `cells`, and `metric` is its. Qualities are those of `options`.
+ * What is left out is linear in the size of the mesh to find, and so is each layer.
+ */
+template <int D>
+LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, const Frame<D>& frame,
+  const meshopt::NodalMetric<D>& metric, const meshopt::Options& options, double threshold,
+  int layers, Cells& cells, meshopt::SimplexMesh<D>& mesh);
+
+/**
+ * Makes an outcome of the zone one of all simplices: minima, means, counts, and a bound that holds
+ * while the cells that are left out stay.
+ */
+void AddLeftOut(const LeftOut& rest, Outcome& outcome);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif
