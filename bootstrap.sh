@@ -17,7 +17,7 @@ plugin_dir=$build_dir/lib/paraview-5.11/plugins/MeshOptimize
 
 # The shortest list that configures, builds, loads and renders on a bare system (the rest comes as their dependencies).
 packages=(
-  g++ cmake ninja-build paraview-dev python3-paraview libeigen3-dev
+  g++ cmake ninja-build paraview-dev python3-paraview libeigen3-dev libtet1.5-dev
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev liblzma-dev liblz4-dev
   qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools
   xvfb libgl1-mesa-dri)

@@ -3,6 +3,7 @@
 A block is bound to its file by the comment before it:  <!-- file: path from the top of the repository -->
 A table is bound to a proxy by:  <!-- properties: MeshOptimize -->
 """
+import glob
 import os
 import re
 import sys
@@ -19,7 +20,8 @@ for path, shown in blocks:
 if len(blocks) < 4:
     failures.append(f"only {len(blocks)} code blocks of README.md are bound to files")
 
-for proxy in ("MeshOptimize", "MeshQualityMinMax"):
+for path in sorted(glob.glob(os.path.join(SOURCE, "ParaViewPlugin", "*.xml"))):
+    proxy = os.path.splitext(os.path.basename(path))[0]
     table = re.search(rf"<!-- properties: {proxy} -->\n((?:\|.*\n)+)", readme)
     if not table:
         failures.append(f"README.md has no table of the properties of {proxy}")
@@ -28,12 +30,12 @@ for proxy in ("MeshOptimize", "MeshQualityMinMax"):
     for row in table.group(1).splitlines()[2:]:
         name, default = [cell.strip().strip("`") for cell in row.strip("|").split("|")[:2]]
         shown[name] = default
-    xml = ElementTree.parse(os.path.join(SOURCE, "ParaViewPlugin", proxy + ".xml")).find("ProxyGroup/SourceProxy")
+    xml = ElementTree.parse(path).find("ProxyGroup/SourceProxy")
     in_xml = {}
     for prop in xml:
         if not prop.tag.endswith("VectorProperty") or prop.get("information_only") == "1":
             continue
-        default = prop.get("default_values").split(";")[-1]
+        default = prop.get("default_values", "none").split(";")[-1]
         for entry in prop.findall("EnumerationDomain/Entry"):
             if entry.get("value") == default:
                 default = entry.get("text")

@@ -2,7 +2,9 @@
 
 Runs without ParaView's server manager: it reads the XML files as files. TestProxies.py then asks the loaded proxies.
 """
+import glob
 import os
+import re
 import sys
 import xml.etree.ElementTree as ElementTree
 
@@ -15,7 +17,13 @@ NOT_OFFERED = {
     # report only: an error in the optimizer
     ("MeshOptimize", "QualityMeasure"): {"MinimumDihedralAngle"},
 }
-NOT_IN_XML = {"MeshOptimize": {"Controller"}, "MeshQualityMinMax": {"Controller"}}
+NOT_IN_XML = {"MeshOptimize": {"Controller"}, "MeshQualityMinMax": {"Controller"},
+              "TetGen": {"InteriorPointsData"}}
+
+# What a script calls the proxy, where the label says more than the name.
+PYTHON_NAMES = {"TetGen": "TetrahedralizeTetGen"}
+# Modules that may be left out.
+OPTIONAL = {"TetGen"}
 
 failures = []
 
@@ -84,16 +92,24 @@ def check_number(proxy, prop, instance):
 def check_proxy(path):
     proxy_xml = ElementTree.parse(path).getroot().find("ProxyGroup/SourceProxy")
     proxy = proxy_xml.get("name")
+    if proxy in OPTIONAL and not hasattr(meshoptimize, proxy_xml.get("class")):
+        return
     filter_class = getattr(meshoptimize, proxy_xml.get("class"))
     instance = filter_class()
-    check(proxy_xml.get("label").replace(" ", "") == proxy, f"{proxy}: the label is the Python name")
+    check(re.sub(r"[^A-Za-z0-9]", "", proxy_xml.get("label")) == PYTHON_NAMES.get(proxy, proxy),
+          f"{proxy}: the label is the Python name")
     check(len(proxy_xml.findall("OutputPort")) == instance.GetNumberOfOutputPorts(),
           f"{proxy}: number of output ports")
 
     in_groups = [p.get("name") for p in proxy_xml.findall("PropertyGroup/Property")]
     named = set()
+    connections = set()
     arrays = set()
     for prop in proxy_xml:
+        if prop.tag == "InputProperty":
+            check(hasattr(instance, prop.get("command")), f"{proxy}: the class has no {prop.get('command')}")
+            check(len((prop.findtext("Documentation") or "").strip()) > 20, f"{proxy}: an input without documentation")
+            connections.add(prop.get("command")[3:])
         if not prop.tag.endswith("VectorProperty"):
             continue
         name, command = prop.get("name"), prop.get("command")
@@ -109,6 +125,10 @@ def check_proxy(path):
             check(default == "None" and (port, connection) == ("0", "0"), f"{where}: default is not None")
             check(index not in arrays, f"{where}: array index {index} used twice")
             arrays.add(index)
+        elif prop.get("repeat_command") == "1":
+            cleaner = prop.get("clean_command")
+            check(command == "Add" + name[:-1] and hasattr(instance, command), f"{where}: command {command}")
+            check(cleaner == "RemoveAll" + name and hasattr(instance, cleaner), f"{where}: clean_command {cleaner}")
         else:
             check(command == "Set" + name and hasattr(instance, command), f"{where}: command {command}")
             check_number(proxy, prop, filter_class())
@@ -116,12 +136,12 @@ def check_proxy(path):
             check(in_groups.count(name) == 1, f"{where}: in {in_groups.count(name)} property groups")
     check(set(in_groups) <= named, f"{proxy}: groups name {set(in_groups) - named}")
 
-    missing = own_setters(filter_class) - named - NOT_IN_XML[proxy]
+    missing = own_setters(filter_class) - named - connections - NOT_IN_XML.get(proxy, set())
     check(not missing, f"{proxy}: the XML lacks {sorted(missing)}")
 
 
-for file_name in ("MeshOptimize.xml", "MeshQualityMinMax.xml"):
-    check_proxy(os.path.join(SOURCE, "ParaViewPlugin", file_name))
+for path in sorted(glob.glob(os.path.join(SOURCE, "ParaViewPlugin", "*.xml"))):
+    check_proxy(path)
 for failure in failures:
     print("FAILED:", failure)
 sys.exit(1 if failures else 0)
