@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Metric/ErrorIndicator.h"
+
+#include "Metric/MetricVolume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace meshopt
+{
+namespace
+{
+/// The density of elements h^-D that equal errors in all new elements ask for, at the points, up to
+/// the factor h*^-D; with errors relative to the greatest.
+template <int D>
+std::vector<double> densities(
+  const SimplexMesh<D>& mesh, const std::vector<double>& errors, double greatest, double power)
+{
+  std::vector<double> sum(mesh.numberOfPointSlots(), 0.0), volume(sum);
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      // density times volume: h_K^D = regularElementsPerVolume * volume cancels
+      const double share = std::pow(errors[c] / greatest, D * power) / regularElementsPerVolume<D>;
+      for (Index p : mesh.nodes(c))
+      {
+        sum[p] += share;
+        volume[p] += std::abs(signedVolume(mesh.corners(c)));
+      }
+    }
+  }
+  for (std::size_t p = 0; p < sum.size(); ++p)
+  {
+    sum[p] = volume[p] > 0.0 ? sum[p] / volume[p] : 0.0;
+  }
+  return sum;
+}
+
+/// h* such that the total error is `fraction` of the present one.
+double sizeForError(
+  const std::vector<double>& errors, double greatest, double fraction, double power, double order)
+{
+  double now = 0.0, then = 0.0; // squares, those of the new mesh with h* = 1
+  for (double error : errors)
+  {
+    const double e = error / greatest;
+    now += e * e;
+    then += e > 0.0 ? std::pow(e, 2.0 - 2.0 * order * power) : 0.0;
+  }
+  return std::pow(fraction * fraction * now / then, 0.5 / order);
+}
+
+std::string checkErrors(const std::vector<double>& errors)
+{
+  for (std::size_t c = 0; c < errors.size(); ++c)
+  {
+    if (!(errors[c] >= 0.0) || !std::isfinite(errors[c]))
+    {
+      std::ostringstream text;
+      text << "The error of cell " << c << " is " << errors[c]
+           << "; it must be a finite number that is not negative.";
+      return text.str();
+    }
+  }
+  return std::string();
+}
+}
+
+std::string ErrorIndicatorOptions::check() const
+{
+  std::ostringstream text;
+  if (this->desiredErrorFraction == 0.0 &&
+    (!(this->desiredCount > 0.0) || !std::isfinite(this->desiredCount)))
+  {
+    text << "The wanted number of elements must be positive; it is " << this->desiredCount << ".";
+  }
+  else if (!(this->desiredErrorFraction >= 0.0) || !std::isfinite(this->desiredErrorFraction))
+  {
+    text << "The wanted part of the error must be 0 (not used) or positive; it is "
+         << this->desiredErrorFraction << ".";
+  }
+  else if (!(this->convergenceOrder > 0.0) || !std::isfinite(this->convergenceOrder))
+  {
+    text << "The convergence order must be positive; it is " << this->convergenceOrder << ".";
+  }
+  else if (!(this->countCorrection > 0.0) || !std::isfinite(this->countCorrection))
+  {
+    text << "The correction of the number of elements must be positive; it is "
+         << this->countCorrection << ".";
+  }
+  return text.str().empty() ? this->limits.check() : text.str();
+}
+
+template <int D>
+std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double>& errors,
+  const ErrorIndicatorOptions& options, ErrorIndicatorSizes& result)
+{
+  const std::string problem = options.check();
+  const std::string error = problem.empty() ? checkErrors(errors) : problem;
+  if (!error.empty() || errors.empty())
+  {
+    return error;
+  }
+  const double greatest = *std::max_element(errors.begin(), errors.end());
+  const double power = 2.0 / (2.0 * options.convergenceOrder + D);
+  result.isZero = greatest == 0.0;
+  std::vector<SymmetricEigen<D>> metric(mesh.numberOfPointSlots());
+  std::vector<double> density(metric.size(), 1.0);
+  if (!result.isZero)
+  {
+    density = densities(mesh, errors, greatest, power);
+  }
+  for (std::size_t p = 0; p < metric.size(); ++p)
+  {
+    metric[p].values.setConstant(std::pow(density[p], 2.0 / D));
+  }
+  SizeLimits limits = options.limits;
+  limits.maximumAnisotropy = 0.0;
+  MetricScaling<D> scaling(mesh, std::move(metric), limits, options.countCorrection);
+  const bool byError = options.desiredErrorFraction > 0.0 && !result.isZero;
+  const ScaledMetric<D> scaled = byError
+    ? scaling.withSize(sizeForError(
+        errors, greatest, options.desiredErrorFraction, power, options.convergenceOrder))
+    : scaling.withCount(options.desiredCount > 0.0 ? options.desiredCount : errors.size());
+  result.predictedCount = scaled.predictedCount;
+  result.isCountReached = scaled.isCountReached;
+  result.sizes.resize(scaled.unit.size());
+  for (std::size_t p = 0; p < scaled.unit.size(); ++p)
+  {
+    result.sizes[p] = 1.0 / std::sqrt(scaled.unit[p](0, 0));
+  }
+  return std::string();
+}
+
+template std::string sizesFromErrors<2>(const SimplexMesh<2>&, const std::vector<double>&,
+  const ErrorIndicatorOptions&, ErrorIndicatorSizes&);
+template std::string sizesFromErrors<3>(const SimplexMesh<3>&, const std::vector<double>&,
+  const ErrorIndicatorOptions&, ErrorIndicatorSizes&);
+}

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Metric/MetricScaling.h"
+
+#include "Metric/Gradation.h"
+#include "Metric/MetricVolume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace meshopt
+{
+namespace
+{
+/// Finds the zero of a falling function of ln h, to `tolerance` in the value: steps that would be
+/// right without limits until it lies between two, then regula falsi (the Illinois variant).
+/// `highest` bounds ln h.
+template <class F>
+double findZero(F&& value, double start, double highest, double slope, double tolerance)
+{
+  constexpr int maximumNumberOfEvaluations = 100;
+  double x = std::min(start, highest), y = value(x);
+  double other = x, otherY = y;
+  double stretch = 1.0;
+  int evaluations = 1;
+  while (std::abs(y) > tolerance && otherY * y > 0.0)
+  {
+    if ((y > 0.0 && x >= highest) || evaluations >= maximumNumberOfEvaluations)
+    {
+      return x;
+    }
+    other = x;
+    otherY = y;
+    x = std::min(highest, x + stretch * y / slope);
+    y = value(x);
+    stretch *= 1.5;
+    ++evaluations;
+  }
+  while (std::abs(y) > tolerance && evaluations < maximumNumberOfEvaluations)
+  {
+    const double next = (other * y - x * otherY) / (y - otherY);
+    const double nextY = value(next);
+    ++evaluations;
+    if (nextY * y < 0.0)
+    {
+      other = x;
+      otherY = y;
+    }
+    else
+    {
+      otherY *= 0.5;
+    }
+    x = next;
+    y = nextY;
+  }
+  return x;
+}
+}
+
+std::string SizeLimits::check() const
+{
+  std::ostringstream text;
+  if (!(this->minimumSize >= 0.0) || !(this->maximumSize >= 0.0) ||
+    !std::isfinite(this->minimumSize) || !std::isfinite(this->maximumSize))
+  {
+    text << "The limits of the size must be 0 (none) or positive; they are " << this->minimumSize
+         << " and " << this->maximumSize << ".";
+  }
+  else if (this->maximumSize > 0.0 && this->minimumSize > this->maximumSize)
+  {
+    text << "The minimum size " << this->minimumSize << " is above the maximum size "
+         << this->maximumSize << ".";
+  }
+  else if (this->maximumAnisotropy != 0.0 && !(this->maximumAnisotropy >= 1.0))
+  {
+    text << "The maximum anisotropy must be 0 (no limit) or at least 1; it is "
+         << this->maximumAnisotropy << ".";
+  }
+  else if (this->gradation != 0.0 && !(this->gradation > 1.0 && std::isfinite(this->gradation)))
+  {
+    text << "The gradation must be 0 (no limit) or above 1; it is " << this->gradation << ".";
+  }
+  return text.str();
+}
+
+template <int D>
+MetricScaling<D>::MetricScaling(const SimplexMesh<D>& mesh, std::vector<SymmetricEigen<D>> metric,
+  const SizeLimits& limits, double correction)
+  : mesh_(mesh)
+  , metric_(std::move(metric))
+  , limits_(limits)
+  , correction_(correction)
+{
+  Vec<D> low = Vec<D>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (mesh.isPointAlive(p))
+    {
+      low = low.cwiseMin(mesh.point(p));
+      high = high.cwiseMax(mesh.point(p));
+      this->greatest_ = std::max(this->greatest_, this->metric_[p].values[D - 1]);
+    }
+  }
+  this->maximumSize_ = limits.maximumSize > 0.0 ? limits.maximumSize : (high - low).norm();
+  this->volume_ = metricVolume<D>(mesh, std::vector<double>(mesh.numberOfPointSlots(), 0.0));
+  if (limits.gradation > 1.0)
+  {
+    this->graph_ = PointGraph::of(mesh);
+  }
+}
+
+template <int D>
+Vec<D> MetricScaling<D>::limited(const Vec<D>& eigenvalues, double h) const
+{
+  const double least = 1.0 / (this->maximumSize_ * this->maximumSize_);
+  Vec<D> values = (eigenvalues / (h * h)).cwiseMax(least);
+  if (this->limits_.minimumSize > 0.0)
+  {
+    const double most = 1.0 / (this->limits_.minimumSize * this->limits_.minimumSize);
+    values = values.cwiseMin(most).cwiseMax(std::min(least, most));
+  }
+  if (this->limits_.maximumAnisotropy >= 1.0)
+  {
+    const double ratio = this->limits_.maximumAnisotropy * this->limits_.maximumAnisotropy;
+    values = values.cwiseMax(values.maxCoeff() / ratio);
+  }
+  return values;
+}
+
+template <int D>
+double MetricScaling<D>::countFromVolume(double volume) const
+{
+  return regularElementsPerVolume<D> * this->correction_ * volume;
+}
+
+/// Elements of a uniform mesh of edge h.
+template <int D>
+double MetricScaling<D>::uniformCount(double h) const
+{
+  return this->countFromVolume(this->volume_ / std::pow(h, D));
+}
+
+template <int D>
+double MetricScaling<D>::predict(double h) const
+{
+  std::vector<double> half(this->metric_.size(), 0.0);
+  for (std::size_t p = 0; p < half.size(); ++p)
+  {
+    half[p] = 0.5 * this->limited(this->metric_[p].values, h).array().log().sum();
+  }
+  return this->countFromVolume(metricVolume<D>(this->mesh_, half));
+}
+
+template <int D>
+double MetricScaling<D>::predictGraded(double h)
+{
+  this->makeUnit(h);
+  std::vector<double> half(this->unit_.size(), 0.0);
+  for (std::size_t p = 0; p < half.size(); ++p)
+  {
+    half[p] = 0.5 * std::log(this->unit_[p].determinant());
+  }
+  return this->countFromVolume(metricVolume<D>(this->mesh_, half));
+}
+
+template <int D>
+void MetricScaling<D>::makeUnit(double h)
+{
+  if (h == this->unitSize_)
+  {
+    return;
+  }
+  this->unitSize_ = h;
+  this->unit_.resize(this->metric_.size());
+  for (std::size_t p = 0; p < this->unit_.size(); ++p)
+  {
+    SymmetricEigen<D> e = this->metric_[p];
+    e.values = this->limited(e.values, h);
+    this->unit_[p] = e.compose();
+  }
+  if (this->limits_.gradation > 1.0)
+  {
+    limitGradation(this->mesh_, this->graph_, this->limits_.gradation, this->unit_);
+    for (std::size_t p = 0; p < this->unit_.size(); ++p)
+    {
+      SymmetricEigen<D> e = SymmetricEigen<D>::of(this->unit_[p]);
+      const Vec<D> values = this->limited(e.values, 1.0);
+      if (!values.isApprox(e.values, 1e-12))
+      {
+        e.values = values;
+        this->unit_[p] = e.compose();
+      }
+    }
+  }
+}
+
+template <int D>
+ScaledMetric<D> MetricScaling<D>::withSize(double h)
+{
+  ScaledMetric<D> result;
+  result.desiredSize = h;
+  result.predictedCount = this->predictGraded(h);
+  result.unit = this->unit_;
+  return result;
+}
+
+template <int D>
+ScaledMetric<D> MetricScaling<D>::withCount(double count)
+{
+  const double fewest = this->uniformCount(this->maximumSize_);
+  const double most = this->limits_.minimumSize > 0.0
+    ? this->uniformCount(this->limits_.minimumSize)
+    : std::numeric_limits<double>::infinity();
+  const double goal = std::max(fewest * 1.0001, std::min(most * 0.9999, count));
+  // everything is at the maximum size there, whatever h* is beyond
+  const double highest = std::log(this->maximumSize_ * std::sqrt(this->greatest_));
+  if (!(most > 1.001 * fewest))
+  {
+    ScaledMetric<D> uniform = this->withSize(std::exp(highest));
+    uniform.isCountReached = std::abs(count - fewest) <= 0.001 * fewest;
+    return uniform;
+  }
+  double x = findZero([&](double lnH) { return std::log(this->predict(std::exp(lnH)) / goal); },
+    highest, highest, D, 1e-4);
+  if (this->limits_.gradation > 1.0)
+  {
+    x = findZero([&](double lnH) { return std::log(this->predictGraded(std::exp(lnH)) / goal); }, x,
+      highest, D, 1e-3);
+  }
+  ScaledMetric<D> result = this->withSize(std::exp(x));
+  result.isCountReached = count >= fewest && count <= most;
+  return result;
+}
+
+template class MetricScaling<2>;
+template class MetricScaling<3>;
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Metric/MetricVolume.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+/// exp[a_0, ..., a_{n-1}] of ascending numbers, none above 0. Where they are close the recursion of
+/// divided differences would cancel: there by the series sum_k h_k / (n - 1 + k)! around their mean,
+/// h_k the complete homogeneous symmetric polynomials.
+double dividedDifference(const double* a, int n)
+{
+  const double spread = a[n - 1] - a[0];
+  if (n == 1)
+  {
+    return std::exp(a[0]);
+  }
+  if (spread > 1.0)
+  {
+    return (dividedDifference(a + 1, n - 1) - dividedDifference(a, n - 1)) / spread;
+  }
+  double mean = 0.0;
+  for (int i = 0; i < n; ++i)
+  {
+    mean += a[i] / n;
+  }
+  double factorial = 1.0;
+  for (int i = 2; i < n; ++i)
+  {
+    factorial *= i;
+  }
+  // h[i]: the polynomial of the present degree in the first i + 1 numbers
+  double h[4] = { 1.0, 1.0, 1.0, 1.0 };
+  double sum = 1.0 / factorial;
+  for (int k = 1; k <= 16; ++k)
+  {
+    factorial *= n - 1 + k;
+    double before = 0.0;
+    for (int i = 0; i < n; ++i)
+    {
+      before = h[i] = before + (a[i] - mean) * h[i];
+    }
+    sum += h[n - 1] / factorial;
+  }
+  return std::exp(mean) * sum;
+}
+}
+
+template <int D>
+double meanOfExponential(const std::array<double, D + 1>& a)
+{
+  std::array<double, D + 1> sorted = a;
+  std::sort(sorted.begin(), sorted.end());
+  const double greatest = sorted[D];
+  for (double& value : sorted)
+  {
+    value -= greatest;
+  }
+  return (D == 2 ? 2.0 : 6.0) * std::exp(greatest) * dividedDifference(sorted.data(), D + 1);
+}
+
+template <int D>
+double metricVolume(const SimplexMesh<D>& mesh, const std::vector<double>& halfLogDeterminants)
+{
+  double volume = 0.0;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      std::array<double, D + 1> a;
+      for (int i = 0; i <= D; ++i)
+      {
+        a[i] = halfLogDeterminants[mesh.nodes(c)[i]];
+      }
+      volume += std::abs(signedVolume(mesh.corners(c))) * meanOfExponential<D>(a);
+    }
+  }
+  return volume;
+}
+
+template double meanOfExponential<2>(const std::array<double, 3>&);
+template double meanOfExponential<3>(const std::array<double, 4>&);
+template double metricVolume<2>(const SimplexMesh<2>&, const std::vector<double>&);
+template double metricVolume<3>(const SimplexMesh<3>&, const std::vector<double>&);
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Metric/SolutionMetric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace meshopt
+{
+namespace
+{
+/// True if the second difference along every edge is no more than what rounding makes of values of
+/// this magnitude. (Along edges: on a stretched mesh the noise is far greater across than along.)
+template <int D>
+bool isLinearField(const SimplexMesh<D>& mesh, const std::vector<double>& values, int components,
+  const std::vector<SymmetricEigen<D>>& metric, double precision)
+{
+  double magnitude = 0.0, curvature = 0.0;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i <= D && mesh.isAlive(c); ++i)
+    {
+      const Index p = mesh.nodes(c)[i];
+      for (int k = 0; k < components; ++k)
+      {
+        const double value = values[static_cast<std::size_t>(components) * p + k];
+        magnitude = std::max(magnitude, std::abs(value));
+      }
+      for (Index q : mesh.nodes(c))
+      {
+        const Vec<D> edge = metric[p].vectors.transpose() * (mesh.point(q) - mesh.point(p));
+        curvature = std::max(curvature, metric[p].values.dot(edge.cwiseAbs2()));
+      }
+    }
+  }
+  return !(curvature > 500.0 * precision * magnitude);
+}
+
+/// Multiplies by det^(-1 / (2p + D)). Eigenvalues are first raised to what the greatest possible
+/// edge asks for (at the h* of the unscaled metric): 0 has no such power.
+template <int D>
+void scaleForNorm(const SimplexMesh<D>& mesh, const SolutionMetricOptions& options,
+  std::vector<SymmetricEigen<D>>& metric)
+{
+  SizeLimits none;
+  none.maximumSize = options.limits.maximumSize;
+  MetricScaling<D> scaling(mesh, metric, none, options.countCorrection);
+  const double h = scaling.withCount(options.desiredCount).desiredSize;
+  const double least = std::pow(h / scaling.maximumSize(), 2);
+  for (SymmetricEigen<D>& e : metric)
+  {
+    e.values = e.values.cwiseMax(least);
+    e.values *= std::exp(-e.values.array().log().sum() / (2.0 * options.normOrder + D));
+  }
+}
+}
+
+template <int D>
+SymmetricEigen<D> absoluteValue(const Tensor<D>& hessian)
+{
+  return combinedHessian<D>(&hessian, 1);
+}
+
+template <int D>
+SymmetricEigen<D> combinedHessian(const Tensor<D>* hessians, int components)
+{
+  SymmetricEigen<D> e;
+  if (components == 1)
+  {
+    // not by way of the square, which would lose half of the digits of the lesser eigenvalues
+    e = SymmetricEigen<D>::of(hessians[0]);
+    e.values = e.values.cwiseAbs();
+  }
+  else
+  {
+    double scale = 0.0; // squares must neither overflow nor vanish
+    for (int i = 0; i < components; ++i)
+    {
+      scale = std::max(scale, hessians[i].cwiseAbs().maxCoeff());
+    }
+    Tensor<D> sum = Tensor<D>::Zero();
+    for (int i = 0; i < components && scale > 0.0; ++i)
+    {
+      const Tensor<D> h = hessians[i] / scale;
+      sum += h * h;
+    }
+    e = SymmetricEigen<D>::of(sum);
+    e.values = scale * e.values.cwiseMax(0.0).cwiseSqrt();
+  }
+  // ascending again
+  std::array<int, D> order;
+  for (int i = 0; i < D; ++i)
+  {
+    order[i] = i;
+  }
+  std::stable_sort(
+    order.begin(), order.end(), [&e](int a, int b) { return e.values[a] < e.values[b]; });
+  SymmetricEigen<D> sorted;
+  for (int i = 0; i < D; ++i)
+  {
+    sorted.values[i] = e.values[order[i]];
+    sorted.vectors.col(i) = e.vectors.col(order[i]);
+  }
+  return sorted;
+}
+
+std::string SolutionMetricOptions::check() const
+{
+  std::ostringstream text;
+  if (!(this->desiredCount > 0.0) || !std::isfinite(this->desiredCount))
+  {
+    text << "The wanted number of elements must be positive; it is " << this->desiredCount << ".";
+  }
+  else if (!(this->normOrder >= 0.0) || !std::isfinite(this->normOrder))
+  {
+    text << "The order of the norm must be 0 (infinity) or positive; it is " << this->normOrder
+         << ".";
+  }
+  else if (!(this->countCorrection > 0.0) || !std::isfinite(this->countCorrection))
+  {
+    text << "The correction of the number of elements must be positive; it is "
+         << this->countCorrection << ".";
+  }
+  return text.str().empty() ? this->limits.check() : text.str();
+}
+
+template <int D>
+std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>& values,
+  int components, const SolutionMetricOptions& options, SolutionMetric<D>& metric)
+{
+  std::string error = options.check();
+  std::vector<Tensor<D>> hessians;
+  if (error.empty())
+  {
+    error = recoverHessians(mesh, values, components, options.recovery, hessians);
+  }
+  if (!error.empty())
+  {
+    return error;
+  }
+  std::vector<SymmetricEigen<D>> g(mesh.numberOfPointSlots());
+  for (std::size_t p = 0; p < g.size(); ++p)
+  {
+    g[p] = combinedHessian<D>(&hessians[components * p], components);
+  }
+  metric.isLinear = isLinearField(mesh, values, components, g, options.precision);
+  if (metric.isLinear)
+  {
+    SymmetricEigen<D> euclidean;
+    euclidean.values.setOnes();
+    std::fill(g.begin(), g.end(), euclidean);
+  }
+  else if (options.normOrder > 0.0)
+  {
+    scaleForNorm(mesh, options, g);
+  }
+  ScaledMetric<D> scaled = MetricScaling<D>(
+    mesh, std::move(g), options.limits, options.countCorrection)
+                             .withCount(options.desiredCount);
+  metric.desiredSize = scaled.desiredSize;
+  metric.predictedCount = scaled.predictedCount;
+  metric.isCountReached = scaled.isCountReached;
+  metric.tensors = std::move(scaled.unit);
+  for (Tensor<D>& tensor : metric.tensors)
+  {
+    tensor *= scaled.desiredSize * scaled.desiredSize;
+  }
+  return std::string();
+}
+
+template SymmetricEigen<2> absoluteValue<2>(const Tensor<2>&);
+template SymmetricEigen<3> absoluteValue<3>(const Tensor<3>&);
+template SymmetricEigen<2> combinedHessian<2>(const Tensor<2>*, int);
+template SymmetricEigen<3> combinedHessian<3>(const Tensor<3>*, int);
+template std::string solutionMetric<2>(const SimplexMesh<2>&, const std::vector<double>&, int,
+  const SolutionMetricOptions&, SolutionMetric<2>&);
+template std::string solutionMetric<3>(const SimplexMesh<3>&, const std::vector<double>&, int,
+  const SolutionMetricOptions&, SolutionMetric<3>&);
+}
