@@ -63,6 +63,8 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MeanQualityAfter: " << this->MeanQualityAfter << "\n";
   os << indent << "QualityBound: " << this->QualityBound << "\n";
   os << indent << "NumberOfCappedCells: " << this->NumberOfCappedCells << "\n";
+  os << indent << "NumberOfInvertedCellsBefore: " << this->NumberOfInvertedCellsBefore << "\n";
+  os << indent << "NumberOfInvertedCellsAfter: " << this->NumberOfInvertedCellsAfter << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
   os << indent << "NumberOfOperations: " << this->NumberOfOperations << "\n";
   os << indent << "OptimizeSeconds: " << this->OptimizeSeconds << "\n";
@@ -279,6 +281,10 @@ std::string vtkMeshOptimizeFilter::OptimizeAll(
       return isComposite ? "Block " + std::to_string(tasks[i].Block) + ": " + error : error;
     }
     bridge::AppendHistory(one.Report, tasks[i].Block, history);
+    if (isComposite && !one.Tangle.empty())
+    {
+      one.Tangle = "Block " + std::to_string(tasks[i].Block) + ": " + one.Tangle;
+    }
     outcome.Add(one);
   }
   return {};
@@ -293,6 +299,8 @@ void vtkMeshOptimizeFilter::StoreResults(const bridge::Outcome& outcome)
   this->MeanQualityAfter = report.meanAfter;
   this->QualityBound = outcome.NumberOfCells > 0 ? report.bound : 0.0;
   this->NumberOfCappedCells = report.cappedCells;
+  this->NumberOfInvertedCellsBefore = report.invertedBefore;
+  this->NumberOfInvertedCellsAfter = report.invertedAfter;
   this->StopReason = static_cast<int>(report.stopReason);
   this->NumberOfOperations = outcome.NumberOfOperations;
   this->OptimizeSeconds = outcome.Seconds;
@@ -311,6 +319,10 @@ void vtkMeshOptimizeFilter::Warn(const bridge::Outcome& outcome)
     vtkWarningMacro(<< outcome.NumberOfReorientedCells
                     << " cells were numbered the wrong way round (negative volume); they have been "
                        "renumbered.");
+  }
+  if (!outcome.Tangle.empty())
+  {
+    vtkWarningMacro(<< outcome.Tangle);
   }
 }
 

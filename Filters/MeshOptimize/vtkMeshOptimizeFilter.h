@@ -16,9 +16,11 @@
  *
  * <b>What is kept.</b> The surface, bit for bit (in the plane: the boundary edges); the faces
  * between regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality
- * never falls, and no cell is inverted that was not. Inverted and flat cells in the input are
- * worked on. Cells that are numbered against their neighbours are renumbered (counted in the field
- * data `NumberOfReorientedCells`).
+ * never falls, so that no cell is inverted if none was. Inverted and flat cells in the input are
+ * repaired where the surface allows it; a warning names those that are left, and why. (Where it
+ * does not, there may be more of them in the end, if the worst is less inverted then.) Cells that
+ * are numbered against their neighbours are renumbered (counted in the field data
+ * `NumberOfReorientedCells`).
  *
  * <b>Output port 0: the mesh.</b> Points: those of the input that are still there, in their old
  * order, then the new ones; cells likewise. Coordinates of points that have not moved are the same
@@ -34,7 +36,8 @@
  *   up here). Pedigree ids: as other arrays that are not interpolated, but a moved point keeps its
  *   own.
  * - field data: kept; added are `WorstQualityBefore`, `WorstQualityAfter`, `MeanQualityBefore`,
- *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfReorientedCells`,
+ *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`,
+ *   `NumberOfInvertedCellsBefore`, `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`,
  *   `NumberOfOperations` and `StopReason`.
  * - the cell array `MeshQuality` (double): quality by the chosen measure; NaN for other cells.
  *
@@ -369,6 +372,17 @@ public:
 
   ///@{
   /**
+   * Cells of which the last run found no positive quality: inverted or flat ones. Those that are
+   * left are named in a warning, with the reason why they could not be repaired; in the output
+   * their MeshQuality is 0 or negative. Cells that only were numbered the wrong way round are not
+   * among them.
+   */
+  vtkGetMacro(NumberOfInvertedCellsBefore, vtkIdType);
+  vtkGetMacro(NumberOfInvertedCellsAfter, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
    * Why the last run stopped, as StopReasonType and as a sentence. Of several blocks: the one that
    * says most (aborted, a limit, no further gain, capped, target reached).
    */
@@ -437,6 +451,8 @@ private:
   double MeanQualityAfter = 0.0;
   double QualityBound = 0.0;
   vtkIdType NumberOfCappedCells = 0;
+  vtkIdType NumberOfInvertedCellsBefore = 0;
+  vtkIdType NumberOfInvertedCellsAfter = 0;
   int StopReason = NotRun;
   vtkIdType NumberOfOperations = 0;
   double OptimizeSeconds = 0.0;

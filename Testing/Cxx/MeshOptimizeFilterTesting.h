@@ -341,6 +341,15 @@ public:
     this->Watch(filter);
     this->Watch(filter->GetExecutive());
   }
+  ~Messages()
+  {
+    for (const auto& watch : this->Watches)
+    {
+      watch.first->RemoveObserver(watch.second);
+    }
+  }
+  Messages(const Messages&) = delete;
+  void operator=(const Messages&) = delete;
   std::vector<std::string> Errors, Warnings;
 
 private:
@@ -357,9 +366,10 @@ private:
           (which == vtkCommand::ErrorEvent ? mine->Errors : mine->Warnings)
             .emplace_back(static_cast<const char*>(text));
         });
-      object->AddObserver(event, observer);
+      this->Watches.emplace_back(object, object->AddObserver(event, observer));
     }
   }
+  std::vector<std::pair<vtkSmartPointer<vtkObject>, unsigned long>> Watches;
 };
 
 inline double MinimumOf(vtkDataArray* array)

@@ -101,6 +101,8 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkDoubleArray>(fields, "MeanQualityAfter", report.meanAfter);
   AddFigure<vtkDoubleArray>(fields, "QualityBound", report.bound);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfCappedCells", report.cappedCells);
+  AddFigure<vtkIdTypeArray>(fields, "NumberOfInvertedCellsBefore", report.invertedBefore);
+  AddFigure<vtkIdTypeArray>(fields, "NumberOfInvertedCellsAfter", report.invertedAfter);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
   AddFigure<vtkStringArray>(

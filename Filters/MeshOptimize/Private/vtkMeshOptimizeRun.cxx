@@ -7,6 +7,7 @@
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeImport.h"
 #include "vtkMeshOptimizeQuality.h"
+#include "vtkMeshOptimizeTangle.h"
 #include "vtkMeshOptimizeTransfer.h"
 #include "vtkMeshOptimizeZone.h"
 
@@ -60,7 +61,7 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
 template <int D>
 void Export(vtkUnstructuredGrid* input, const Cells& cells, const Frame<D>& frame,
   const meshopt::SimplexMesh<D>& mesh, const meshopt::NodalMetric<D>& metric,
-  const Request& request, vtkUnstructuredGrid* output)
+  const Request& request, vtkUnstructuredGrid* output, Outcome& outcome)
 {
   const OutputMap map = MapOutput(input, cells, frame, mesh);
   ExportMesh(input, map, frame, mesh, output);
@@ -72,6 +73,7 @@ void Export(vtkUnstructuredGrid* input, const Cells& cells, const Frame<D>& fram
   TransferPointData(input->GetPointData(), map, samples, output->GetPointData());
   TransferCellData(input->GetCellData(), map, output->GetCellData());
   AddMeshQuality(input, map, mesh, metric, request.Options, output);
+  outcome.Tangle = DescribeTangle(output, map, mesh, outcome.Report);
 }
 
 template <int D>
@@ -105,7 +107,7 @@ std::string OptimizeSimplices(vtkUnstructuredGrid* input, Cells& cells, const In
   }
   Optimize(mesh, metric, request, outcome);
   AddLeftOut(rest, outcome);
-  Export(input, cells, frame, mesh, metric, request, output);
+  Export(input, cells, frame, mesh, metric, request, output, outcome);
   return {};
 }
 
@@ -167,6 +169,8 @@ void Outcome::Add(const Outcome& other)
       mine.meanBefore, this->NumberOfCellsBefore, its.meanBefore, other.NumberOfCellsBefore);
     mine.meanAfter = Mean(mine.meanAfter, this->NumberOfCells, its.meanAfter, other.NumberOfCells);
     mine.cappedCells += its.cappedCells;
+    mine.invertedBefore += its.invertedBefore;
+    mine.invertedAfter += its.invertedAfter;
   }
   if (Strength(its.stopReason) > Strength(mine.stopReason))
   {
@@ -178,6 +182,7 @@ void Outcome::Add(const Outcome& other)
   this->NumberOfQuadraticSimplices += other.NumberOfQuadraticSimplices;
   this->NumberOfOperations += other.NumberOfOperations;
   this->Seconds += other.Seconds;
+  this->Tangle += (this->Tangle.empty() || other.Tangle.empty() ? "" : " ") + other.Tangle;
 }
 
 std::string OptimizeGrid(

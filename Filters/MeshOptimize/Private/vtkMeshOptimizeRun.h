@@ -43,9 +43,10 @@ struct Outcome
   vtkIdType NumberOfQuadraticSimplices = 0;
   vtkIdType NumberOfOperations = 0;
   double Seconds = 0.0;
+  std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
   /// Takes another grid's outcome in: minima, means by number of cells, sums, the strongest stop
-  /// reason. Histories are not joined.
+  /// reason, sentences. Histories are not joined.
   void Add(const Outcome& other);
 };
 

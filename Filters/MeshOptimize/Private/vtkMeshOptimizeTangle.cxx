@@ -1,0 +1,264 @@
+#include "vtkMeshOptimizeTangle.h"
+
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "Boundary/SurfaceFaults.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace vtkMeshOptimizeBridge
+{
+
+using meshopt::Facet;
+using meshopt::Index;
+using meshopt::SimplexMesh;
+using meshopt::SurfaceFault;
+
+namespace
+{
+
+constexpr std::size_t NumberOfExamples = 5;
+
+/**
+ * The first three as in SurfaceFault::Kind.
+ */
+enum Reason
+{
+  NoArea,
+  Folded,
+  Crossing,
+  EndedEarly,
+  AllKept,
+  NothingFound,
+  NumberOfReasons
+};
+
+/**
+ * Cells of the output with one reason.
+ */
+struct Group
+{
+  std::vector<std::size_t> Cells;
+  std::string Faces; ///< of the surface, for the first one
+};
+
+template <int D>
+std::string ListPoints(const Facet<D>& facet)
+{
+  std::string text;
+  for (Index p : facet)
+  {
+    text += (text.empty() ? "" : " ") + std::to_string(p);
+  }
+  return text;
+}
+
+template <int D>
+std::string ListFaces(const SurfaceFault<D>& fault)
+{
+  const std::string text = ListPoints<D>(fault.facets[0]);
+  return fault.kind == SurfaceFault<D>::NoArea ? text
+                                               : text + " and " + ListPoints<D>(fault.facets[1]);
+}
+
+/**
+ * Faults by their points, and those of facets without area by their facet.
+ */
+template <int D>
+class FaultFinder
+{
+public:
+  FaultFinder(const SimplexMesh<D>& mesh, const std::vector<Index>& slots)
+    : Mesh(mesh)
+    , Faults(meshopt::findSurfaceFaults(mesh, slots))
+    , FaultOfPoint(mesh.numberOfPointSlots(), nullptr)
+  {
+    for (auto fault = this->Faults.rbegin(); fault != this->Faults.rend(); ++fault)
+    {
+      if (fault->kind == SurfaceFault<D>::NoArea)
+      {
+        continue;
+      }
+      for (const Facet<D>& facet : fault->facets)
+      {
+        for (Index p : facet)
+        {
+          this->FaultOfPoint[p] = &*fault; // the first one of the list stays
+        }
+      }
+    }
+  }
+
+  /// What explains a cell: a facet of its own without area, else a fault at its neighbours' nodes.
+  const SurfaceFault<D>* Find(Index slot) const
+  {
+    const SurfaceFault<D>* found = this->FindFacet(slot);
+    std::vector<Index> star;
+    for (int i = 0; i <= D && !found; ++i)
+    {
+      this->Mesh.star(this->Mesh.nodes(slot)[i], star);
+      for (Index c : star)
+      {
+        for (Index p : this->Mesh.nodes(c))
+        {
+          const SurfaceFault<D>* fault = this->FaultOfPoint[p];
+          found = fault && (!found || fault < found) ? fault : found;
+        }
+      }
+    }
+    return found;
+  }
+
+private:
+  const SurfaceFault<D>* FindFacet(Index slot) const
+  {
+    for (const SurfaceFault<D>& fault : this->Faults)
+    {
+      if (fault.kind != SurfaceFault<D>::NoArea)
+      {
+        break;
+      }
+      const Facet<D>& f = fault.facets[0];
+      if (std::all_of(
+            f.begin(), f.end(), [&](Index p) { return this->Mesh.localIndex(slot, p) >= 0; }))
+      {
+        return &fault;
+      }
+    }
+    return nullptr;
+  }
+
+  const SimplexMesh<D>& Mesh;
+  std::vector<SurfaceFault<D>> Faults; ///< by kind
+  std::vector<const SurfaceFault<D>*> FaultOfPoint;
+};
+
+template <int D>
+Reason FindReason(const SimplexMesh<D>& mesh, const meshopt::Report& report, Index slot)
+{
+  using meshopt::StopReason;
+  if (report.stopReason == StopReason::Aborted || report.stopReason == StopReason::TimeLimit ||
+    report.stopReason == StopReason::IterationLimit)
+  {
+    return EndedEarly;
+  }
+  const auto& nodes = mesh.nodes(slot);
+  return std::all_of(nodes.begin(), nodes.end(), [&](Index p) { return mesh.isFixed(p); })
+    ? AllKept
+    : NothingFound;
+}
+
+std::string Explain(Reason reason, const std::string& faces, int dimension)
+{
+  const std::string noun = dimension == 3 ? "faces" : "edges";
+  const std::string points = " (points of the input " + faces + ")";
+  switch (reason)
+  {
+    case NoArea:
+      return (dimension == 3 ? "with a face without area on the kept surface"
+                             : "with an edge without length on the kept boundary") +
+        points;
+    case Folded:
+      return "where kept " + noun + " are folded onto each other" + points;
+    case Crossing:
+      return "where kept " + noun + " pass through each other" + points;
+    case EndedEarly:
+      return "left because the run was ended early";
+    case AllKept:
+      return "with no node that may move (surface, " + noun +
+        " between regions, fixed points) and no other connection found";
+    default:
+      return "that nothing tried could repair";
+  }
+}
+
+std::string ListCells(vtkUnstructuredGrid* output, const OutputMap& map, const Group& group)
+{
+  std::ostringstream text;
+  vtkNew<vtkIdList> ids;
+  for (std::size_t k = 0; k < std::min(group.Cells.size(), NumberOfExamples); ++k)
+  {
+    const std::size_t cell = group.Cells[k];
+    text << (k == 0 ? "" : ", ");
+    if (static_cast<vtkIdType>(cell) < map.NumberOfOldCells)
+    {
+      text << "cell " << map.CellToSource[cell];
+      continue;
+    }
+    double centre[3] = { 0.0, 0.0, 0.0 };
+    output->GetCellPoints(static_cast<vtkIdType>(cell), ids);
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      double x[3];
+      output->GetPoint(ids->GetId(i), x);
+      for (int d = 0; d < 3; ++d)
+      {
+        centre[d] += x[d] / static_cast<double>(ids->GetNumberOfIds());
+      }
+    }
+    text << "cell " << cell << " of the output, at (" << centre[0] << ", " << centre[1] << ", "
+         << centre[2] << ")";
+  }
+  return text.str() + (group.Cells.size() > NumberOfExamples ? ", ..." : "");
+}
+
+} // namespace
+
+template <int D>
+std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
+  const SimplexMesh<D>& mesh, const meshopt::Report& report)
+{
+  std::vector<std::size_t> bad;
+  std::vector<Index> slots;
+  for (std::size_t c = 0; c < map.CellToSlot.size(); ++c)
+  {
+    const Index slot = map.CellToSlot[c];
+    if (slot != meshopt::None && !(mesh.quality(slot) > 0.0))
+    {
+      bad.push_back(c);
+      slots.push_back(slot);
+    }
+  }
+  if (bad.empty())
+  {
+    return {};
+  }
+  const FaultFinder<D> finder(mesh, slots);
+  Group groups[NumberOfReasons];
+  for (std::size_t k = 0; k < bad.size(); ++k)
+  {
+    const SurfaceFault<D>* fault = finder.Find(slots[k]);
+    Group& group =
+      groups[fault ? static_cast<Reason>(fault->kind) : FindReason(mesh, report, slots[k])];
+    if (group.Cells.empty() && fault)
+    {
+      group.Faces = ListFaces<D>(*fault);
+    }
+    group.Cells.push_back(bad[k]);
+  }
+  std::string text = bad.size() == 1
+    ? "1 cell is still inverted or flat: "
+    : std::to_string(bad.size()) + " cells are still inverted or flat: ";
+  const char* separator = "";
+  for (int reason = 0; reason < NumberOfReasons; ++reason)
+  {
+    const Group& group = groups[reason];
+    if (!group.Cells.empty())
+    {
+      text += separator + std::to_string(group.Cells.size()) + " " +
+        Explain(static_cast<Reason>(reason), group.Faces, D) + ", " + ListCells(output, map, group);
+      separator = "; ";
+    }
+  }
+  return text + ".";
+}
+
+template std::string DescribeTangle<2>(
+  vtkUnstructuredGrid*, const OutputMap&, const SimplexMesh<2>&, const meshopt::Report&);
+template std::string DescribeTangle<3>(
+  vtkUnstructuredGrid*, const OutputMap&, const SimplexMesh<3>&, const meshopt::Report&);
+
+} // namespace vtkMeshOptimizeBridge

@@ -1,0 +1,37 @@
+/**
+ * Inverted and flat cells that are left at the end: which ones, and why.
+ */
+#ifndef vtkMeshOptimizeTangle_h
+#define vtkMeshOptimizeTangle_h
+
+#include "vtkMeshOptimizeExport.h"
+
+#include "Optimize/Options.h"
+
+#include <string>
+
+class vtkUnstructuredGrid;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * A sentence for the user about the cells of the output whose quality is not positive, or an empty
+ * string if there is none. For each reason: how many, the first few by their ids in the input, new
+ * ones by their ids in the output and their places, and an example. Reasons, the first that
+ * applies:
+ * - a kept face without area: its cells have no volume;
+ * - kept faces that are folded onto each other or pass through each other, near the cell;
+ * - the run ended before its time (aborted, a limit);
+ * - all nodes are kept, and no other connection was found;
+ * - none of these.
+ *
+ * `output` has its points and cells. Linear in the size of the mesh.
+ */
+template <int D>
+std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
+  const meshopt::SimplexMesh<D>& mesh, const meshopt::Report& report);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif
