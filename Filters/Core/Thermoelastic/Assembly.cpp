@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Thermoelastic/Assembly.h"
+
+#include "Thermoelastic/Parallel.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+namespace meshopt::fem
+{
+namespace
+{
+template <int D>
+ElementGeometry<D> elementGeometry(const Corners<D>& x)
+{
+  Eigen::Matrix<double, D, D> edges;
+  for (int i = 0; i < D; ++i)
+  {
+    edges.row(i) = (x[i + 1] - x[0]).transpose();
+  }
+  const Eigen::Matrix<double, D, D> inverse = edges.inverse();
+  ElementGeometry<D> g;
+  g.volume = signedVolume(x);
+  g.gradients[0].setZero();
+  for (int i = 0; i < D; ++i)
+  {
+    g.gradients[i + 1] = inverse.col(i);
+    g.gradients[0] -= inverse.col(i);
+  }
+  return g;
+}
+
+/// Cells around each point, by counting.
+template <int D>
+Rows findCellsOfPoints(const SimplexMesh<D>& mesh)
+{
+  Rows rows;
+  rows.offsets.assign(mesh.numberOfPointSlots() + 1, 0);
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (Index p : mesh.nodes(c))
+    {
+      ++rows.offsets[p + 1];
+    }
+  }
+  for (std::size_t p = 1; p < rows.offsets.size(); ++p)
+  {
+    rows.offsets[p] += rows.offsets[p - 1];
+  }
+  rows.items.resize(rows.offsets.back());
+  std::vector<Index> next(rows.offsets.begin(), rows.offsets.end() - 1);
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (Index p : mesh.nodes(c))
+    {
+      rows.items[next[p]++] = c;
+    }
+  }
+  return rows;
+}
+
+/// Points that share a cell with point p, p included, ascending.
+template <int D>
+void findNeighbours(
+  const SimplexMesh<D>& mesh, const Rows& cellsOfPoint, Index p, std::vector<Index>& neighbours)
+{
+  neighbours.clear();
+  for (const Index* c = cellsOfPoint.begin(p); c != cellsOfPoint.end(p); ++c)
+  {
+    const Simplex<D>& nodes = mesh.nodes(*c);
+    neighbours.insert(neighbours.end(), nodes.begin(), nodes.end());
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+}
+
+/// Block (i, j) of an element's matrix. Products are grouped such that block (j, i) is its exact
+/// transpose.
+template <int D>
+Tensor<D> stiffnessBlock(const ElementGeometry<D>& g, const Elasticity<D>& e, int i, int j)
+{
+  const Vec<D>&gi = g.gradients[i], &gj = g.gradients[j];
+  const double diagonal = e.mu * gi.dot(gj);
+  Tensor<D> block;
+  for (int a = 0; a < D; ++a)
+  {
+    for (int b = 0; b < D; ++b)
+    {
+      block(a, b) = g.volume *
+        (e.lambda * (gi[a] * gj[b]) + e.mu * (gi[b] * gj[a]) + (a == b ? diagonal : 0.0));
+    }
+  }
+  return block;
+}
+
+/// What temperature and the strain out of the plane put on the right-hand side at node i.
+template <int D>
+Vec<D> initialForce(const Discretization<D>& d, Index cell, int i)
+{
+  const Elasticity<D>& e = d.elasticity(cell);
+  const double normal = D == 2 && !e.planeStress ? d.outOfPlaneStrain : 0.0;
+  const ElementGeometry<D>& g = d.elements[cell];
+  return g.volume * (e.beta * d.rise(cell) - e.lambda * normal) * g.gradients[i];
+}
+
+/// Gathers the rows of one point after another.
+template <int D>
+class RowGatherer
+{
+public:
+  RowGatherer(const SimplexMesh<D>& mesh, const Discretization<D>& d, const Unknowns& unknowns,
+    const std::vector<Vec<D>>& forces, LinearSystem& system)
+    : mesh_(mesh)
+    , d_(d)
+    , unknowns_(unknowns)
+    , forces_(forces)
+    , system_(system)
+  {
+  }
+
+  void run(Index p)
+  {
+    findNeighbours(this->mesh_, this->d_.cellsOfPoint, p, this->neighbours_);
+    this->gather(p);
+    for (int a = 0; a < D; ++a)
+    {
+      this->write(p, a);
+    }
+  }
+
+private:
+  void gather(Index p)
+  {
+    this->blocks_.assign(this->neighbours_.size(), Tensor<D>::Zero());
+    this->force_ = this->forces_.empty() ? Vec<D>(Vec<D>::Zero()) : this->forces_[p];
+    const Rows& cells = this->d_.cellsOfPoint;
+    for (const Index* c = cells.begin(p); c != cells.end(p); ++c)
+    {
+      const int i = this->mesh_.localIndex(*c, p);
+      for (int j = 0; j <= D; ++j)
+      {
+        const auto place = std::lower_bound(
+          this->neighbours_.begin(), this->neighbours_.end(), this->mesh_.nodes(*c)[j]);
+        this->blocks_[place - this->neighbours_.begin()] += stiffnessBlock(
+          this->d_.elements[*c], this->d_.elasticity(*c), i, j);
+      }
+      this->force_ += initialForce(this->d_, *c, i);
+    }
+  }
+
+  void write(Index p, int a)
+  {
+    const Index row = this->unknowns_.numbers[D * p + a];
+    if (row == None)
+    {
+      return;
+    }
+    double right = this->force_[a];
+    int next = this->system_.matrix.outerIndexPtr()[row];
+    for (std::size_t k = 0; k < this->neighbours_.size(); ++k)
+    {
+      for (int b = 0; b < D; ++b)
+      {
+        const Index dof = D * this->neighbours_[k] + b;
+        const double value = this->blocks_[k](a, b);
+        if (this->unknowns_.numbers[dof] == None)
+        {
+          right -= value * this->unknowns_.prescribed[dof];
+          continue;
+        }
+        this->system_.matrix.innerIndexPtr()[next] = this->unknowns_.numbers[dof];
+        this->system_.matrix.valuePtr()[next] = value;
+        ++next;
+      }
+    }
+    this->system_.right[row] = right;
+  }
+
+  const SimplexMesh<D>& mesh_;
+  const Discretization<D>& d_;
+  const Unknowns& unknowns_;
+  const std::vector<Vec<D>>& forces_;
+  LinearSystem& system_;
+  std::vector<Index> neighbours_;
+  std::vector<Tensor<D>> blocks_;
+  Vec<D> force_;
+};
+
+/// Number of entries of the rows of each point.
+template <int D>
+std::vector<int> countEntries(const SimplexMesh<D>& mesh, const Discretization<D>& d,
+  const Unknowns& unknowns, const Control& control)
+{
+  std::vector<int> counts(mesh.numberOfPointSlots(), 0);
+  parallelRanges(control, mesh.numberOfPointSlots(),
+    [&](Index begin, Index end)
+    {
+      std::vector<Index> neighbours;
+      for (Index p = begin; p < end; ++p)
+      {
+        findNeighbours(mesh, d.cellsOfPoint, p, neighbours);
+        for (Index q : neighbours)
+        {
+          for (int b = 0; b < D; ++b)
+          {
+            counts[p] += unknowns.numbers[D * q + b] != None ? 1 : 0;
+          }
+        }
+      }
+    });
+  return counts;
+}
+}
+
+template <int D>
+Discretization<D> discretize(
+  const SimplexMesh<D>& mesh, const Problem<D>& problem, const Control& control)
+{
+  Discretization<D> d;
+  const Index cells = mesh.numberOfCellSlots();
+  d.outOfPlaneStrain = problem.outOfPlaneStrain;
+  for (const Material& m : problem.materials)
+  {
+    d.materials.emplace_back(m, problem.planeState);
+  }
+  d.elements.resize(cells);
+  d.temperatureRise.resize(problem.temperature.empty() ? 0 : cells);
+  parallelRanges(control, cells,
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        d.elements[c] = elementGeometry<D>(mesh.corners(c));
+        double sum = 0.0;
+        for (int i = 0; i <= D && !problem.temperature.empty(); ++i)
+        {
+          sum += problem.temperature[mesh.nodes(c)[i]] - problem.referenceTemperature;
+        }
+        if (!problem.temperature.empty())
+        {
+          d.temperatureRise[c] = sum / (D + 1);
+        }
+      }
+    });
+  d.cellsOfPoint = findCellsOfPoints(mesh);
+  return d;
+}
+
+template <int D>
+Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint>& constraints)
+{
+  Unknowns u;
+  const std::size_t n = static_cast<std::size_t>(D) * mesh.numberOfPointSlots();
+  u.prescribed.assign(n, 0.0);
+  std::vector<std::uint8_t> isFixed(n, 0);
+  for (const Constraint& c : constraints)
+  {
+    isFixed[D * c.point + c.component] = 1;
+    u.prescribed[D * c.point + c.component] = c.value;
+  }
+  u.numbers.assign(n, None);
+  for (std::size_t dof = 0; dof < n; ++dof)
+  {
+    if (!isFixed[dof] && mesh.isPointAlive(static_cast<Index>(dof / D)))
+    {
+      u.numbers[dof] = u.count++;
+    }
+  }
+  return u;
+}
+
+template <int D>
+LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& d,
+  const Unknowns& unknowns, const std::vector<Vec<D>>& forces, const Control& control)
+{
+  LinearSystem system;
+  const std::vector<int> counts = countEntries(mesh, d, unknowns, control);
+  system.right.resize(unknowns.count);
+  system.matrix.resize(unknowns.count, unknowns.count);
+  int* offsets = system.matrix.outerIndexPtr();
+  offsets[0] = 0;
+  for (std::size_t dof = 0; dof < unknowns.numbers.size(); ++dof)
+  {
+    const Index row = unknowns.numbers[dof];
+    if (row == None)
+    {
+      continue;
+    }
+    if (offsets[row] > std::numeric_limits<int>::max() - counts[dof / D])
+    {
+      throw std::bad_alloc(); // 2^31 entries are 25 GB
+    }
+    offsets[row + 1] = offsets[row] + counts[dof / D];
+  }
+  system.matrix.resizeNonZeros(offsets[unknowns.count]);
+  parallelRanges(control, mesh.numberOfPointSlots(),
+    [&](Index begin, Index end)
+    {
+      RowGatherer<D> gatherer(mesh, d, unknowns, forces, system);
+      for (Index p = begin; p < end; ++p)
+      {
+        if (mesh.isPointAlive(p))
+        {
+          gatherer.run(p);
+        }
+      }
+    });
+  return system;
+}
+
+template <int D>
+std::vector<Stress<D>> elementStresses(const SimplexMesh<D>& mesh, const Discretization<D>& d,
+  const std::vector<Vec<D>>& displacement, const Control& control)
+{
+  std::vector<Stress<D>> stress(mesh.numberOfCellSlots());
+  parallelRanges(control, mesh.numberOfCellSlots(),
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        Tensor<D> gradient = Tensor<D>::Zero();
+        for (int i = 0; i <= D; ++i)
+        {
+          gradient += displacement[mesh.nodes(c)[i]] * d.elements[c].gradients[i].transpose();
+        }
+        stress[c] = d.elasticity(c).stress(gradient, d.rise(c), d.outOfPlaneStrain);
+      }
+    });
+  return stress;
+}
+
+template <int D>
+std::vector<Vec<D>> internalForces(const SimplexMesh<D>& mesh, const Discretization<D>& d,
+  const std::vector<Stress<D>>& stress, const Control& control)
+{
+  std::vector<Vec<D>> forces(mesh.numberOfPointSlots(), Vec<D>::Zero());
+  parallelRanges(control, mesh.numberOfPointSlots(),
+    [&](Index begin, Index end)
+    {
+      for (Index p = begin; p < end; ++p)
+      {
+        for (const Index* c = d.cellsOfPoint.begin(p); c != d.cellsOfPoint.end(p); ++c)
+        {
+          const Tensor<3> s = toTensor<D>(stress[*c]);
+          const ElementGeometry<D>& g = d.elements[*c];
+          forces[p] += g.volume *
+            (s.template topLeftCorner<D, D>() * g.gradients[mesh.localIndex(*c, p)]);
+        }
+      }
+    });
+  return forces;
+}
+
+void multiply(
+  const SparseMatrix& a, const Eigen::VectorXd& x, const Control& control, Eigen::VectorXd& y)
+{
+  const int* offsets = a.outerIndexPtr();
+  const int* columns = a.innerIndexPtr();
+  const double* values = a.valuePtr();
+  const double* from = x.data();
+  double* to = y.data();
+  parallelRanges(control, static_cast<Index>(a.rows()),
+    [=](Index begin, Index end)
+    {
+      for (Index row = begin; row < end; ++row)
+      {
+        double sum = 0.0;
+        for (int k = offsets[row]; k < offsets[row + 1]; ++k)
+        {
+          sum += values[k] * from[columns[k]];
+        }
+        to[row] = sum;
+      }
+    });
+}
+
+template Discretization<2> discretize<2>(const SimplexMesh<2>&, const Problem<2>&, const Control&);
+template Discretization<3> discretize<3>(const SimplexMesh<3>&, const Problem<3>&, const Control&);
+template Unknowns numberUnknowns<2>(const SimplexMesh<2>&, const std::vector<Constraint>&);
+template Unknowns numberUnknowns<3>(const SimplexMesh<3>&, const std::vector<Constraint>&);
+template LinearSystem assemble<2>(const SimplexMesh<2>&, const Discretization<2>&, const Unknowns&,
+  const std::vector<Vec<2>>&, const Control&);
+template LinearSystem assemble<3>(const SimplexMesh<3>&, const Discretization<3>&, const Unknowns&,
+  const std::vector<Vec<3>>&, const Control&);
+template std::vector<Stress<2>> elementStresses<2>(
+  const SimplexMesh<2>&, const Discretization<2>&, const std::vector<Vec<2>>&, const Control&);
+template std::vector<Stress<3>> elementStresses<3>(
+  const SimplexMesh<3>&, const Discretization<3>&, const std::vector<Vec<3>>&, const Control&);
+template std::vector<Vec<2>> internalForces<2>(
+  const SimplexMesh<2>&, const Discretization<2>&, const std::vector<Stress<2>>&, const Control&);
+template std::vector<Vec<3>> internalForces<3>(
+  const SimplexMesh<3>&, const Discretization<3>&, const std::vector<Stress<3>>&, const Control&);
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Assembly.h
+/// From the mesh to the linear system: gradients, sparsity, matrix and right-hand side.
+///
+/// Rows are gathered point by point from the cells around the point, in ascending order of their
+/// ids. No two threads write the same row, and no sum depends on who does what: the same bits for
+/// any number of threads. The matrix is symmetric bit by bit.
+#ifndef meshopt_Thermoelastic_Assembly_h
+#define meshopt_Thermoelastic_Assembly_h
+
+#include "Mesh/SimplexMesh.h"
+#include "Optimize/Options.h"
+#include "Thermoelastic/Problem.h"
+
+#include <Eigen/SparseCore>
+
+#include <array>
+#include <vector>
+
+namespace meshopt::fem
+{
+/// What an element's matrix is made of.
+template <int D>
+struct ElementGeometry
+{
+  std::array<Vec<D>, D + 1> gradients; ///< of the shape functions, constant in the element
+  double volume = 0.0;                 ///< > 0
+};
+
+/// Lists of numbers, one list per row: entries offsets[i] .. offsets[i + 1] - 1 of items.
+struct Rows
+{
+  std::vector<Index> offsets, items;
+  const Index* begin(Index i) const { return this->items.data() + this->offsets[i]; }
+  const Index* end(Index i) const { return this->items.data() + this->offsets[i + 1]; }
+};
+
+/// A mesh made ready for finite elements.
+template <int D>
+struct Discretization
+{
+  std::vector<ElementGeometry<D>> elements;
+  std::vector<Elasticity<D>> materials; ///< one, or one per cell
+  std::vector<double> temperatureRise;  ///< mean of each cell over the reference; empty: zero
+  Rows cellsOfPoint;                    ///< ascending
+  double outOfPlaneStrain = 0.0;
+
+  const Elasticity<D>& elasticity(Index cell) const
+  {
+    return this->materials.size() == 1 ? this->materials[0] : this->materials[cell];
+  }
+  double rise(Index cell) const
+  {
+    return this->temperatureRise.empty() ? 0.0 : this->temperatureRise[cell];
+  }
+};
+
+/// Preconditions: check() has found nothing.
+template <int D>
+Discretization<D> discretize(
+  const SimplexMesh<D>& mesh, const Problem<D>& problem, const Control& control);
+
+/// Which components of which points are unknown.
+struct Unknowns
+{
+  /// Number of the unknown, or None where the displacement is prescribed or no cell uses the point;
+  /// D per point.
+  std::vector<Index> numbers;
+  std::vector<double> prescribed; ///< D per point; zero where nothing is prescribed
+  Index count = 0;
+};
+
+template <int D>
+Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint>& constraints);
+
+/// Row major, so that its rows can be multiplied in parallel.
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+struct LinearSystem
+{
+  SparseMatrix matrix; ///< symmetric, all entries stored
+  Eigen::VectorXd right;
+};
+
+/// The equations of the unknowns; prescribed displacements are on the right-hand side. A matrix of
+/// 2^31 entries or more is std::bad_alloc.
+template <int D>
+LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& discretization,
+  const Unknowns& unknowns, const std::vector<Vec<D>>& forces, const Control& control);
+
+/// Stress of each cell at its centroid.
+template <int D>
+std::vector<Stress<D>> elementStresses(const SimplexMesh<D>& mesh,
+  const Discretization<D>& discretization, const std::vector<Vec<D>>& displacement,
+  const Control& control);
+
+/// Forces at each point that keep the element stresses in equilibrium: integral of B' sigma.
+template <int D>
+std::vector<Vec<D>> internalForces(const SimplexMesh<D>& mesh,
+  const Discretization<D>& discretization, const std::vector<Stress<D>>& stress,
+  const Control& control);
+
+/// y = A x, row by row.
+void multiply(
+  const SparseMatrix& a, const Eigen::VectorXd& x, const Control& control, Eigen::VectorXd& y);
+}
+
+#endif

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Thermoelastic/LinearSolver.h"
+
+#include "Optimize/Progress.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
+
+#include <cmath>
+#include <cstdint>
+
+namespace meshopt::fem
+{
+namespace
+{
+using Eigen::VectorXd;
+
+class DiagonalPreconditioner
+{
+public:
+  explicit DiagonalPreconditioner(const SparseMatrix& a)
+    : inverse_(a.diagonal().cwiseInverse())
+  {
+  }
+  void apply(const VectorXd& r, VectorXd& z) const { z = this->inverse_.cwiseProduct(r); }
+
+private:
+  VectorXd inverse_;
+};
+
+class CholeskyPreconditioner
+{
+public:
+  explicit CholeskyPreconditioner(const SparseMatrix& a)
+  {
+    const Eigen::SparseMatrix<double> lower = a.triangularView<Eigen::Lower>();
+    this->factor_.compute(lower);
+  }
+  void apply(const VectorXd& r, VectorXd& z) const { z = this->factor_.solve(r); }
+
+private:
+  Eigen::IncompleteCholesky<double, Eigen::Lower> factor_;
+};
+
+/// How far the logarithm of the residual has come.
+double fractionDone(double residual, double tolerance)
+{
+  const double f = std::log(residual) / std::log(tolerance);
+  return std::isfinite(f) ? std::min(1.0, std::max(0.0, f)) : 0.0;
+}
+
+template <class Preconditioner>
+SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& options,
+  const Control& control, double first, double last, VectorXd& x)
+{
+  SolverReport report;
+  const VectorXd& b = system.right;
+  const double norm2 = b.squaredNorm();
+  const double goal = options.tolerance * options.tolerance;
+  const Preconditioner preconditioner(system.matrix);
+  VectorXd r = b, p(b.size()), z(b.size()), product(b.size());
+  preconditioner.apply(r, p);
+  double rz = r.dot(p);
+  report.history.push_back(1.0);
+  Progress progress(control);
+  while (report.status == SolverStatus::NotRun)
+  {
+    if (report.iterations == options.maximumNumberOfIterations)
+    {
+      report.status = SolverStatus::IterationLimit;
+      break;
+    }
+    multiply(system.matrix, p, control, product);
+    const double curvature = p.dot(product);
+    const double step = rz / curvature;
+    if (!(curvature > 0.0) || !std::isfinite(step))
+    {
+      report.status = SolverStatus::Breakdown;
+      break;
+    }
+    x += step * p;
+    r -= step * product;
+    ++report.iterations;
+    const double residual2 = r.squaredNorm() / norm2;
+    report.history.push_back(std::sqrt(residual2));
+    if (residual2 < goal)
+    {
+      report.status = SolverStatus::Converged;
+      break;
+    }
+    preconditioner.apply(r, z);
+    const double before = rz;
+    rz = r.dot(z);
+    p = z + rz / before * p;
+    const double done = fractionDone(report.history.back(), options.tolerance);
+    const bool goOn = progress.report(first + (last - first) * done,
+      [&] { return "Solving, step " + std::to_string(report.iterations); });
+    report.status = goOn ? report.status : SolverStatus::Cancelled;
+  }
+  report.relativeResidual = report.history.back();
+  return report;
+}
+
+SolverReport factorize(const LinearSystem& system, const SolverOptions& options, VectorXd& x)
+{
+  SolverReport report;
+  // 64 bits: the factor can have far more entries than the matrix.
+  using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
+  const Matrix lower = system.matrix.triangularView<Eigen::Lower>();
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<std::int64_t>> factor(lower);
+  if (factor.info() == Eigen::Success)
+  {
+    x = factor.solve(system.right);
+    report.relativeResidual = (system.right - system.matrix * x).norm() / system.right.norm();
+    report.history.push_back(1.0);
+    report.history.push_back(report.relativeResidual);
+  }
+  const bool solved = factor.info() == Eigen::Success && std::isfinite(report.relativeResidual);
+  report.status = !solved                          ? SolverStatus::Breakdown
+    : report.relativeResidual <= options.tolerance ? SolverStatus::Converged
+                                                   : SolverStatus::IterationLimit;
+  return report;
+}
+}
+
+const char* toString(SolverStatus status)
+{
+  switch (status)
+  {
+    case SolverStatus::NotRun:
+      return "not run";
+    case SolverStatus::Converged:
+      return "converged";
+    case SolverStatus::IterationLimit:
+      return "tolerance not reached";
+    case SolverStatus::Breakdown:
+      return "broke down";
+    case SolverStatus::Cancelled:
+      return "aborted";
+  }
+  return "";
+}
+
+SolverReport solve(const LinearSystem& system, const SolverOptions& options, const Control& control,
+  double first, double last, VectorXd& x)
+{
+  x = VectorXd::Zero(system.right.size());
+  if (system.right.size() == 0 || system.right.squaredNorm() == 0.0)
+  {
+    SolverReport report;
+    report.status = SolverStatus::Converged;
+    report.history.push_back(0.0);
+    return report;
+  }
+  switch (options.solver)
+  {
+    case Solver::IncompleteCholesky:
+      return conjugateGradient<CholeskyPreconditioner>(system, options, control, first, last, x);
+    case Solver::Direct:
+      return factorize(system, options, x);
+    case Solver::ConjugateGradient:
+      break;
+  }
+  return conjugateGradient<DiagonalPreconditioner>(system, options, control, first, last, x);
+}
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Thermoelastic/Problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace meshopt::fem
+{
+namespace
+{
+std::optional<Error> checkLength(
+  const char* what, std::size_t have, std::size_t want, const char* of)
+{
+  if (have == want)
+  {
+    return std::nullopt;
+  }
+  std::ostringstream text;
+  text << what << ": " << have << " values for " << want << " " << of << ".";
+  return Error{ text.str() };
+}
+
+template <int D>
+std::optional<Error> checkLengths(const SimplexMesh<D>& mesh, const Problem<D>& problem)
+{
+  const std::size_t cells = mesh.numberOfCellSlots(), points = mesh.numberOfPointSlots();
+  std::optional<Error> error;
+  if (cells == 0)
+  {
+    return Error{ "The mesh has no elements." };
+  }
+  if (problem.materials.size() != 1)
+  {
+    error = checkLength("Materials", problem.materials.size(), cells, "cells");
+  }
+  if (!error && !problem.temperature.empty())
+  {
+    error = checkLength("Temperature", problem.temperature.size(), points, "points");
+  }
+  if (!error && !problem.forces.empty())
+  {
+    error = checkLength("Forces", problem.forces.size(), points, "points");
+  }
+  return error;
+}
+
+template <int D>
+std::optional<Error> checkMaterials(const Problem<D>& problem)
+{
+  const bool one = problem.materials.size() == 1;
+  for (std::size_t c = 0; c < problem.materials.size(); ++c)
+  {
+    const std::string error = checkMaterial(
+      problem.materials[c], one ? std::string() : " of cell " + std::to_string(c));
+    if (!error.empty())
+    {
+      return Error{ error, one ? None : static_cast<Index>(c) };
+    }
+  }
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<Error> checkPoints(const SimplexMesh<D>& mesh, const Problem<D>& problem)
+{
+  if (!std::isfinite(problem.referenceTemperature))
+  {
+    return Error{ "The reference temperature is not finite." };
+  }
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (!mesh.isPointAlive(p))
+    {
+      continue;
+    }
+    if (!problem.temperature.empty() && !std::isfinite(problem.temperature[p]))
+    {
+      std::ostringstream text;
+      text << "The temperature at point " << p << " is " << problem.temperature[p]
+           << "; it must be finite.";
+      return Error{ text.str(), None, p };
+    }
+    if (!problem.forces.empty() && !problem.forces[p].allFinite())
+    {
+      return Error{ "The load at point " + std::to_string(p) + " is not finite.", None, p };
+    }
+  }
+  return std::nullopt;
+}
+
+template <int D>
+std::optional<Error> checkConstraints(const SimplexMesh<D>& mesh, const Problem<D>& problem)
+{
+  for (const Constraint& c : problem.constraints)
+  {
+    if (c.point < 0 || c.point >= mesh.numberOfPointSlots())
+    {
+      return Error{ "A constraint is on point " + std::to_string(c.point) + ", which is not there.",
+        None, c.point };
+    }
+    if (c.component < 0 || c.component >= D)
+    {
+      return Error{ "A constraint on point " + std::to_string(c.point) + " is on component " +
+          std::to_string(c.component) + ", but there are " + std::to_string(D) + ".",
+        None, c.point };
+    }
+    if (!std::isfinite(c.value) && mesh.isPointAlive(c.point))
+    {
+      return Error{ "The prescribed displacement at point " + std::to_string(c.point) +
+          " is not finite.",
+        None, c.point };
+    }
+  }
+  return std::nullopt;
+}
+
+/// Shape quality (2.3).
+template <int D>
+double shape(const Corners<D>& x)
+{
+  double perimeter = 0.0;
+  for (const auto& e : Local<D>::edges)
+  {
+    perimeter += (x[e[1]] - x[e[0]]).norm();
+  }
+  const double scale = D == 3 ? 1296.0 * std::sqrt(2.0) : 36.0 / std::sqrt(3.0);
+  return scale * signedVolume(x) / std::pow(perimeter, D);
+}
+
+template <int D>
+std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
+{
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    const Corners<D> x = mesh.corners(c);
+    const double s = shape<D>(x);
+    if (s > FlatShape)
+    {
+      continue;
+    }
+    std::ostringstream text;
+    text << "Cell " << c << (s < -FlatShape ? " is inverted" : " is flat") << ": its "
+         << (D == 3 ? "volume" : "area") << " is " << signedVolume(x)
+         << ". Every element needs a positive one; MeshOptimize mends such cells.";
+    return Error{ text.str(), c };
+  }
+  return std::nullopt;
+}
+
+template <int D>
+double meanTemperatureRise(const SimplexMesh<D>& mesh, const Problem<D>& problem, Index cell)
+{
+  if (problem.temperature.empty())
+  {
+    return 0.0;
+  }
+  double sum = 0.0;
+  for (Index p : mesh.nodes(cell))
+  {
+    sum += problem.temperature[p];
+  }
+  return sum / (D + 1) - problem.referenceTemperature;
+}
+}
+
+template <int D>
+std::optional<Error> check(const SimplexMesh<D>& mesh, const Problem<D>& problem)
+{
+  std::optional<Error> error = checkLengths(mesh, problem);
+  if (!error)
+  {
+    error = checkMaterials(problem);
+  }
+  if (!error)
+  {
+    error = checkPoints(mesh, problem);
+  }
+  if (!error && !std::isfinite(problem.outOfPlaneStrain))
+  {
+    error = Error{ "The strain out of the plane is not finite." };
+  }
+  if (!error)
+  {
+    error = checkConstraints(mesh, problem);
+  }
+  if (!error)
+  {
+    error = checkVolumes(mesh);
+  }
+  return error;
+}
+
+template <int D>
+double freeAxialStrain(const SimplexMesh<D>& mesh, const Problem<D>& problem)
+{
+  double strain = 0.0, weight = 0.0;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    const Material& m = problem.material(c);
+    const double w = m.youngsModulus * signedVolume(mesh.corners(c));
+    strain += w * m.thermalExpansion * meanTemperatureRise(mesh, problem, c);
+    weight += w;
+  }
+  return strain / weight;
+}
+
+template <int D>
+void constrainEnds(
+  const SimplexMesh<D>& mesh, int axis, double strain, double tolerance, Problem<D>& problem)
+{
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (mesh.isPointAlive(p))
+    {
+      low = std::min(low, mesh.point(p)[axis]);
+      high = std::max(high, mesh.point(p)[axis]);
+    }
+  }
+  const double near = tolerance * (high - low);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (!mesh.isPointAlive(p))
+    {
+      continue;
+    }
+    if (mesh.point(p)[axis] <= low + near)
+    {
+      problem.constraints.push_back({ p, axis, 0.0 });
+    }
+    else if (mesh.point(p)[axis] >= high - near)
+    {
+      problem.constraints.push_back({ p, axis, strain * (high - low) });
+    }
+  }
+}
+
+template std::optional<Error> check<2>(const SimplexMesh<2>&, const Problem<2>&);
+template std::optional<Error> check<3>(const SimplexMesh<3>&, const Problem<3>&);
+template double freeAxialStrain<2>(const SimplexMesh<2>&, const Problem<2>&);
+template double freeAxialStrain<3>(const SimplexMesh<3>&, const Problem<3>&);
+template void constrainEnds<2>(const SimplexMesh<2>&, int, double, double, Problem<2>&);
+template void constrainEnds<3>(const SimplexMesh<3>&, int, double, double, Problem<3>&);
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is done about rigid motions that are free: pins, projection, a check of the loads.
+#include "Thermoelastic/RigidModes.h"
+
+#include <Eigen/Dense>
+
+namespace meshopt::fem
+{
+namespace
+{
+/// Points of each group, ascending.
+template <int D>
+std::vector<std::vector<Index>> pointsOfGroups(const RigidModes<D>& modes)
+{
+  std::vector<std::vector<Index>> points(modes.groups.size());
+  for (Index p = 0; p < static_cast<Index>(modes.bodyOfPoint.size()); ++p)
+  {
+    if (modes.bodyOfPoint[p] != None)
+    {
+      points[modes.bodies[modes.bodyOfPoint[p]].group].push_back(p);
+    }
+  }
+  return points;
+}
+
+/// The component among those of `points` that the motions displace most, and by how much each.
+template <int D>
+Constraint findPin(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
+  const std::vector<Index>& points, const Eigen::MatrixXd& motions, Eigen::RowVectorXd& row)
+{
+  Constraint best;
+  double most = 0.0;
+  for (Index p : points)
+  {
+    const Eigen::Matrix<double, D, Eigen::Dynamic> u = modes.displacements(mesh, p, motions);
+    for (int i = 0; i < D; ++i)
+    {
+      // A margin, so that rounding does not choose among points that are as good.
+      if (u.row(i).squaredNorm() > most * (1.0 + 1e-9))
+      {
+        most = u.row(i).squaredNorm();
+        best = { p, i, 0.0 };
+        row = u.row(i);
+      }
+    }
+  }
+  return best;
+}
+}
+
+template <int D>
+std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes)
+{
+  std::vector<Constraint> pins;
+  const std::vector<std::vector<Index>> points = pointsOfGroups(modes);
+  for (std::size_t g = 0; g < points.size(); ++g)
+  {
+    Eigen::MatrixXd left = modes.groups[g].free;
+    while (left.cols() > 0)
+    {
+      Eigen::RowVectorXd row;
+      pins.push_back(findPin(mesh, modes, points[g], left, row));
+      // What is left: the combinations that do not displace the pinned component.
+      const Eigen::MatrixXd column = row.transpose();
+      const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(column).householderQ();
+      left = (left * q.rightCols(left.cols() - 1)).eval();
+    }
+  }
+  return pins;
+}
+
+template <int D>
+void removeRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
+  const std::vector<double>& weight, std::vector<Vec<D>>& displacement)
+{
+  const std::vector<std::vector<Index>> points = pointsOfGroups(modes);
+  for (std::size_t g = 0; g < points.size(); ++g)
+  {
+    const Eigen::MatrixXd& free = modes.groups[g].free;
+    if (free.cols() == 0)
+    {
+      continue;
+    }
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(free.cols(), free.cols());
+    Eigen::VectorXd part = Eigen::VectorXd::Zero(free.cols());
+    for (Index p : points[g])
+    {
+      const Eigen::Matrix<double, D, Eigen::Dynamic> u = modes.displacements(mesh, p, free);
+      gram += weight[p] * (u.transpose() * u);
+      part += weight[p] * (u.transpose() * displacement[p]);
+    }
+    const Eigen::VectorXd amount = gram.ldlt().solve(part);
+    for (Index p : points[g])
+    {
+      displacement[p] -= modes.displacements(mesh, p, free) * amount;
+    }
+  }
+}
+
+template <int D>
+std::string findImbalance(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
+  const std::vector<Vec<D>>& forces, double tolerance)
+{
+  const std::vector<std::vector<Index>> points = pointsOfGroups(modes);
+  for (std::size_t g = 0; g < points.size() && !forces.empty(); ++g)
+  {
+    const Eigen::MatrixXd& named = modes.groups[g].named;
+    Eigen::VectorXd resultant = Eigen::VectorXd::Zero(named.cols());
+    double sum = 0.0;
+    for (Index p : points[g])
+    {
+      resultant += modes.displacements(mesh, p, named).transpose() * forces[p];
+      sum += forces[p].norm();
+    }
+    for (Index m = 0; m < resultant.size(); ++m)
+    {
+      if (std::abs(resultant[m]) > tolerance * sum)
+      {
+        return modes.describe(static_cast<Index>(g), m);
+      }
+    }
+  }
+  return {};
+}
+
+template std::vector<Constraint> pinRigidMotions<2>(const SimplexMesh<2>&, const RigidModes<2>&);
+template std::vector<Constraint> pinRigidMotions<3>(const SimplexMesh<3>&, const RigidModes<3>&);
+template void removeRigidMotions<2>(
+  const SimplexMesh<2>&, const RigidModes<2>&, const std::vector<double>&, std::vector<Vec<2>>&);
+template void removeRigidMotions<3>(
+  const SimplexMesh<3>&, const RigidModes<3>&, const std::vector<double>&, std::vector<Vec<3>>&);
+template std::string findImbalance<2>(
+  const SimplexMesh<2>&, const RigidModes<2>&, const std::vector<Vec<2>>&, double);
+template std::string findImbalance<3>(
+  const SimplexMesh<3>&, const RigidModes<3>&, const std::vector<Vec<3>>&, double);
+}

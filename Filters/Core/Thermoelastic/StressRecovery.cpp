@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Thermoelastic/StressRecovery.h"
+
+#include "Thermoelastic/Parallel.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt::fem
+{
+namespace
+{
+/// Layers of cells that a patch may get around a point.
+constexpr int MostLayers = 4;
+/// Least ratio of the extents (squared) of the centroids of a patch in its thinnest and its widest
+/// direction: below, it is taken for flat and determines no polynomial.
+constexpr double ThinnestPatch = 1e-6;
+
+template <int D>
+Vec<D> centroid(const SimplexMesh<D>& mesh, Index cell)
+{
+  Vec<D> sum = Vec<D>::Zero();
+  for (Index p : mesh.nodes(cell))
+  {
+    sum += mesh.point(p);
+  }
+  return sum / (D + 1);
+}
+
+/// A linear polynomial: mean + slope (x - centre). Around the mean of the sample points, constant and
+/// slope are independent of each other.
+template <int D>
+struct Fit
+{
+  Vec<D> centre = Vec<D>::Zero();
+  Stress<D> mean = Stress<D>::Zero();
+  Eigen::Matrix<double, StressSize<D>, D, Eigen::DontAlign> slope;
+  bool isValid = false;
+
+  Stress<D> at(const Vec<D>& x) const { return this->mean + this->slope * (x - this->centre); }
+};
+
+template <int D>
+Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D>>& stress,
+  const Index* begin, const Index* end, Index leastCells)
+{
+  Fit<D> fit;
+  const Index n = static_cast<Index>(end - begin);
+  if (n < leastCells)
+  {
+    return fit;
+  }
+  for (const Index* c = begin; c != end; ++c)
+  {
+    fit.centre += centroids[*c];
+    fit.mean += stress[*c];
+  }
+  fit.centre /= n;
+  fit.mean /= n;
+  Tensor<D> spread = Tensor<D>::Zero();
+  fit.slope.setZero();
+  for (const Index* c = begin; c != end; ++c)
+  {
+    const Vec<D> d = centroids[*c] - fit.centre;
+    spread += d * d.transpose();
+    fit.slope += (stress[*c] - fit.mean) * d.transpose();
+  }
+  const Eigen::Matrix<double, D, D> aligned = spread;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> eigen(
+    aligned, Eigen::EigenvaluesOnly);
+  fit.isValid = eigen.eigenvalues()[0] > ThinnestPatch * eigen.eigenvalues()[D - 1];
+  if (fit.isValid)
+  {
+    fit.slope = (fit.slope * aligned.inverse()).eval();
+  }
+  return fit;
+}
+
+template <int D>
+Stress<D> volumeAverage(const SimplexMesh<D>& mesh, const std::vector<Stress<D>>& stress,
+  const Index* begin, const Index* end)
+{
+  Stress<D> sum = Stress<D>::Zero();
+  double volume = 0.0;
+  for (const Index* c = begin; c != end; ++c)
+  {
+    const double v = signedVolume(mesh.corners(*c));
+    sum += v * stress[*c];
+    volume += v;
+  }
+  return sum / volume;
+}
+
+void sortUnique(std::vector<Index>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+/// Fits at the nodes that have a patch of their own, then what follows from them at the others.
+template <int D>
+class PatchRecovery
+{
+public:
+  PatchRecovery(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
+    const std::vector<Stress<D>>& stress, bool isLocal)
+    : mesh_(mesh)
+    , nodes_(nodes)
+    , stress_(stress)
+    , isLocal_(isLocal)
+    , leastCells_(isLocal ? (D + 1) * (D + 2) / 2 : D + 1)
+    , centroids_(mesh.numberOfCellSlots())
+    , fits_(nodes.count())
+  {
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      this->centroids_[c] = centroid(mesh, c);
+    }
+  }
+
+  void fitOwn(Index begin, Index end)
+  {
+    for (Index n = begin; n < end; ++n)
+    {
+      if (this->isLocal_ || !this->nodes_.isOnSurface[n])
+      {
+        const Rows& cells = this->nodes_.cellsOfNode;
+        this->fits_[n] = fitPatch(
+          this->centroids_, this->stress_, cells.begin(n), cells.end(n), this->leastCells_);
+      }
+    }
+  }
+
+  Stress<D> at(Index node) const
+  {
+    const Vec<D>& x = this->mesh_.point(this->nodes_.pointOfNode[node]);
+    if (this->fits_[node].isValid)
+    {
+      return this->fits_[node].at(x);
+    }
+    return this->isLocal_ ? this->byEnlargedPatch(node, x) : this->byNeighbours(node, x);
+  }
+
+private:
+  Stress<D> byNeighbours(Index node, const Vec<D>& x) const
+  {
+    Stress<D> sum = Stress<D>::Zero();
+    int count = 0;
+    const Rows& cells = this->nodes_.cellsOfNode;
+    for (Index n : this->nodesAround(cells.begin(node), cells.end(node)))
+    {
+      if (this->fits_[n].isValid)
+      {
+        sum += this->fits_[n].at(x);
+        ++count;
+      }
+    }
+    return count > 0 ? Stress<D>(sum / count) : this->byEnlargedPatch(node, x);
+  }
+
+  /// Nodes of the cells [begin, end), ascending.
+  std::vector<Index> nodesAround(const Index* begin, const Index* end) const
+  {
+    std::vector<Index> around;
+    for (const Index* c = begin; c != end; ++c)
+    {
+      around.insert(around.end(), this->nodes_.cells[*c].begin(), this->nodes_.cells[*c].end());
+    }
+    sortUnique(around);
+    return around;
+  }
+
+  Stress<D> byEnlargedPatch(Index node, const Vec<D>& x) const
+  {
+    const Rows& cells = this->nodes_.cellsOfNode;
+    std::vector<Index> around = this->nodesAround(cells.begin(node), cells.end(node));
+    for (int layer = 1; layer < MostLayers; ++layer)
+    {
+      std::vector<Index> patch;
+      for (Index n : around)
+      {
+        patch.insert(patch.end(), cells.begin(n), cells.end(n));
+      }
+      sortUnique(patch);
+      const Index* end = patch.data() + patch.size();
+      const Fit<D> fit = fitPatch(
+        this->centroids_, this->stress_, patch.data(), end, this->leastCells_);
+      if (fit.isValid)
+      {
+        return fit.at(x);
+      }
+      around = this->nodesAround(patch.data(), end);
+    }
+    return volumeAverage(this->mesh_, this->stress_, cells.begin(node), cells.end(node));
+  }
+
+  const SimplexMesh<D>& mesh_;
+  const RecoveryMesh<D>& nodes_;
+  const std::vector<Stress<D>>& stress_;
+  bool isLocal_;
+  Index leastCells_;
+  std::vector<Vec<D>> centroids_;
+  std::vector<Fit<D>> fits_;
+};
+
+/// A pair (point, region) per corner of a cell, sorted: equal pairs are one node.
+struct Corner
+{
+  Index point, region, cell;
+  int local;
+  bool operator<(const Corner& o) const
+  {
+    return this->point != o.point ? this->point < o.point
+      : this->region != o.region  ? this->region < o.region
+                                  : this->cell < o.cell;
+  }
+};
+}
+
+template <int D>
+RecoveryMesh<D> makeRecoveryMesh(const SimplexMesh<D>& mesh)
+{
+  RecoveryMesh<D> nodes;
+  const Index cells = mesh.numberOfCellSlots();
+  std::vector<Corner> corners;
+  corners.reserve(static_cast<std::size_t>(cells) * (D + 1));
+  for (Index c = 0; c < cells; ++c)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      corners.push_back({ mesh.nodes(c)[i], mesh.region(c), c, i });
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  nodes.cells.resize(cells);
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    const Corner& corner = corners[k];
+    if (k == 0 || corner.point != corners[k - 1].point || corner.region != corners[k - 1].region)
+    {
+      nodes.pointOfNode.push_back(corner.point);
+      nodes.cellsOfNode.offsets.push_back(static_cast<Index>(k));
+    }
+    nodes.cells[corner.cell][corner.local] = nodes.count() - 1;
+    nodes.cellsOfNode.items.push_back(corner.cell);
+  }
+  nodes.cellsOfNode.offsets.push_back(static_cast<Index>(corners.size()));
+  nodes.isOnSurface.assign(nodes.pointOfNode.size(), 0);
+  for (Index c = 0; c < cells; ++c)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index other = mesh.adjacent(c, i);
+      const bool isInside = other != None &&
+        mesh.region(SimplexMesh<D>::cellOf(other)) == mesh.region(c);
+      for (int k = 0; k < D && !isInside; ++k)
+      {
+        nodes.isOnSurface[nodes.cells[c][Local<D>::facets[i][k]]] = 1;
+      }
+    }
+  }
+  return nodes;
+}
+
+template <int D>
+std::vector<Stress<D>> recoverStress(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
+  const std::vector<Stress<D>>& elementStress, StressRecovery method, const Control& control)
+{
+  std::vector<Stress<D>> stress(nodes.count());
+  if (method == StressRecovery::VolumeAverage)
+  {
+    parallelRanges(control, nodes.count(),
+      [&](Index begin, Index end)
+      {
+        for (Index n = begin; n < end; ++n)
+        {
+          stress[n] = volumeAverage(
+            mesh, elementStress, nodes.cellsOfNode.begin(n), nodes.cellsOfNode.end(n));
+        }
+      });
+    return stress;
+  }
+  PatchRecovery<D> recovery(mesh, nodes, elementStress, method == StressRecovery::LocalPatch);
+  parallelRanges(
+    control, nodes.count(), [&](Index begin, Index end) { recovery.fitOwn(begin, end); });
+  parallelRanges(control, nodes.count(),
+    [&](Index begin, Index end)
+    {
+      for (Index n = begin; n < end; ++n)
+      {
+        stress[n] = recovery.at(n);
+      }
+    });
+  return stress;
+}
+
+template <int D>
+std::vector<Stress<D>> stressAtPoints(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
+  const std::vector<Stress<D>>& nodalStress)
+{
+  std::vector<Stress<D>> stress(mesh.numberOfPointSlots(), Stress<D>::Zero());
+  for (Index first = 0; first < nodes.count();)
+  {
+    const Index point = nodes.pointOfNode[first];
+    Index last = first;
+    double volume = 0.0;
+    Stress<D> sum = Stress<D>::Zero();
+    for (; last < nodes.count() && nodes.pointOfNode[last] == point; ++last)
+    {
+      double v = 0.0;
+      for (const Index* c = nodes.cellsOfNode.begin(last); c != nodes.cellsOfNode.end(last); ++c)
+      {
+        v += signedVolume(mesh.corners(*c));
+      }
+      sum += v * nodalStress[last];
+      volume += v;
+    }
+    stress[point] = last == first + 1 ? nodalStress[first] : Stress<D>(sum / volume);
+    first = last;
+  }
+  return stress;
+}
+
+template <int D>
+std::vector<double> estimateErrors(const SimplexMesh<D>& mesh, const Problem<D>& problem,
+  const Discretization<D>& d, const RecoveryMesh<D>& nodes,
+  const std::vector<Stress<D>>& elementStress, const std::vector<Stress<D>>& nodalStress,
+  const Control& control)
+{
+  std::vector<double> errors(mesh.numberOfCellSlots());
+  parallelRanges(control, mesh.numberOfCellSlots(),
+    [&](Index begin, Index end)
+    {
+      for (Index c = begin; c < end; ++c)
+      {
+        // With e linear, integral of q(e) = V / ((D + 1) (D + 2)) (sum of q(e_i) + q(sum of e_i)).
+        const Elasticity<D>& law = d.elasticity(c);
+        Stress<D> sum = Stress<D>::Zero();
+        double squares = 0.0;
+        for (int i = 0; i <= D; ++i)
+        {
+          const double here = problem.temperature.empty()
+            ? 0.0
+            : problem.temperature[mesh.nodes(c)[i]] - problem.referenceTemperature - d.rise(c);
+          const Stress<D> e = nodalStress[nodes.cells[c][i]] -
+            (elementStress[c] + law.thermalStress(here));
+          sum += e;
+          squares += law.energyProduct(e);
+        }
+        errors[c] = std::sqrt(std::max(
+          0.0, d.elements[c].volume * (squares + law.energyProduct(sum)) / ((D + 1) * (D + 2))));
+      }
+    });
+  return errors;
+}
+
+template RecoveryMesh<2> makeRecoveryMesh<2>(const SimplexMesh<2>&);
+template RecoveryMesh<3> makeRecoveryMesh<3>(const SimplexMesh<3>&);
+template std::vector<Stress<2>> recoverStress<2>(const SimplexMesh<2>&, const RecoveryMesh<2>&,
+  const std::vector<Stress<2>>&, StressRecovery, const Control&);
+template std::vector<Stress<3>> recoverStress<3>(const SimplexMesh<3>&, const RecoveryMesh<3>&,
+  const std::vector<Stress<3>>&, StressRecovery, const Control&);
+template std::vector<Stress<2>> stressAtPoints<2>(
+  const SimplexMesh<2>&, const RecoveryMesh<2>&, const std::vector<Stress<2>>&);
+template std::vector<Stress<3>> stressAtPoints<3>(
+  const SimplexMesh<3>&, const RecoveryMesh<3>&, const std::vector<Stress<3>>&);
+template std::vector<double> estimateErrors<2>(const SimplexMesh<2>&, const Problem<2>&,
+  const Discretization<2>&, const RecoveryMesh<2>&, const std::vector<Stress<2>>&,
+  const std::vector<Stress<2>>&, const Control&);
+template std::vector<double> estimateErrors<3>(const SimplexMesh<3>&, const Problem<3>&,
+  const Discretization<3>&, const RecoveryMesh<3>&, const std::vector<Stress<3>>&,
+  const std::vector<Stress<3>>&, const Control&);
+}
