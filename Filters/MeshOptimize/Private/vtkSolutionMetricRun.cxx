@@ -1,0 +1,356 @@
+#include "vtkSolutionMetricRun.h"
+
+#include "vtkMeshOptimizeCells.h"
+#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshOptimizeImport.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkCellTypes.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkGenericCell.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+namespace vtkSolutionMetric
+{
+
+namespace bridge = vtkMeshOptimizeBridge;
+
+using meshopt::SymmetricEigen;
+using meshopt::Tensor;
+using meshopt::Vec;
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+std::string NotThere(
+  const char* noun, const char* kind, const char* name, vtkDataSetAttributes* others)
+{
+  const std::string other = std::strcmp(kind, "point") == 0 ? "cell" : "point";
+  if (!name || !*name || std::strcmp(name, "None") == 0)
+  {
+    return std::string("No ") + noun + " array is chosen" +
+      (name ? "." : std::string(", and the input has no active ") + kind + " scalars.");
+  }
+  std::string text = std::string("The ") + noun + " array '" + name +
+    "' is not there: the input has no such " + kind + " array.";
+  if (others->HasArray(name))
+  {
+    text += " There is a " + other + " array of that name; convert it to " + kind + " data first.";
+  }
+  return text;
+}
+
+} // namespace
+
+std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& request)
+{
+  const char* noun = request.UseErrors ? "error indicator" : "solution";
+  const char* kind = request.UseErrors ? "cell" : "point";
+  vtkDataSetAttributes *attributes = grid->GetPointData(), *others = grid->GetCellData();
+  if (request.UseErrors)
+  {
+    std::swap(attributes, others);
+  }
+  vtkInformation* wanted = filter->GetInputArrayInformation(request.UseErrors ? 1 : 0);
+  const char* name = wanted->Get(vtkDataObject::FIELD_NAME());
+  vtkAbstractArray* found = name
+    ? attributes->GetAbstractArray(name)
+    : attributes->GetAbstractAttribute(wanted->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  if (grid->GetNumberOfCells() == 0)
+  {
+    return {}; // a process without a piece: nothing to do
+  }
+  if (!found)
+  {
+    return NotThere(noun, kind, name, others);
+  }
+  const std::string title = std::string("The ") + noun + " array '" +
+    (found->GetName() ? found->GetName() : "(no name)") + "' has ";
+  request.Values = vtkDataArray::SafeDownCast(found);
+  if (!request.Values)
+  {
+    return title + "values of type " + found->GetDataTypeAsString() + "; numbers are needed.";
+  }
+  const int n = found->GetNumberOfComponents();
+  if (n < 1 || (request.UseErrors && n != 1))
+  {
+    return title + std::to_string(n) + " components; " +
+      (request.UseErrors ? "one is needed." : "at least one is needed.");
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+/**
+ * All cells of the greatest dimension must be simplices: a function cannot be differentiated
+ * across cells that are not looked at.
+ */
+std::string CheckCells(vtkUnstructuredGrid* grid, const bridge::Cells& cells)
+{
+  vtkNew<vtkGenericCell> cell;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const int type = grid->GetCellType(c);
+    if (type == VTK_TETRA || (type == VTK_TRIANGLE && cells.Dimension == 2))
+    {
+      continue;
+    }
+    cell->SetCellType(type);
+    if (cell->GetCellDimension() >= std::max(2, cells.Dimension))
+    {
+      return "Cell " + std::to_string(c) + " (" + vtkCellTypes::GetClassNameFromTypeId(type) +
+        ") is neither a linear tetrahedron nor a linear triangle; split or linearize the cells "
+        "first.";
+    }
+  }
+  return cells.Dimension == 0 ? "The input has neither triangles nor tetrahedra." : std::string();
+}
+
+std::string ReadSolution(
+  vtkDataArray* array, const bridge::Cells& cells, std::vector<double>& values)
+{
+  const int components = array->GetNumberOfComponents();
+  values.assign(cells.PointUse.size() * components, 0.0);
+  for (std::size_t p = 0; p < cells.PointUse.size(); ++p)
+  {
+    double* tuple = &values[p * components];
+    if (!(cells.PointUse[p] & bridge::UsedBySimplex))
+    {
+      continue;
+    }
+    array->GetTuple(static_cast<vtkIdType>(p), tuple);
+    for (int i = 0; i < components; ++i)
+    {
+      if (!std::isfinite(tuple[i]))
+      {
+        std::ostringstream text;
+        text << "The solution '" << (array->GetName() ? array->GetName() : "(no name)")
+             << "' is not finite at point " << p << ": " << tuple[i]
+             << (components > 1 ? " in component " + std::to_string(i) : std::string()) << ".";
+        return text.str();
+      }
+    }
+  }
+  return {};
+}
+
+std::string ReadErrors(vtkDataArray* array, const bridge::Cells& cells, std::vector<double>& values)
+{
+  for (vtkIdType cell : cells.Simplices)
+  {
+    const double error = array->GetComponent(cell, 0);
+    if (!(error >= 0.0) || !std::isfinite(error))
+    {
+      std::ostringstream text;
+      text << "The error indicator '" << (array->GetName() ? array->GetName() : "(no name)")
+           << "' of cell " << cell << " is " << error
+           << "; it must be a finite number that is not negative.";
+      return text.str();
+    }
+    values.push_back(error);
+  }
+  return {};
+}
+
+double RelativePrecision(vtkDataArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT
+    ? static_cast<double>(std::numeric_limits<float>::epsilon())
+    : std::numeric_limits<double>::epsilon();
+}
+
+//------------------------------------------------------------------------------
+Tensor<3> ToGrid(const Tensor<3>& m, const bridge::Frame<3>&) { return m; }
+
+/**
+ * Across the plane stands the geometric mean of the eigenvalues in it.
+ */
+Tensor<3> ToGrid(const Tensor<2>& m, const bridge::Frame<2>& frame)
+{
+  const Vec<3> u = frame.Axes[0], v = frame.Axes[1];
+  const Vec<3> n = u.cross(v);
+  return m(0, 0) * u * u.transpose() + m(1, 1) * v * v.transpose() +
+    m(0, 1) * (u * v.transpose() + v * u.transpose()) +
+    std::sqrt(m.determinant()) * n * n.transpose();
+}
+
+template <int D>
+Tensor<D> InverseRoot(const Tensor<D>& m)
+{
+  SymmetricEigen<D> e = SymmetricEigen<D>::of(m);
+  e.values = e.values.cwiseSqrt().cwiseInverse();
+  return e.compose();
+}
+
+/**
+ * A symmetric tensor per point, as VTK orders its components.
+ */
+template <class F>
+vtkSmartPointer<vtkDoubleArray> MakeTensors(const char* name, vtkIdType n, F&& tensor)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(6);
+  array->SetNumberOfTuples(n);
+  const char* components[6] = { "XX", "YY", "ZZ", "XY", "YZ", "XZ" };
+  for (int i = 0; i < 6; ++i)
+  {
+    array->SetComponentName(i, components[i]);
+  }
+  for (vtkIdType p = 0; p < n; ++p)
+  {
+    const Tensor<3> m = tensor(p);
+    const double six[6] = { m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2) };
+    array->SetTypedTuple(p, six);
+  }
+  return array;
+}
+
+template <class F>
+void AddSizes(vtkUnstructuredGrid* grid, F&& size)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("DesiredSize");
+  array->SetNumberOfTuples(grid->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    array->SetValue(p, size(p));
+  }
+  grid->GetPointData()->AddArray(array);
+}
+
+//------------------------------------------------------------------------------
+template <int D>
+std::string AddMetric(vtkUnstructuredGrid* grid, const bridge::Cells& cells,
+  const bridge::Frame<D>& frame, const meshopt::SimplexMesh<D>& mesh, const Request& request,
+  Outcome& outcome)
+{
+  std::vector<double> values;
+  std::string error = ReadSolution(request.Values, cells, values);
+  if (!error.empty())
+  {
+    return error;
+  }
+  meshopt::SolutionMetricOptions options = request.Metric;
+  options.precision = RelativePrecision(request.Values);
+  if (options.desiredCount == 0.0)
+  {
+    options.desiredCount = static_cast<double>(cells.Simplices.size());
+  }
+  meshopt::SolutionMetric<D> metric;
+  error = meshopt::solutionMetric(
+    mesh, values, request.Values->GetNumberOfComponents(), options, metric);
+  if (!error.empty())
+  {
+    return error;
+  }
+  outcome.DesiredSize = metric.desiredSize;
+  outcome.PredictedCount = metric.predictedCount;
+  outcome.IsCountReached = metric.isCountReached;
+  outcome.IsEven = metric.isLinear;
+  const vtkIdType n = grid->GetNumberOfPoints();
+  grid->GetPointData()->AddArray(
+    MakeTensors("Metric", n, [&](vtkIdType p) { return ToGrid(metric.tensors[p], frame); }));
+  AddSizes(grid, [&metric](vtkIdType) { return metric.desiredSize; });
+  if (request.ComputeSizeTensor)
+  {
+    grid->GetPointData()->AddArray(MakeTensors("SizeTensor", n,
+      [&](vtkIdType p)
+      {
+        const Tensor<D> sizes = metric.desiredSize * InverseRoot<D>(metric.tensors[p]);
+        return ToGrid(sizes, frame);
+      }));
+  }
+  return {};
+}
+
+template <int D>
+std::string AddIndicatorSizes(vtkUnstructuredGrid* grid, const bridge::Cells& cells,
+  const meshopt::SimplexMesh<D>& mesh, const Request& request, Outcome& outcome)
+{
+  std::vector<double> errors;
+  std::string error = ReadErrors(request.Values, cells, errors);
+  if (!error.empty())
+  {
+    return error;
+  }
+  meshopt::ErrorIndicatorOptions options = request.Errors;
+  if (options.desiredCount == 0.0)
+  {
+    options.desiredCount = static_cast<double>(cells.Simplices.size());
+  }
+  meshopt::ErrorIndicatorSizes sizes;
+  error = meshopt::sizesFromErrors(mesh, errors, options, sizes);
+  if (!error.empty())
+  {
+    return error;
+  }
+  outcome.PredictedCount = sizes.predictedCount;
+  outcome.IsCountReached = sizes.isCountReached;
+  outcome.IsEven = sizes.isZero;
+  double sum = 0.0;
+  for (double e : errors)
+  {
+    sum += e * e;
+  }
+  outcome.TotalError = std::sqrt(sum);
+  AddSizes(grid, [&sizes](vtkIdType p) { return sizes.sizes[p]; });
+  return {};
+}
+
+template <int D>
+std::string AddArraysIn(
+  vtkUnstructuredGrid* grid, const bridge::Cells& cells, const Request& request, Outcome& outcome)
+{
+  bridge::Frame<D> frame;
+  std::string error = bridge::FindFrame(grid, cells, frame);
+  if (!error.empty())
+  {
+    return error;
+  }
+  // Nothing is kept: regions and lines are no boundaries of the solution.
+  meshopt::SimplexMesh<D> mesh;
+  const auto problem = meshopt::SimplexMesh<D>::build(
+    bridge::ImportGeometry(grid, cells.Simplices, frame), mesh);
+  if (problem)
+  {
+    return problem->message;
+  }
+  return request.UseErrors ? AddIndicatorSizes(grid, cells, mesh, request, outcome)
+                           : AddMetric(grid, cells, frame, mesh, request, outcome);
+}
+
+} // namespace
+
+std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome& outcome)
+{
+  bridge::Cells cells;
+  std::string error = bridge::ClassifyCells(grid, cells);
+  if (error.empty() && grid->GetNumberOfCells() > 0)
+  {
+    error = CheckCells(grid, cells);
+  }
+  if (!error.empty() || cells.Simplices.empty())
+  {
+    return error;
+  }
+  return cells.Dimension == 3 ? AddArraysIn<3>(grid, cells, request, outcome)
+                              : AddArraysIn<2>(grid, cells, request, outcome);
+}
+
+} // namespace vtkSolutionMetric

@@ -1,0 +1,157 @@
+#include "vtkSolutionMetricFilter.h"
+
+#include "vtkSolutionMetricRun.h"
+
+#include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+#include <new>
+
+vtkStandardNewMacro(vtkSolutionMetricFilter);
+
+//------------------------------------------------------------------------------
+vtkSolutionMetricFilter::vtkSolutionMetricFilter()
+{
+  this->SetSolutionArray(nullptr);
+  this->SetErrorIndicatorArray(nullptr);
+}
+
+vtkSolutionMetricFilter::~vtkSolutionMetricFilter() = default;
+
+//------------------------------------------------------------------------------
+void vtkSolutionMetricFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Criterion: " << this->Criterion << "\n";
+  os << indent << "DesiredNumberOfElements: " << this->DesiredNumberOfElements << "\n";
+  os << indent << "CountCorrection: " << this->CountCorrection << "\n";
+  os << indent << "Recovery: " << this->Recovery << "\n";
+  os << indent << "NormOrder: " << this->NormOrder << "\n";
+  os << indent << "MinimumSize: " << this->MinimumSize << "\n";
+  os << indent << "MaximumSize: " << this->MaximumSize << "\n";
+  os << indent << "MaximumAnisotropy: " << this->MaximumAnisotropy << "\n";
+  os << indent << "Gradation: " << this->Gradation << "\n";
+  os << indent << "DesiredErrorFraction: " << this->DesiredErrorFraction << "\n";
+  os << indent << "ConvergenceOrder: " << this->ConvergenceOrder << "\n";
+  os << indent << "ComputeSizeTensor: " << this->ComputeSizeTensor << "\n";
+  os << indent << "DesiredSize: " << this->DesiredSize << "\n";
+  os << indent << "PredictedNumberOfElements: " << this->PredictedNumberOfElements << "\n";
+  os << indent << "TotalError: " << this->TotalError << "\n";
+}
+
+//------------------------------------------------------------------------------
+void vtkSolutionMetricFilter::SetSolutionArray(const char* name)
+{
+  if (name && *name)
+  {
+    this->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
+  }
+  else
+  {
+    this->SetInputArrayToProcess(
+      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+  }
+}
+
+void vtkSolutionMetricFilter::SetErrorIndicatorArray(const char* name)
+{
+  if (name && *name)
+  {
+    this->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, name);
+  }
+  else
+  {
+    this->SetInputArrayToProcess(
+      1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, vtkDataSetAttributes::SCALARS);
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkSolutionMetricFilter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkSolutionMetricFilter::Compute(
+  vtkUnstructuredGrid* grid, vtkSolutionMetric::Outcome& outcome)
+{
+  vtkSolutionMetric::Request request;
+  request.UseErrors = this->Criterion == ErrorIndicator;
+  request.ComputeSizeTensor = this->ComputeSizeTensor;
+  meshopt::SizeLimits limits;
+  limits.minimumSize = this->MinimumSize;
+  limits.maximumSize = this->MaximumSize;
+  limits.maximumAnisotropy = this->MaximumAnisotropy;
+  limits.gradation = this->Gradation;
+  meshopt::SolutionMetricOptions& metric = request.Metric;
+  metric.recovery = static_cast<meshopt::Recovery>(this->Recovery);
+  metric.desiredCount = this->DesiredNumberOfElements;
+  metric.normOrder = this->NormOrder;
+  metric.limits = limits;
+  metric.countCorrection = this->CountCorrection;
+  meshopt::ErrorIndicatorOptions& errors = request.Errors;
+  errors.desiredCount = this->DesiredNumberOfElements;
+  errors.desiredErrorFraction = this->DesiredErrorFraction;
+  errors.convergenceOrder = this->ConvergenceOrder;
+  errors.limits = limits;
+  errors.countCorrection = this->CountCorrection;
+  const std::string error = vtkSolutionMetric::FindArray(this, grid, request);
+  return error.empty() ? vtkSolutionMetric::AddArrays(grid, request, outcome) : error;
+}
+
+void vtkSolutionMetricFilter::Warn(const vtkSolutionMetric::Outcome& outcome)
+{
+  if (outcome.IsEven)
+  {
+    vtkWarningMacro(
+      << (this->Criterion == Hessian
+             ? "The solution is linear to within its precision: there is nothing to adapt to. The "
+               "metric is the Euclidean one."
+             : "The error is 0 in all cells: there is nothing to adapt to. The size is the same "
+               "everywhere."));
+  }
+  if (!outcome.IsCountReached)
+  {
+    vtkWarningMacro(<< "The limits on the size do not allow the wanted number of elements: about "
+                    << std::round(this->PredictedNumberOfElements) << " it will be.");
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkSolutionMetricFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
+  output->ShallowCopy(vtkUnstructuredGrid::GetData(inputVector[0]));
+  vtkSolutionMetric::Outcome outcome;
+  std::string error;
+  try
+  {
+    error = this->Compute(output, outcome);
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "Not enough memory to compute the metric of this mesh.";
+  }
+  this->SetErrorCode(error.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError);
+  if (!error.empty())
+  {
+    // Returning 0 would make the executive add an error of its own.
+    vtkErrorMacro(<< error);
+    output->Initialize();
+    outcome = vtkSolutionMetric::Outcome();
+  }
+  this->DesiredSize = outcome.DesiredSize;
+  this->PredictedNumberOfElements = outcome.PredictedCount;
+  this->TotalError = outcome.TotalError;
+  this->Warn(outcome);
+  return 1;
+}
