@@ -6,10 +6,9 @@
 // Prints the ratios with and without the bound; fails if one is above the limit (default 5).
 #include "vtkMeshQualityMinMax.h"
 
-#include "Quality/Shape.h"
+#include "BarePass.h"
 
 #include "vtkCellArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkSMPTools.h"
@@ -50,7 +49,8 @@ void MakeCube(int n, vtkUnstructuredGrid* grid)
       }
     }
   }
-  const auto id = [n](int i, int j, int k) { return vtkIdType(i) + (n + 1) * (j + vtkIdType(n + 1) * k); };
+  const auto id = [n](int i, int j, int k)
+  { return vtkIdType(i) + (n + 1) * (j + vtkIdType(n + 1) * k); };
   const int paths[6][2] = { { 1, 3 }, { 1, 5 }, { 2, 3 }, { 2, 6 }, { 4, 5 }, { 4, 6 } };
   vtkNew<vtkTypeInt64Array> ids;
   ids->SetNumberOfValues(vtkIdType(n) * n * n * 24);
@@ -61,7 +61,8 @@ void MakeCube(int n, vtkUnstructuredGrid* grid)
     {
       for (int i = 0; i < n; ++i)
       {
-        const auto corner = [&](int c) { return id(i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)); };
+        const auto corner = [&](int c)
+        { return id(i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)); };
         for (int p = 0; p < 6; ++p)
         {
           // odd permutations of the axes give the mirrored tetrahedron
@@ -110,29 +111,8 @@ int main(int argc, char** argv)
   vtkNew<vtkUnstructuredGrid> grid;
   MakeCube(static_cast<int>(std::ceil(std::cbrt(millions * 1e6 / 6.0))), grid);
   const vtkIdType n = grid->GetNumberOfCells();
-  const double* x = static_cast<double*>(grid->GetPoints()->GetVoidPointer(0));
-  const auto* ids =
-    vtkTypeInt64Array::SafeDownCast(grid->GetCells()->GetConnectivityArray())->GetPointer(0);
-
-  double minimum = 1.0;
-  const double bare = Best(
-    [&]
-    {
-      vtkNew<vtkDoubleArray> values;
-      values->SetNumberOfValues(n);
-      double* q = values->GetPointer(0);
-      for (vtkIdType c = 0; c < n; ++c)
-      {
-        meshopt::Corners<3> corners;
-        for (int k = 0; k < 4; ++k)
-        {
-          const double* p = x + 3 * ids[4 * c + k];
-          corners[k] = meshopt::Vec<3>(p[0], p[1], p[2]);
-        }
-        q[c] = meshopt::MeanEdgeShape<3>::value(corners);
-        minimum = std::min(minimum, q[c]);
-      }
-    });
+  const BarePass pass = MeasureBarePass(grid, 7);
+  const double bare = pass.Seconds, minimum = pass.Minimum;
   std::cout << n << " tetrahedra; bare pass " << bare * 1e3 << " ms, minimum " << minimum << "\n";
   vtkNew<vtkMeshQualityMinMax> filter;
   filter->SetInputData(grid);
