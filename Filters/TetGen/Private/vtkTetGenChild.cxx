@@ -243,7 +243,10 @@ template <typename T>
 const char* Unpack(const char* from, std::uint64_t length, std::vector<T>& array)
 {
   array.resize(length);
-  std::memcpy(array.data(), from, length * sizeof(T));
+  if (length > 0) // the data() of an empty vector may be a null pointer
+  {
+    std::memcpy(array.data(), from, length * sizeof(T));
+  }
   return from + length * sizeof(T);
 }
 
