@@ -24,6 +24,8 @@ NOT_IN_XML = {"MeshOptimize": {"Controller"}, "MeshQualityMinMax": {"Controller"
 PYTHON_NAMES = {"TetGen": "TetrahedralizeTetGen"}
 # Modules that may be left out.
 OPTIONAL = {"TetGen"}
+# Arrays without which there is nothing to do have no default: ParaView takes the active ones. All others are None until chosen.
+NEEDED_ARRAYS = {"SolutionMetric.SolutionArray"}
 
 failures = []
 
@@ -121,8 +123,9 @@ def check_proxy(path):
         if prop.get("information_only") == "1":
             check(hasattr(instance, command), f"{where}: the class has no {command}")
         elif command == "SetInputArrayToProcess":
-            index, port, connection, association, default = prop.get("default_values").split(";")
-            check(default == "None" and (port, connection) == ("0", "0"), f"{where}: default is not None")
+            needed = where in NEEDED_ARRAYS
+            index, port, connection, association, default = prop.get("default_values", "0;0;0;0;").split(";")
+            check(default == ("" if needed else "None") and (port, connection) == ("0", "0"), f"{where}: default {default}")
             check(index not in arrays, f"{where}: array index {index} used twice")
             arrays.add(index)
         elif prop.get("repeat_command") == "1":

@@ -38,10 +38,11 @@ std::string NotThere(
   const char* noun, const char* kind, const char* name, vtkDataSetAttributes* others)
 {
   const std::string other = std::strcmp(kind, "point") == 0 ? "cell" : "point";
-  if (!name || !*name || std::strcmp(name, "None") == 0)
+  const bool isDefault = !name || !*name;
+  if (isDefault || std::strcmp(name, "None") == 0)
   {
     return std::string("No ") + noun + " array is chosen" +
-      (name ? "." : std::string(", and the input has no active ") + kind + " scalars.");
+      (isDefault ? std::string(", and the input has no active ") + kind + " scalars." : ".");
   }
   std::string text = std::string("The ") + noun + " array '" + name +
     "' is not there: the input has no such " + kind + " array.";
@@ -63,11 +64,14 @@ std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& 
   {
     std::swap(attributes, others);
   }
+  // an empty name, which is what ParaView gives until one is chosen, stands for the active scalars
   vtkInformation* wanted = filter->GetInputArrayInformation(request.UseErrors ? 1 : 0);
   const char* name = wanted->Get(vtkDataObject::FIELD_NAME());
-  vtkAbstractArray* found = name
-    ? attributes->GetAbstractArray(name)
-    : attributes->GetAbstractAttribute(wanted->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  const int attribute = wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
+    ? wanted->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
+    : static_cast<int>(vtkDataSetAttributes::SCALARS);
+  vtkAbstractArray* found = name && *name ? attributes->GetAbstractArray(name)
+                                          : attributes->GetAbstractAttribute(attribute);
   if (grid->GetNumberOfCells() == 0)
   {
     return {}; // a process without a piece: nothing to do
