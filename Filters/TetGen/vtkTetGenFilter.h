@@ -10,7 +10,8 @@
  *
  * <b>Input port 0: the surface</b>, a vtkPolyData of triangles. Polygons and strips are cut into
  * triangles (vtkTriangleFilter); vertices and lines are ignored. It must be closed: every edge has
- * two triangles, or more where inner walls meet. Each compartment that walls enclose is filled, also
+ * two triangles, or more where inner walls meet. Points nearer to each other than 1e-8 of its size
+ * are one point to TetGen, so that triangles between them are errors. Each compartment that walls enclose is filled, also
  * a cavity, unless AddHole() says otherwise. Orientation does not matter.
  *
  * <b>Input port 1: interior points</b>, any vtkPointSet, optional. Those strictly inside become
@@ -36,6 +37,9 @@
  * has points that lie on each other or are not finite, facets without area or there twice, polygons
  * that cannot be cut; no facets at all; an unusable option; and whatever else TetGen fails on, with
  * the last line it printed. An input without any point and cell gives an empty output and no message.
+ *
+ * <b>Distributed data</b>: each process fills its own piece of the surface, which must be closed by
+ * itself.
  *
  * The same input gives the same output, bit for bit.
  *
