@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * TetGen's mesh as a vtkUnstructuredGrid.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * One run of TetGen: what goes in and what comes out, as plain arrays. The only place that knows tetgen.h.
  */

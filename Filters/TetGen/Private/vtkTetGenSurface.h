@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The surface as TetGen wants it, and everything that is wrong with it said in terms of the input.
  */
