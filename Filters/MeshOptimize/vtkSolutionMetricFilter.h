@@ -167,7 +167,9 @@ public:
   ///@{
   /**
    * Longest over shortest wanted edge at a point, at most (Hessian only); the longer ones are made
-   * shorter. Range >= 1, or 0 for no limit. Default 0.
+   * shorter. Range >= 1, or 0 for no limit, which is the paper's. Default 20: where a solution is
+   * not curved at all in one direction, longer elements gain little, and noise in the second
+   * derivatives turns them.
    */
   vtkSetClampMacro(MaximumAnisotropy, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumAnisotropy, double);
@@ -177,7 +179,8 @@ public:
   /**
    * How fast sizes may grow: over an edge of length l (in units of the size wanted at its end) by
    * the factor 1 + l ln(Gradation), about this ratio from one element to the next. Where they would
-   * grow faster they are made smaller. Range > 1, or 0 for no limit. Default 0.
+   * grow faster they are made smaller. Range > 1, or 0 for no limit, which is the paper's. Default
+   * 1.5: with sizes that jump there are no good elements in between.
    */
   vtkSetClampMacro(Gradation, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Gradation, double);
@@ -244,8 +247,8 @@ private:
   double NormOrder = 0.0;
   double MinimumSize = 0.0;
   double MaximumSize = 0.0;
-  double MaximumAnisotropy = 0.0;
-  double Gradation = 0.0;
+  double MaximumAnisotropy = 20.0;
+  double Gradation = 1.5;
   double DesiredErrorFraction = 0.0;
   double ConvergenceOrder = 1.0;
   bool ComputeSizeTensor = false;

@@ -208,7 +208,7 @@ void TestOptions()
       f->SetMinimumSize(0.03);
       f->SetMaximumSize(0.3);
       f->SetMaximumAnisotropy(5.0);
-      f->SetGradation(1.5);
+      f->SetGradation(1.4);
     });
   CHECK(std::abs(filter->GetPredictedNumberOfElements() - 512.0) < 2.0);
   const double h2 = filter->GetDesiredSize() * filter->GetDesiredSize();
