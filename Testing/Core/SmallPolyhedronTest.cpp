@@ -234,6 +234,12 @@ TEST(SmallPolyhedron, OffersNewPoints)
   const double q = r.propose(b.editor, b.model, 0, above, limits);
   EXPECT_GT(q, above);
   ASSERT_GE(r.newPoints().size(), 1u);
+  const Vec<3> place = r.newPoints()[0];
+  limits.height = 0.05; // too near to the facets: nothing is as good
+  EXPECT_EQ(r.propose(b.editor, b.model, 0, q, limits), Never);
+  limits.height = 0.5;
+  EXPECT_EQ(r.propose(b.editor, b.model, 0, above, limits), q);
+  EXPECT_EQ(r.newPoints()[0], place);
   b.accept(r, q);
   expectSound(b.mesh);
 }

@@ -23,7 +23,14 @@ inline int count(std::uint32_t set)
   return static_cast<int>((((set + (set >> 4)) & 0x0f0f0f0fu) * 0x01010101u) >> 24);
 }
 /// The lowest member of a set that is not empty.
-inline int lowest(std::uint32_t set) { return count((set & (0u - set)) - 1u); }
+inline int lowest(std::uint32_t set)
+{
+#if defined(__GNUC__)
+  return __builtin_ctz(set);
+#else
+  return count((set & (0u - set)) - 1u);
+#endif
+}
 }
 
 /// Points are numbered 0, 1, 2, ... in the order in which they come.

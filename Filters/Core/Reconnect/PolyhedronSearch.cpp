@@ -132,19 +132,19 @@ void PolyhedronSearch::blockEdges(State& s, int i, int j, int k) const
 void PolyhedronSearch::findCrossing(int a, int b)
 {
   const PointSigns& at = this->signs_;
-  Mask* row = &this->crossing_[pairOf(a, b) * choose2(at.size())];
-  for (int j = 1; j < at.size(); ++j)
+  const int pairs = choose2(at.size());
+  Mask* row = &this->crossing_[pairOf(a, b) * pairs];
+  std::fill_n(row, pairs, 0);
+  for (int i = 0; i < at.size(); ++i)
   {
-    for (int i = 0; i < j; ++i)
+    // the line through a and b has i, j and k in turn around it
+    const Mask left = at.above(a, b, i), right = at.above(b, a, i);
+    Mask rest = (left | right) & ~this->states_[0].blocked[i] & ~(bit(i) | (bit(i) - 1));
+    for (; rest; rest &= rest - 1)
     {
-      // the line through a and b must have i, j and k in turn around it
-      const bool left = has(at.above(a, b, i), j), right = has(at.above(b, a, i), j);
-      Mask k = 0;
-      if ((left || right) && !has(this->states_[0].blocked[i], j))
-      {
-        k = left ? at.above(a, b, j) & at.above(b, a, i) : at.above(b, a, j) & at.above(a, b, i);
-      }
-      // and a and b must be on different sides
+      const int j = lowest(rest);
+      const Mask k = has(left, j) ? at.above(a, b, j) & right : at.above(b, a, j) & left;
+      // and a and b are on different sides
       row[pairOf(i, j)] = k &
         ((at.above(i, j, a) & at.above(j, i, b)) | (at.above(j, i, a) & at.above(i, j, b)));
     }

@@ -29,9 +29,12 @@ class SmallPolyhedron
 public:
   struct Limits
   {
-    int points = 16;   ///< greatest number of nodes of the polyhedron, in [5, 32]
+    int points = 20;   ///< greatest number of nodes of the polyhedron, in [5, 32]
     int cells = 60;    ///< greatest number of cells taken out
     int newPoints = 0; ///< greatest number of places offered for new nodes; 0 in a varying metric
+    /// Where they are, between a facet that lacks a tetrahedron (0) and the best apex for it (1);
+    /// also half way there. In ]0, 1]. Another value may help where one did not.
+    double height = 0.5;
     bool mayDropPoints = true; ///< free nodes inside may vanish
     int searches = 30;         ///< of one propose(); each with a polyhedron larger than before
     long steps = 2000;         ///< of one search; some tens are what most need
@@ -50,7 +53,8 @@ public:
   /// At least the quality of cell c, if nothing is to get worse there. For facets whose own shape
   /// caps what stands on them: else no polyhedron at such a facet could get better.
   ///
-  /// Takes some 30 us times the number of searches with 12 points, four times that with 20.
+  /// The time goes with the number of searches and, for each, with the fourth power of the number
+  /// of points; most polyhedra that cannot be filled better are found out before the first step.
   template <class Enough>
   double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t,
     double above, const Limits& limits, Enough&& enough);

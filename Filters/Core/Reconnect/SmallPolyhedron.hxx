@@ -270,7 +270,7 @@ Index SmallPolyhedron<Shape>::nextCell(int bare)
 template <class Shape>
 bool SmallPolyhedron<Shape>::offerPoints(int bare)
 {
-  static constexpr double Heights[] = { 0.5, 0.25 };
+  const double heights[] = { this->limits_.height, 0.5 * this->limits_.height };
   const auto room = [this]
   {
     return static_cast<int>(this->offers_.size()) < this->limits_.newPoints &&
@@ -286,7 +286,7 @@ bool SmallPolyhedron<Shape>::offerPoints(int bare)
   Vec<3> apex = middle;
   facetCap(
     this->x_[f[0]], this->x_[f[1]], this->x_[f[2]], std::numeric_limits<double>::infinity(), &apex);
-  for (double height : Heights)
+  for (double height : heights)
   {
     if (room())
     {
