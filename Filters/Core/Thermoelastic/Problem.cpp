@@ -141,9 +141,11 @@ std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
       continue;
     }
     std::ostringstream text;
-    text << "Cell " << c << (s < -FlatShape ? " is inverted" : " is flat") << ": its "
-         << (D == 3 ? "volume" : "area") << " is " << signedVolume(x)
-         << ". Every element needs a positive one; MeshOptimize mends such cells.";
+    text
+      << "Cell " << c << (s < -FlatShape ? " is inverted" : " is flat") << ": its "
+      << (D == 3 ? "volume" : "area") << " is " << signedVolume(x)
+      << ". Every element needs a positive one; Mesh Optimize mends such cells where the surface "
+         "lets it.";
     return Error{ text.str(), c };
   }
   return std::nullopt;

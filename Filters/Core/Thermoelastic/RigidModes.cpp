@@ -412,6 +412,10 @@ template <int D>
 std::string RigidModes<D>::describe() const
 {
   constexpr Index Most = 6;
+  if (this->bodies.size() == 1 && this->count() == MotionSize<D>)
+  {
+    return "the mesh can translate and rotate freely";
+  }
   std::string text;
   Index done = 0;
   for (Index g = 0; g < static_cast<Index>(this->groups.size()); ++g)

@@ -1,0 +1,188 @@
+#include "vtkThermoelasticLoads.h"
+
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "Thermoelastic/Loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace vtkThermoelasticBridge
+{
+
+using meshopt::Facet;
+using meshopt::Index;
+using meshopt::Vec;
+
+namespace
+{
+
+/**
+ * Adds a load to a facet of the surface: value `ids[k]` of `array` at its k-th point, three
+ * components a traction, one a pressure.
+ */
+template <int D>
+void AddLoad(
+  Model<D>& model, const Facet<D>& facet, vtkDataArray* array, const std::array<vtkIdType, D>& ids)
+{
+  std::vector<Vec<D>>& forces = model.Problem.forces;
+  if (array->GetNumberOfComponents() == 1)
+  {
+    std::array<double, D> pressure;
+    for (int k = 0; k < D; ++k)
+    {
+      pressure[k] = array->GetComponent(ids[k], 0);
+    }
+    meshopt::fem::addPressure<D>(model.Mesh, facet, pressure, forces);
+    return;
+  }
+  std::array<Vec<D>, D> traction;
+  for (int k = 0; k < D; ++k)
+  {
+    double value[3];
+    array->GetTuple(ids[k], value);
+    traction[k] = VectorToCore(model.Frame, value);
+  }
+  meshopt::fem::addTraction<D>(model.Mesh, facet, traction, forces);
+}
+
+bool IsZero(vtkDataArray* array, vtkIdType id)
+{
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
+  {
+    if (array->GetComponent(id, i) != 0.0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool IsFinite(vtkDataArray* array, vtkIdType id)
+{
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
+  {
+    if (!std::isfinite(array->GetComponent(id, i)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/**
+ * Facets whose points all carry a load.
+ */
+template <int D>
+std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& model)
+{
+  vtkDataArray* array = model.Arrays[TractionArray];
+  for (const Facet<D>& facet : surface)
+  {
+    std::array<vtkIdType, D> ids;
+    bool isLoaded = true;
+    for (int k = 0; k < D; ++k)
+    {
+      ids[k] = facet[k];
+      isLoaded &= !IsZero(array, ids[k]);
+      if (!IsFinite(array, ids[k]))
+      {
+        return std::string("The traction '") + array->GetName() + "' at point " +
+          std::to_string(ids[k]) + " is not finite.";
+      }
+    }
+    if (isLoaded)
+    {
+      AddLoad<D>(model, facet, array, ids);
+    }
+  }
+  return {};
+}
+
+/**
+ * Cells of the grid that are facets: triangles, in the plane lines.
+ */
+template <int D>
+std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& model)
+{
+  vtkDataArray* array = model.Arrays[FacetTractionArray];
+  const auto sorted = [](Facet<D> facet)
+  {
+    std::sort(facet.begin(), facet.end());
+    return facet;
+  };
+  std::map<Facet<D>, Facet<D>> oriented;
+  for (const Facet<D>& facet : surface)
+  {
+    oriented[sorted(facet)] = facet;
+  }
+  for (vtkIdType c = 0; c < model.Grid->GetNumberOfCells(); ++c)
+  {
+    vtkIdType n = 0;
+    const vtkIdType* ids = nullptr;
+    model.Grid->GetCellPoints(c, n, ids);
+    const int type = model.Grid->GetCellType(c);
+    if (type != (D == 3 ? VTK_TRIANGLE : VTK_LINE) || n != D || IsZero(array, c))
+    {
+      continue;
+    }
+    Facet<D> facet;
+    std::copy(ids, ids + D, facet.begin());
+    const auto found = oriented.find(sorted(facet));
+    const std::string title = std::string("The facet traction '") + array->GetName() +
+      "' of cell " + std::to_string(c);
+    if (!IsFinite(array, c))
+    {
+      return title + " is not finite.";
+    }
+    if (found == oriented.end())
+    {
+      return title + " has nothing to act on: the cell is no facet of the surface of the " +
+        (D == 3 ? "tetrahedra." : "triangles.");
+    }
+    std::array<vtkIdType, D> same;
+    same.fill(c);
+    AddLoad<D>(model, found->second, array, same);
+  }
+  return {};
+}
+
+} // namespace
+
+template <int D>
+std::string SetLoads(const Request& request, Model<D>& model)
+{
+  const bool hasPoints = model.Arrays[TractionArray] != nullptr;
+  const bool hasFacets = model.Arrays[FacetTractionArray] != nullptr;
+  if (request.SurfacePressure == 0.0 && !hasPoints && !hasFacets)
+  {
+    return {};
+  }
+  if (!std::isfinite(request.SurfacePressure))
+  {
+    return "The pressure on the surface is not finite.";
+  }
+  model.Problem.forces.assign(
+    static_cast<std::size_t>(model.Grid->GetNumberOfPoints()), Vec<D>::Zero());
+  const std::vector<Facet<D>> surface = meshopt::fem::surfaceFacets(model.Mesh);
+  for (const Facet<D>& facet : surface)
+  {
+    std::array<double, D> pressure;
+    pressure.fill(request.SurfacePressure);
+    meshopt::fem::addPressure<D>(model.Mesh, facet, pressure, model.Problem.forces);
+  }
+  std::string error = hasPoints ? AddPointTractions<D>(surface, model) : std::string();
+  if (error.empty() && hasFacets)
+  {
+    error = AddFacetTractions<D>(surface, model);
+  }
+  return error;
+}
+
+template std::string SetLoads<2>(const Request&, Model<2>&);
+template std::string SetLoads<3>(const Request&, Model<3>&);
+
+} // namespace vtkThermoelasticBridge

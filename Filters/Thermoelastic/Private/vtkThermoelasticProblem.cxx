@@ -1,0 +1,236 @@
+#include "vtkThermoelasticProblem.h"
+
+#include "vtkThermoelasticFilter.h"
+#include "vtkThermoelasticLoads.h"
+
+#include "vtkDataArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+
+namespace vtkThermoelasticBridge
+{
+
+using meshopt::Index;
+using meshopt::Vec;
+using vtkMeshOptimizeBridge::Frame;
+using vtkMeshOptimizeBridge::UsedBySimplex;
+
+namespace
+{
+
+/**
+ * Points within this part of the extent belong to an end of the body.
+ */
+constexpr double EndTolerance = 1e-6;
+
+/**
+ * Coordinate of the grid that is component `i` of the core; -1 where there is none (a plane that is
+ * not parallel to two axes).
+ */
+int GridAxis(const Frame<3>&, int i) { return i; }
+int GridAxis(const Frame<2>& frame, int i) { return frame.Direct[i]; }
+
+bool IsAligned(const Frame<3>&) { return true; }
+bool IsAligned(const Frame<2>& frame) { return frame.Direct[0] >= 0; }
+
+template <int D>
+bool IsUsed(const Model<D>& model, vtkIdType p)
+{
+  return (model.Cells.PointUse[static_cast<std::size_t>(p)] & UsedBySimplex) != 0;
+}
+
+template <int D>
+std::string SetTemperature(const Request& request, Model<D>& model)
+{
+  const vtkIdType n = model.Grid->GetNumberOfPoints();
+  std::vector<double>& temperature = model.Problem.temperature;
+  model.Problem.referenceTemperature = request.ReferenceTemperature;
+  vtkDataArray* array = model.Arrays[TemperatureArray];
+  if (request.TemperatureMode == vtkThermoelasticFilter::PointArray && !array)
+  {
+    return std::string("There is no temperature: the input has no point array '") +
+      DefaultName(TemperatureArray) +
+      "'. Choose another array, or let the temperature be radial or uniform.";
+  }
+  temperature.assign(static_cast<std::size_t>(n), request.UniformTemperature);
+  for (vtkIdType p = 0; p < n; ++p)
+  {
+    if (request.TemperatureMode == vtkThermoelasticFilter::PointArray)
+    {
+      temperature[p] = array->GetComponent(p, 0);
+    }
+    else if (request.TemperatureMode == vtkThermoelasticFilter::Radial)
+    {
+      double x[3];
+      model.Grid->GetPoint(p, x);
+      const double a = x[(request.Axis + 1) % 3], b = x[(request.Axis + 2) % 3];
+      temperature[p] = request.AxisTemperature - request.RadialCoefficient * (a * a + b * b);
+    }
+  }
+  return {};
+}
+
+template <int D>
+void SetMaterials(const Request& request, Model<D>& model)
+{
+  std::vector<meshopt::fem::Material>& materials = model.Problem.materials;
+  const InputArrays& arrays = model.Arrays;
+  materials.assign(1, request.Material);
+  model.Problem.planeState = request.PlaneState;
+  if (!arrays[YoungsModulusArray] && !arrays[PoissonsRatioArray] && !arrays[ThermalExpansionArray])
+  {
+    return;
+  }
+  materials.assign(model.Cells.Simplices.size(), request.Material);
+  const auto read = [&](ArrayIndex index, double meshopt::fem::Material::*member)
+  {
+    for (std::size_t c = 0; c < materials.size() && arrays[index]; ++c)
+    {
+      materials[c].*member = arrays[index]->GetComponent(model.Cells.Simplices[c], 0);
+    }
+  };
+  read(YoungsModulusArray, &meshopt::fem::Material::youngsModulus);
+  read(PoissonsRatioArray, &meshopt::fem::Material::poissonsRatio);
+  read(ThermalExpansionArray, &meshopt::fem::Material::thermalExpansion);
+}
+
+template <int D>
+void Prescribe(Model<D>& model, vtkIdType p, int component, const Vec<D>& value)
+{
+  model.Problem.constraints.push_back({ static_cast<Index>(p), component, value[component] });
+}
+
+/**
+ * Which components of a point are held: 0 where the mask is 0, all if it has one component.
+ */
+void ReadMask(vtkDataArray* mask, vtkIdType p, bool held[3])
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    held[i] = mask->GetComponent(p, mask->GetNumberOfComponents() == 3 ? i : 0) != 0.0;
+  }
+}
+
+/**
+ * Components of the core are components of the grid where the plane is parallel to two axes; else
+ * all or none of a point can be held.
+ */
+template <int D>
+std::string SetConstraints(Model<D>& model)
+{
+  vtkDataArray* mask = model.Arrays[ConstraintArray];
+  vtkDataArray* displacement = model.Arrays[PrescribedDisplacementArray];
+  if (displacement && !mask)
+  {
+    return std::string("There are prescribed displacements ('") + displacement->GetName() +
+      "'), but no constraint array ('" + DefaultName(ConstraintArray) +
+      "') that says which components they are prescribed for.";
+  }
+  for (vtkIdType p = 0; p < model.Grid->GetNumberOfPoints() && mask; ++p)
+  {
+    bool held[3];
+    ReadMask(mask, p, held);
+    if (!IsUsed(model, p) || (!held[0] && !held[1] && !held[2]))
+    {
+      continue;
+    }
+    double value[3] = { 0.0, 0.0, 0.0 };
+    if (displacement)
+    {
+      displacement->GetTuple(p, value);
+    }
+    if (!IsAligned(model.Frame) && !(held[0] && held[1] && held[2]))
+    {
+      return "Point " + std::to_string(p) +
+        " is held in some components only, but the mesh lies in a plane that is not parallel to "
+        "two "
+        "axes: hold all three, or none.";
+    }
+    for (int i = 0; i < D; ++i)
+    {
+      if (!IsAligned(model.Frame) || held[GridAxis(model.Frame, i)])
+      {
+        Prescribe(model, p, i, VectorToCore(model.Frame, value));
+      }
+    }
+  }
+  return {};
+}
+
+template <int D>
+std::string SetGeneralizedPlaneStrain(const Request& request, Model<D>& model, double& axialStrain)
+{
+  if (!request.GeneralizedPlaneStrain)
+  {
+    return {};
+  }
+  if (!IsAligned(model.Frame))
+  {
+    return "Generalized plane strain: the mesh lies in a plane that is not parallel to two axes.";
+  }
+  // Material and temperature must be fit for a mean before the strain is.
+  const auto error = meshopt::fem::check(model.Mesh, model.Problem);
+  if (error)
+  {
+    return WithGridIds(error->message, error->cell, model);
+  }
+  axialStrain = request.IsAxialStrainGiven
+    ? request.AxialStrain
+    : meshopt::fem::freeAxialStrain(model.Mesh, model.Problem);
+  for (int i = 0; i < D; ++i)
+  {
+    if (GridAxis(model.Frame, i) == request.Axis)
+    {
+      meshopt::fem::constrainEnds(model.Mesh, i, axialStrain, EndTolerance, model.Problem);
+      return {};
+    }
+  }
+  if (request.PlaneState == meshopt::fem::PlaneState::PlaneStress)
+  {
+    return std::string("Generalized plane strain along ") + static_cast<char>('x' + request.Axis) +
+      ", the normal of the plane, needs the plane state to be plane strain.";
+  }
+  model.Problem.outOfPlaneStrain = axialStrain;
+  return {};
+}
+
+} // namespace
+
+template <int D>
+std::string WithGridIds(const std::string& message, Index cell, const Model<D>& model)
+{
+  if (cell == meshopt::None || model.Cells.IsIdentity(model.Grid->GetNumberOfCells()))
+  {
+    return message;
+  }
+  return message + " (Counted among the " + (D == 3 ? "tetrahedra" : "triangles") + "; number " +
+    std::to_string(cell) + " of them is cell " + std::to_string(model.Cells.Simplices[cell]) +
+    " of the grid.)";
+}
+
+template <int D>
+std::string MakeProblem(const Request& request, Model<D>& model, double& axialStrain)
+{
+  model.Problem.rigidMotion = request.RigidMotion;
+  std::string error = SetTemperature(request, model);
+  if (!error.empty())
+  {
+    return error;
+  }
+  SetMaterials(request, model);
+  // The ends first, so that constraints of single points take precedence.
+  error = SetGeneralizedPlaneStrain(request, model, axialStrain);
+  if (error.empty())
+  {
+    error = SetConstraints(model);
+  }
+  return error.empty() ? SetLoads(request, model) : error;
+}
+
+template std::string MakeProblem<2>(const Request&, Model<2>&, double&);
+template std::string MakeProblem<3>(const Request&, Model<3>&, double&);
+template std::string WithGridIds<2>(const std::string&, Index, const Model<2>&);
+template std::string WithGridIds<3>(const std::string&, Index, const Model<3>&);
+
+} // namespace vtkThermoelasticBridge

@@ -1,0 +1,161 @@
+#include "vtkThermoelasticRun.h"
+
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeImport.h"
+#include "vtkThermoelasticExport.h"
+#include "vtkThermoelasticFilter.h"
+#include "vtkThermoelasticProblem.h"
+
+#include "vtkCellTypes.h"
+#include "vtkGenericCell.h"
+#include "vtkNew.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace vtkThermoelasticBridge
+{
+
+namespace bridge = vtkMeshOptimizeBridge;
+using meshopt::fem::Solution;
+using meshopt::fem::SolverStatus;
+
+namespace
+{
+
+/**
+ * Dimension of a type of cells; types that VTK does not know count as volumes.
+ */
+int DimensionOf(int type)
+{
+  vtkNew<vtkGenericCell> cell;
+  cell->SetCellType(type);
+  return cell->GetRepresentativeCell() ? cell->GetCellDimension() : 3;
+}
+
+/**
+ * Every cell of the mesh's dimension must be a linear simplex: to leave one out would be to solve
+ * for another body. Cells of lower dimension are marks on it.
+ */
+std::string CheckCellTypes(vtkUnstructuredGrid* grid, int dimension)
+{
+  const int simplex = dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
+  std::vector<int> dimensions(VTK_NUMBER_OF_CELL_TYPES, -1);
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const int type = grid->GetCellType(c);
+    if (type == simplex)
+    {
+      continue;
+    }
+    if (dimensions[type] < 0)
+    {
+      dimensions[type] = DimensionOf(type);
+    }
+    if (dimension == 0 || dimensions[type] >= dimension)
+    {
+      return "Cell " + std::to_string(c) + " (" + vtkCellTypes::GetClassNameFromTypeId(type) +
+        ") is neither a linear triangle nor a linear tetrahedron" +
+        (dimension == 0 ? ", and no other cell is." : ".") +
+        " Only these can be solved for; the filter Tetrahedralize makes them.";
+    }
+  }
+  return {};
+}
+
+template <int D>
+std::string BuildMesh(Model<D>& model)
+{
+  std::string error = bridge::FindFrame(model.Grid, model.Cells, model.Frame);
+  if (!error.empty())
+  {
+    return error;
+  }
+  meshopt::MeshInput<D> input = bridge::ImportGeometry(
+    model.Grid, model.Cells.Simplices, model.Frame);
+  input.regions = bridge::ReadRegions(model.Arrays[RegionArray], model.Cells);
+  const auto fault = meshopt::SimplexMesh<D>::build(input, model.Mesh);
+  return fault ? WithGridIds(fault->message, fault->cell, model) : std::string();
+}
+
+template <int D>
+void KeepFigures(const Solution<D>& solution, Outcome& outcome)
+{
+  outcome.HasSolved = true;
+  outcome.Solver = solution.solver;
+  outcome.NumberOfUnknowns = solution.numberOfUnknowns;
+  outcome.StrainEnergy = solution.strainEnergy;
+  outcome.ErrorEstimate = solution.totalErrorEstimate;
+  outcome.RelativeErrorEstimate = solution.relativeErrorEstimate;
+  outcome.AssemblySeconds = solution.assemblySeconds;
+  outcome.SolveSeconds = solution.solveSeconds;
+  outcome.RecoverySeconds = solution.recoverySeconds;
+}
+
+template <int D>
+std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnstructuredGrid* input,
+  const Request& request, vtkUnstructuredGrid* output, vtkTable* history, Outcome& outcome)
+{
+  Model<D> model;
+  model.Grid = input;
+  model.Cells = cells;
+  model.Arrays = arrays;
+  std::string error = BuildMesh(model);
+  if (error.empty())
+  {
+    error = MakeProblem(request, model, outcome.AxialStrain);
+  }
+  if (!error.empty())
+  {
+    return error;
+  }
+  Solution<D> solution;
+  const auto fault = meshopt::fem::analyse(
+    model.Mesh, model.Problem, request.Options, request.Control, solution);
+  if (fault)
+  {
+    return WithGridIds(fault->message, fault->cell, model);
+  }
+  KeepFigures(solution, outcome);
+  if (solution.solver.status != SolverStatus::Cancelled)
+  {
+    output->ShallowCopy(input);
+    if (request.TemperatureMode != vtkThermoelasticFilter::PointArray)
+    {
+      ExportTemperature(model.Problem.temperature, output);
+    }
+    ExportSolution(model, solution, output);
+    ExportFigures(outcome, output);
+    ExportHistory(solution.solver.history, history);
+  }
+  return {};
+}
+
+} // namespace
+
+std::string SolveGrid(vtkUnstructuredGrid* input, const Request& request,
+  vtkUnstructuredGrid* output, vtkTable* history, Outcome& outcome)
+{
+  if (input->GetNumberOfCells() == 0)
+  {
+    output->ShallowCopy(input);
+    return {};
+  }
+  bridge::Cells cells;
+  std::string error = bridge::ClassifyCells(input, cells);
+  if (error.empty())
+  {
+    error = CheckCellTypes(input, cells.Dimension);
+  }
+  InputArrays arrays;
+  if (error.empty())
+  {
+    error = FindInputArrays(request.Filter, input, arrays);
+  }
+  if (!error.empty())
+  {
+    return error;
+  }
+  return cells.Dimension == 3 ? Solve<3>(cells, arrays, input, request, output, history, outcome)
+                              : Solve<2>(cells, arrays, input, request, output, history, outcome);
+}
+
+} // namespace vtkThermoelasticBridge

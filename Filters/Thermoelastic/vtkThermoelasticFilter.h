@@ -1,0 +1,444 @@
+/**
+ * @class   vtkThermoelasticFilter
+ * @brief   linear thermoelastic finite element analysis on tetrahedra or triangles
+ *
+ * vtkThermoelasticFilter computes how a body deforms under a temperature field, under loads on its
+ * surface and under prescribed displacements, and which stresses that takes: small strains, isotropic
+ * linear material, linear (P1) elements.
+ *
+ * <b>What is solved on.</b> If the input has tetrahedra, on these; triangles and lines in it then are
+ * marks on the body, and pass through. Else on its triangles, which must lie in one plane (any
+ * plane), in plane strain or plane stress, per unit of thickness. Quadratic cells and other cells of
+ * the same dimension are an error, since to leave one out would be to solve for another body.
+ *
+ * <b>Units</b> are the caller's, as long as they fit together: with metres and Pa, forces are in N
+ * and energies in J. Stress is positive in tension.
+ *
+ * <b>Arrays that are read.</b> Each has a default name, under which it is looked for unless another
+ * one is chosen (see SetTemperatureArray() and those below it); one that is chosen must be there.
+ * - point `Temperature`: see TemperatureMode.
+ * - cell `YoungsModulus`, `PoissonsRatio`, `ThermalExpansion`: where they are, they take the place of
+ *   the properties of the same names.
+ * - point `Constraint`: a component of the displacement is prescribed where this is not 0; three
+ *   components, or one for all three. Its value is 0, or that of point `PrescribedDisplacement`.
+ *   (In a plane, what is across it is not looked at.)
+ * - point `Traction`: force per area in the directions of the axes (3 components), or a pressure (1
+ *   component, positive when it pushes). It acts on those facets of the surface whose points all have
+ *   one that is not 0, and is linear on them.
+ * - cell `FacetTraction`: the same, constant on a facet. It is read at cells of the input that are
+ *   facets of the surface: triangles on tetrahedra, lines on triangles.
+ *
+ * <b>Constraints</b> come from the arrays and from GeneralizedPlaneStrain; where both prescribe the
+ * same component, the array counts. What they leave free is the matter of RigidMotion.
+ *
+ * <b>Output port 0</b>: the input with these arrays added (double; in the place of any of the same
+ * name). Z is the normal of a plane. What is not part of the mesh has NaN, but 0 in the vectors.
+ * - point `Displacement` (3), to warp by.
+ * - point `Stress` (6: XX YY ZZ XY YZ XZ), see StressRecovery; `VonMises`; `PrincipalStress` (3, the
+ *   greatest first). Not with StressRecovery None.
+ * - point `Reaction` (3): the force that holds the point in its prescribed components.
+ * - cell `ElementStress` (6): at the centroid. The element's own, and the less accurate one.
+ * - cell `StrainEnergyDensity`.
+ * - cell `ErrorEstimate`: Zienkiewicz and Zhu's, in the energy norm (the root of an energy). Its
+ *   squares add up to that of GetErrorEstimate(). Not with StressRecovery None.
+ * - point `Temperature`, if it was not an array of the input.
+ * - field data `NumberOfUnknowns`, `NumberOfSolverIterations`, `RelativeResidual`, `StrainEnergy`,
+ *   `TotalErrorEstimate`, `RelativeErrorEstimate`.
+ *
+ * <b>Output port 1</b>: a vtkTable with `Iteration` and `RelativeResidual`, from 0 (before the first
+ * step) to the last.
+ *
+ * <b>Errors.</b> Anything that cannot be solved (no temperature, too few constraints, a Poisson's
+ * ratio of 0.5, an inverted element, loads that nothing holds against, ...) gives one error message
+ * that names what and where; outputs are then empty and GetErrorCode() is not 0. A solver that does
+ * not reach its tolerance is a warning, and GetStopReason() says so. After an abort outputs are empty
+ * and GetStopReason() is Aborted.
+ *
+ * <b>Distributed data</b>: the body must be on one process; other processes may have empty pieces.
+ *
+ * The same input gives the same output, bit for bit, for any number of threads.
+ *
+ * @par Thanks:
+ * The conjugate gradients with diagonal preconditioner are those of G. C. Buscaglia, E. A. Dari,
+ * P. D. Zavattieri: Mesh optimization: some results in 3D elasticity (1996). Patch recovery and error
+ * estimate: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Eng. 33 (1992) 1331-1382.
+ *
+ * @sa
+ * vtkMeshOptimizeFilter vtkWarpVector
+ */
+#ifndef vtkThermoelasticFilter_h
+#define vtkThermoelasticFilter_h
+
+#include "vtkFiltersThermoelasticModule.h" // for export macro
+#include "vtkUnstructuredGridAlgorithm.h"
+
+#include <string> // for std::string
+
+class vtkMultiProcessController;
+
+namespace vtkThermoelasticBridge
+{
+struct Outcome;
+struct Request;
+}
+
+class VTKFILTERSTHERMOELASTIC_EXPORT vtkThermoelasticFilter : public vtkUnstructuredGridAlgorithm
+{
+public:
+  static vtkThermoelasticFilter* New();
+  vtkTypeMacro(vtkThermoelasticFilter, vtkUnstructuredGridAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum TemperatureModeType
+  {
+    PointArray = 0, ///< the temperature array
+    Radial = 1,     ///< T = AxisTemperature - RadialCoefficient r^2, r the distance from Axis
+    Uniform = 2     ///< UniformTemperature everywhere
+  };
+  ///@{
+  /**
+   * Where the temperature comes from. It is linear in each element, from its values at the points.
+   * For an analysis without temperature choose Uniform with UniformTemperature equal to
+   * ReferenceTemperature, as the defaults are. Default: PointArray.
+   */
+  vtkSetClampMacro(TemperatureMode, int, PointArray, Uniform);
+  vtkGetMacro(TemperatureMode, int);
+  void SetTemperatureModeToPointArray() { this->SetTemperatureMode(PointArray); }
+  void SetTemperatureModeToRadial() { this->SetTemperatureMode(Radial); }
+  void SetTemperatureModeToUniform() { this->SetTemperatureMode(Uniform); }
+  ///@}
+
+  ///@{
+  /**
+   * For TemperatureMode Uniform. Default 0.
+   */
+  vtkSetMacro(UniformTemperature, double);
+  vtkGetMacro(UniformTemperature, double);
+  ///@}
+
+  ///@{
+  /**
+   * T0 and T1 of TemperatureMode Radial, T = T0 - T1 r^2: the profile of a cylinder with a uniform
+   * heat source. r is the distance from the coordinate axis that Axis names. Both default to 0.
+   */
+  vtkSetMacro(AxisTemperature, double);
+  vtkGetMacro(AxisTemperature, double);
+  vtkSetMacro(RadialCoefficient, double);
+  vtkGetMacro(RadialCoefficient, double);
+  ///@}
+
+  ///@{
+  /**
+   * The temperature at which there is no thermal strain. Default 0.
+   */
+  vtkSetMacro(ReferenceTemperature, double);
+  vtkGetMacro(ReferenceTemperature, double);
+  ///@}
+
+  ///@{
+  /**
+   * Material, where there are no cell arrays for it. YoungsModulus > 0, default 2e11; PoissonsRatio
+   * in ]-1, 0.5[, default 0.316; ThermalExpansion per unit of temperature, default 1e-5: uranium
+   * dioxide in SI.
+   */
+  vtkSetMacro(YoungsModulus, double);
+  vtkGetMacro(YoungsModulus, double);
+  vtkSetMacro(PoissonsRatio, double);
+  vtkGetMacro(PoissonsRatio, double);
+  vtkSetMacro(ThermalExpansion, double);
+  vtkGetMacro(ThermalExpansion, double);
+  ///@}
+
+  enum PlaneStateType
+  {
+    PlaneStrain = 0, ///< no strain along the normal (or that of GeneralizedPlaneStrain)
+    PlaneStress = 1  ///< no stress along the normal
+  };
+  ///@{
+  /**
+   * For triangles: what holds across the plane. Default: PlaneStrain.
+   */
+  vtkSetClampMacro(PlaneState, int, PlaneStrain, PlaneStress);
+  vtkGetMacro(PlaneState, int);
+  void SetPlaneStateToPlaneStrain() { this->SetPlaneState(PlaneStrain); }
+  void SetPlaneStateToPlaneStress() { this->SetPlaneState(PlaneStress); }
+  ///@}
+
+  ///@{
+  /**
+   * Constrain the two ends of the body along Axis, as if it were a piece of a long one: all points
+   * of the lowest plane (within 1e-6 of the height) stay in it, all of the highest move by the same
+   * amount, AxialStrain times the height; sideways they are free. On triangles with Axis the normal
+   * of their plane, the strain along it is AxialStrain. Off by default.
+   */
+  vtkSetMacro(GeneralizedPlaneStrain, bool);
+  vtkGetMacro(GeneralizedPlaneStrain, bool);
+  vtkBooleanMacro(GeneralizedPlaneStrain, bool);
+  ///@}
+
+  enum AxisType
+  {
+    X = 0,
+    Y = 1,
+    Z = 2
+  };
+  ///@{
+  /**
+   * The coordinate axis of TemperatureMode Radial and of GeneralizedPlaneStrain. Default: Z.
+   */
+  vtkSetClampMacro(Axis, int, X, Z);
+  vtkGetMacro(Axis, int);
+  void SetAxisToX() { this->SetAxis(X); }
+  void SetAxisToY() { this->SetAxis(Y); }
+  void SetAxisToZ() { this->SetAxis(Z); }
+  ///@}
+
+  enum AxialStrainModeType
+  {
+    Free = 0, ///< such that the ends carry no force on the whole
+    Given = 1 ///< AxialStrain
+  };
+  ///@{
+  /**
+   * The strain of GeneralizedPlaneStrain. Free: the mean of thermal expansion times temperature,
+   * weighted with Young's modulus and volume; that leaves no resultant force on the ends of a prism
+   * with free sides where Poisson's ratio is the same everywhere. Default: Free; AxialStrain 0.
+   */
+  vtkSetClampMacro(AxialStrainMode, int, Free, Given);
+  vtkGetMacro(AxialStrainMode, int);
+  void SetAxialStrainModeToFree() { this->SetAxialStrainMode(Free); }
+  void SetAxialStrainModeToGiven() { this->SetAxialStrainMode(Given); }
+  vtkSetMacro(AxialStrain, double);
+  vtkGetMacro(AxialStrain, double);
+  ///@}
+
+  enum RigidMotionType
+  {
+    Forbid = 0, ///< an error that names a motion that is free
+    Pin = 1,    ///< single components of points are held at 0, as many as needed
+    Project = 2 ///< the displacement without mean translation and rotation
+  };
+  ///@{
+  /**
+   * What to do about rigid motions that the constraints leave free: without constraints all six (in
+   * a plane three). They do not matter to stress, but loads must be in equilibrium along them. Pin
+   * holds as many components of points far apart as there are motions (the 3-2-1 rule). Project
+   * takes the motions out of the displacement instead, which needs fewer steps of the conjugate
+   * gradients. Default: Forbid.
+   */
+  vtkSetClampMacro(RigidMotion, int, Forbid, Project);
+  vtkGetMacro(RigidMotion, int);
+  void SetRigidMotionToForbid() { this->SetRigidMotion(Forbid); }
+  void SetRigidMotionToPin() { this->SetRigidMotion(Pin); }
+  void SetRigidMotionToProject() { this->SetRigidMotion(Project); }
+  ///@}
+
+  ///@{
+  /**
+   * A pressure on the whole surface, positive when it pushes. Default 0.
+   */
+  vtkSetMacro(SurfacePressure, double);
+  vtkGetMacro(SurfacePressure, double);
+  ///@}
+
+  ///@{
+  /**
+   * The input arrays by name; nullptr or "" for the default name, under which the array may be
+   * absent (but for the temperature). The same as SetInputArrayToProcess() with the index given
+   * here. What they mean is said above.
+   * - 0, temperature: points, 1 component, `Temperature`.
+   * - 1 to 3, Young's modulus, Poisson's ratio, thermal expansion: cells, 1 component,
+   *   `YoungsModulus`, `PoissonsRatio`, `ThermalExpansion`.
+   * - 4, region: cells, 1 integer component, no default name. Recovery of stress does not look
+   *   across the border of a region: choose it where materials differ by much.
+   * - 5, constraint: points, 1 or 3 components, `Constraint`.
+   * - 6, prescribed displacement: points, 3 components, `PrescribedDisplacement`. Needs a constraint
+   *   array.
+   * - 7, traction: points, 1 or 3 components, `Traction`.
+   * - 8, facet traction: cells, 1 or 3 components, `FacetTraction`.
+   */
+  void SetTemperatureArray(const char* name);
+  void SetYoungsModulusArray(const char* name);
+  void SetPoissonsRatioArray(const char* name);
+  void SetThermalExpansionArray(const char* name);
+  void SetRegionArray(const char* name);
+  void SetConstraintArray(const char* name);
+  void SetPrescribedDisplacementArray(const char* name);
+  void SetTractionArray(const char* name);
+  void SetFacetTractionArray(const char* name);
+  ///@}
+
+  enum StressRecoveryType
+  {
+    Patch = 0,         ///< superconvergent patch recovery; points of the surface from those inside
+    LocalPatch = 1,    ///< the same, each point from the cells around itself
+    VolumeAverage = 2, ///< mean of the cells around the point, weighted by volume
+    None = 3           ///< no point stress, no error estimate
+  };
+  ///@{
+  /**
+   * How the stress at points comes from that of the elements. Patch fits linear polynomials to the
+   * elements around each interior point, and points of the surface take what the polynomials of
+   * their interior neighbours say: accurate, and it hides bad elements at the surface. LocalPatch
+   * fits at each point, on the surface too, and shows them. VolumeAverage is smooth and of low
+   * accuracy at the surface. Default: Patch.
+   */
+  vtkSetClampMacro(StressRecovery, int, Patch, None);
+  vtkGetMacro(StressRecovery, int);
+  void SetStressRecoveryToPatch() { this->SetStressRecovery(Patch); }
+  void SetStressRecoveryToLocalPatch() { this->SetStressRecovery(LocalPatch); }
+  void SetStressRecoveryToVolumeAverage() { this->SetStressRecovery(VolumeAverage); }
+  void SetStressRecoveryToNone() { this->SetStressRecovery(None); }
+  ///@}
+
+  enum SolverType
+  {
+    ConjugateGradient = 0,  ///< preconditioned by the diagonal
+    IncompleteCholesky = 1, ///< conjugate gradients, preconditioned by an incomplete factorization
+    Direct = 2              ///< sparse LDL' factorization
+  };
+  ///@{
+  /**
+   * How the equations are solved. IncompleteCholesky needs about a third of the steps, each twice as
+   * long. Direct is for small meshes: time and memory grow fast, and it cannot be aborted. Default:
+   * ConjugateGradient.
+   */
+  vtkSetClampMacro(Solver, int, ConjugateGradient, Direct);
+  vtkGetMacro(Solver, int);
+  void SetSolverToConjugateGradient() { this->SetSolver(ConjugateGradient); }
+  void SetSolverToIncompleteCholesky() { this->SetSolver(IncompleteCholesky); }
+  void SetSolverToDirect() { this->SetSolver(Direct); }
+  ///@}
+
+  ///@{
+  /**
+   * The solver is done when the residual has fallen to this part of the right-hand side. Range 1e-15
+   * to 0.1, default 1e-8.
+   */
+  vtkSetClampMacro(Tolerance, double, 1e-15, 0.1);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Steps of the conjugate gradients at most. Range >= 1, default 10000.
+   */
+  vtkSetClampMacro(MaximumNumberOfIterations, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumNumberOfIterations, int);
+  ///@}
+
+  ///@{
+  /**
+   * Threads to use. Range >= 0, default 0: all (VTK_SMP_MAX_THREADS limits them, as everywhere in
+   * VTK). The output does not depend on it.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  enum StopReasonType
+  {
+    NotRun = 0,         ///< not run yet, or stopped by an error
+    Converged = 1,      ///< solved to the tolerance
+    IterationLimit = 2, ///< the tolerance was not reached
+    Breakdown = 3,      ///< the solver can make no further step: singular to rounding
+    Aborted = 4,
+    NothingToDo = 5 ///< no cells
+  };
+
+  ///@{
+  /**
+   * How the last run ended, as StopReasonType and in words.
+   */
+  vtkGetMacro(StopReason, int);
+  const char* GetStopReasonAsString();
+  ///@}
+
+  ///@{
+  /**
+   * Results of the last run: unknowns; steps of the conjugate gradients (0 for Direct); residual over
+   * right-hand side at the end; the strain energy; the error estimate in the energy norm and relative
+   * to the norm of the solution, 0 to 1; the strain that GeneralizedPlaneStrain has prescribed. 0
+   * before a run and after an error.
+   */
+  vtkGetMacro(NumberOfUnknowns, vtkIdType);
+  vtkGetMacro(NumberOfSolverIterations, int);
+  vtkGetMacro(RelativeResidual, double);
+  vtkGetMacro(StrainEnergy, double);
+  vtkGetMacro(ErrorEstimate, double);
+  vtkGetMacro(RelativeErrorEstimate, double);
+  vtkGetMacro(PrescribedAxialStrain, double);
+  ///@}
+
+  ///@{
+  /**
+   * Seconds that the last run spent on assembling, on solving, and on stresses and their recovery.
+   * Not part of any output array.
+   */
+  vtkGetMacro(AssemblySeconds, double);
+  vtkGetMacro(SolveSeconds, double);
+  vtkGetMacro(RecoverySeconds, double);
+  ///@}
+
+  ///@{
+  /**
+   * The controller that tells whether the body is spread over several processes. Default: the global
+   * controller. Null: this process only. All its processes must update.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+protected:
+  vtkThermoelasticFilter();
+  ~vtkThermoelasticFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkThermoelasticFilter(const vtkThermoelasticFilter&) = delete;
+  void operator=(const vtkThermoelasticFilter&) = delete;
+
+  std::string CheckDistribution(bool hasCells);
+  void FillRequest(vtkThermoelasticBridge::Request& request);
+  void StoreResults(const vtkThermoelasticBridge::Outcome& outcome);
+  void ChooseArray(int index, bool onCells, const char* name);
+
+  int TemperatureMode = PointArray;
+  double UniformTemperature = 0.0;
+  double AxisTemperature = 0.0;
+  double RadialCoefficient = 0.0;
+  double ReferenceTemperature = 0.0;
+  double YoungsModulus = 2e11;
+  double PoissonsRatio = 0.316;
+  double ThermalExpansion = 1e-5;
+  int PlaneState = PlaneStrain;
+  bool GeneralizedPlaneStrain = false;
+  int Axis = Z;
+  int AxialStrainMode = Free;
+  double AxialStrain = 0.0;
+  int RigidMotion = Forbid;
+  double SurfacePressure = 0.0;
+  int StressRecovery = Patch;
+  int Solver = ConjugateGradient;
+  double Tolerance = 1e-8;
+  int MaximumNumberOfIterations = 10000;
+  int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
+
+  int StopReason = NotRun;
+  vtkIdType NumberOfUnknowns = 0;
+  int NumberOfSolverIterations = 0;
+  double RelativeResidual = 0.0;
+  double StrainEnergy = 0.0;
+  double ErrorEstimate = 0.0;
+  double RelativeErrorEstimate = 0.0;
+  double PrescribedAxialStrain = 0.0;
+  double AssemblySeconds = 0.0;
+  double SolveSeconds = 0.0;
+  double RecoverySeconds = 0.0;
+};
+
+#endif
