@@ -132,17 +132,16 @@ public:
     Shape = 0, ///< the paper's S (2.3): 1832.82 V / P^3, 20.78 A / P^2, P the sum of edge lengths
     RadiusRatio = 1, ///< D times inradius over circumradius
     MeanRatio = 2,   ///< 12 (3V)^(2/3) / sum l^2; 4 sqrt(3) A / sum l^2
-    MinimumSine =
-      3, ///< least sine of the dihedral angles (2D: corner angles) over the regular one's
+    MinimumSine = 3, ///< least sine of the dihedral angles (2D: corner angles), at most .943 (.866)
     WarpedSine = 4,  ///< the same, with the sines of obtuse angles times 0.75
     VolumeLength = 5 ///< 6 sqrt(2) V / l_rms^3; 4 A / (sqrt(3) l_rms^2)
   };
   ///@{
   /**
-   * The shape measure S that is optimized. All are 1 for the regular simplex, 0 for a flat one and
-   * negative for an inverted one, and do not depend on size. What is chosen here decides which
-   * figures get good: Shape leads to good overall shapes, MinimumSine to good smallest dihedral
-   * angles. Default: Shape.
+   * The shape measure S that is optimized. All are 0 for a flat simplex and negative for an
+   * inverted one, greatest for the regular one, 1 but for the sines, and do not depend on size. What
+   * is chosen here decides which figures get good: Shape leads to good overall shapes, MinimumSine
+   * to good smallest dihedral angles. Default: Shape.
    */
   vtkSetClampMacro(QualityMeasure, int, Shape, VolumeLength);
   vtkGetMacro(QualityMeasure, int);
