@@ -65,7 +65,7 @@ void CheckHistory(vtkMeshOptimizeFilter* filter)
       table->GetValueByName(row, "Worst").ToDouble() >=
         table->GetValueByName(row - 1, "Worst").ToDouble());
     for (const std::string name : { "NodeMotion", "EdgeRemoval", "FaceRemoval", "EdgeContraction",
-           "NodeInsertion", "NodeReplacement", "LookAhead" })
+           "NodeInsertion", "NodeReplacement", "Retriangulation", "LookAhead" })
     {
       const int tried = table->GetValueByName(row, (name + "Tried").c_str()).ToInt();
       const int succeeded = table->GetValueByName(row, (name + "Done").c_str()).ToInt();

@@ -48,7 +48,7 @@ template <int D>
 bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 {
   const double q = mesh.quality(c);
-  if (!(q * (1.0 / Reached) <= this->largest_ * 1.01) && !(q <= this->largest_))
+  if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))
   {
     return false;
   }
@@ -59,13 +59,27 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
       Facet<D> f = mesh.facet(c, i);
       std::sort(f.begin(), f.end());
       const auto found = this->facets_.find(f);
-      if (found != this->facets_.end() && q >= Reached * found->second)
+      if (found != this->facets_.end() && q >= this->reached_ * found->second)
       {
         return true;
       }
     }
   }
   return this->isCappedByEdge(mesh, c);
+}
+
+template <int D>
+double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
+{
+  if (this->facets_.empty() || !mesh.isConstrained(c, i))
+  {
+    return -1.0;
+  }
+  Facet<D> f = mesh.facet(c, i);
+  std::sort(f.begin(), f.end());
+  const auto found = this->facets_.find(f);
+  return found == this->facets_.end() ? -1.0
+                                      : std::max(mesh.quality(c), this->reached_ * found->second);
 }
 
 template <int D>
@@ -82,7 +96,7 @@ bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
         continue;
       }
       const auto found = this->edges_.find({ std::min(a, b), std::max(a, b) });
-      if (found == this->edges_.end() || !(mesh.quality(c) >= Reached * found->second))
+      if (found == this->edges_.end() || !(mesh.quality(c) >= this->reached_ * found->second))
       {
         continue;
       }

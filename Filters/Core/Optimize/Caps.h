@@ -21,13 +21,18 @@ public:
 
   double bound() const { return this->bound_; }
 
-  /// True if cell c has reached a cap of one of its kept facets, up to a fraction 2e-3; or that of a
-  /// kept edge whose other cells are all better.
+  /// The fraction of its cap with which a cell counts as capped.
+  void setReached(double fraction) { this->reached_ = fraction; }
+
+  /// True if cell c has reached a cap of one of its kept facets; or that of a kept edge whose other
+  /// cells are all better.
   bool isCapped(const SimplexMesh<D>& mesh, Index c) const;
 
-private:
-  static constexpr double Reached = 0.998;
+  /// What a cell on kept facet i of cell c must have to count as capped; not less than c has. -1 if
+  /// no cap is known there.
+  double enough(const SimplexMesh<D>& mesh, Index c, int i) const;
 
+private:
   struct Hash
   {
     template <std::size_t N>
@@ -45,6 +50,7 @@ private:
 
   bool isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const;
 
+  double reached_ = 0.998;
   double bound_ = 1.0;
   double largest_ = -1.0; // of all caps
   std::unordered_map<Facet<D>, double, Hash> facets_;

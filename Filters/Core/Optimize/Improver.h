@@ -6,11 +6,13 @@
 
 #include "Boundary/ApexBound.h"
 #include "Mesh/CavityFit.h"
+#include "Optimize/Caps.h"
 #include "Optimize/Options.h"
 #include "Optimize/QualityModel.h"
 #include "Reconnect/Cavity.h"
 #include "Reconnect/EdgeRemoval.h"
 #include "Reconnect/FaceRemoval.h"
+#include "Reconnect/SmallPolyhedron.h"
 #include "Reposition/StarProblem.h"
 
 namespace meshopt
@@ -30,7 +32,8 @@ public:
     LongLookAhead = 3
   };
 
-  Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Options& options);
+  Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Caps<D>& caps,
+    const Options& options);
 
   /// Tries to improve the neighbourhood of cell t, whose quality is to rise. True if it did.
   bool improve(Index t, int level);
@@ -46,6 +49,8 @@ public:
     this->target_ = quality;
     this->guard_ = guard;
   }
+  /// Least gain that makes a change worth it: this much, less where all is tiny.
+  void setGain(double gain) { this->gain_ = gain; }
   /// Net number of cells that may still be added.
   void setGrowth(long cells) { this->growth_ = cells; }
   long growth() const { return this->growth_; }
@@ -57,8 +62,10 @@ public:
 private:
   static constexpr double Never = -std::numeric_limits<double>::infinity();
 
-  /// Least gain that makes a change worth it, at quality q: 1e-3, less where all is tiny.
-  static double gain(double q) { return std::min(1e-3, std::max(1e-7, 0.002 * std::fabs(q))); }
+  double gain(double q) const
+  {
+    return std::min(this->gain_, std::max(1e-4 * this->gain_, 2 * this->gain_ * std::fabs(q)));
+  }
 
   /// A place to go back to.
   struct Place
@@ -77,6 +84,8 @@ private:
   bool removeNodes(Index t);
   bool removeNode(Index v);
   bool insert(Index t);
+  bool retriangulate(Index t);
+  bool retriangulate(Index t, const typename SmallPolyhedron<Shape>::Limits& limits);
   bool lookAhead(Index t, int operations);
   bool settle(std::vector<Index>& affected, double goal, int operations);
 
@@ -97,9 +106,11 @@ private:
 
   MeshEditor<D>* editor_;
   const QualityModel<D, Shape>* model_;
+  const Caps<D>* caps_;
   const Options* options_;
   double target_ = 1.0;
   double guard_ = -1.0;
+  double gain_ = 1e-3;
   long bad_ = 0; ///< cells under guard_ made, less those removed, since the construction
   long growth_ = 0;
   bool tangled_ = false;
@@ -111,11 +122,13 @@ private:
   std::vector<double> qualities_;
   EdgeRemoval<D, Shape> edgeRemoval_;
   FaceRemoval<Shape> faceRemoval_;
+  SmallPolyhedron<Shape> smallPolyhedron_;
   Cavity<D, Shape> cavity_;
   StarProblem<D, Shape> problem_;
 };
 }
 
 #include "Optimize/Improver.hxx"
+#include "Optimize/ImproverInsert.hxx"
 
 #endif

@@ -141,6 +141,8 @@ const char* toString(Operation op)
       return "node insertion";
     case Operation::NodeReplacement:
       return "node replacement";
+    case Operation::Retriangulation:
+      return "retriangulation";
     case Operation::LookAhead:
       return "look-ahead";
     case Operation::Count:

@@ -86,6 +86,7 @@ enum class Operation
   EdgeContraction, ///< a node goes (the paper: node cluster to a boundary node)
   NodeInsertion,   ///< a node comes (the paper: edge cluster to the midpoint; cavities)
   NodeReplacement, ///< a node is put at the centre of its cluster (the paper: node cluster to centre)
+  Retriangulation, ///< a few cells are taken out together and filled anew in the best way
   LookAhead,       ///< several operations that pay only together
   Count
 };

@@ -22,13 +22,20 @@ namespace meshopt
 namespace worstfirst
 {
 /// Targets of the stages. Steps get smaller where gains cost more.
-constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.70, 0.72, 0.74, 0.76 };
+constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.70, 0.72, 0.74 };
 constexpr int MaximumPasses = 10;      // of one stage
 constexpr Index CellsPerChunk = 20000; // fewer make borders too long
 constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
 constexpr int MaximumChunks = 256;
-constexpr std::size_t PolishedCells = 10;
-constexpr int PolishRounds = 10;
+constexpr std::size_t PolishedCells = 10, MostPolishedCells = 320;
+constexpr int PolishRounds = 50;
+/// How far around the worst cells others are lifted, and by how much per layer.
+constexpr int LiftedLayers = 3;
+constexpr double LiftStep = 0.02;
+/// The least gain of a change, and how near to its cap a cell is left alone: at first, and where
+/// the best effort polishes.
+constexpr double Gain = 1e-3, FineGain = 1e-4;
+constexpr double CapReached = 0.998, CapReachedFinely = 0.9995;
 /// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
 constexpr long Patience[] = { 1000000, 50, 20, 20 };
 constexpr long PatientTries = 200; // before that is looked at
@@ -55,9 +62,10 @@ private:
     Queue queue;
     long kept = 0, tries = 0; // in this pass
 
-    Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Options& options)
+    Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Caps<D>& caps,
+      const Options& options)
       : editor(root.mesh(), root.clock(), root.lastMark())
-      , improver(this->editor, model, options)
+      , improver(this->editor, model, caps, options)
     {
     }
   };
@@ -65,7 +73,9 @@ private:
   std::vector<double> stages() const;
   int highestLevel() const;
   bool stage(double target);
-  bool polish(double target);
+  bool polish(double target, bool finely);
+  double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
+  bool liftAround(const std::vector<Entry>& cells, int layers);
   void pass(double target, int level, const std::vector<Index>& bad);
   void collect(double target, int level, std::vector<Index>& bad) const;
   void distribute(double target, const std::vector<Index>& bad);
@@ -94,6 +104,8 @@ private:
   int numberOfChunks_ = 0;
   int variant_ = 0;
   bool guard_ = true;
+  double gain_ = Gain;
+  double polishTarget_ = 0.0;
   bool tangled_ = true; ///< there are inverted cells
   long growth_ = 0, kept_ = 0;
   long reserve_ = 0; ///< of the growth, for polish()
@@ -129,11 +141,13 @@ std::vector<double> WorstFirst<D, Shape>::stages() const
     }
   }
   result.push_back(this->options_.targetQuality);
+  const double bound = this->report_.bound;
   for (double s : Stages)
   {
-    if (this->options_.effort == Effort::Best && s > this->options_.targetQuality + 1e-9)
+    if (this->options_.effort == Effort::Best && s > this->options_.targetQuality + 1e-9 &&
+      result.back() < bound)
     {
-      result.push_back(s);
+      result.push_back(std::min(s, bound));
     }
   }
   return result;
@@ -143,84 +157,54 @@ template <int D, class Shape>
 int WorstFirst<D, Shape>::highestLevel() const
 {
   using I = Improver<D, Shape>;
-  return this->options_.effort == Effort::Quick ? I::Insertion
-    : this->options_.effort == Effort::Best     ? I::LongLookAhead
-                                                : I::LookAhead;
+  if (!this->guard_)
+  {
+    return I::LongLookAhead;
+  }
+  return this->options_.effort == Effort::Quick ? I::Insertion : I::LookAhead;
 }
 
 template <int D, class Shape>
 void WorstFirst<D, Shape>::run()
 {
-  const std::vector<double> stages = this->stages();
   this->growth_ = static_cast<long>(
     this->options_.growthBudget * static_cast<double>(this->mesh().countCells()));
   this->reserve_ = this->growth_ / 10;
   this->tangled_ = this->report_.invertedBefore > 0;
-  this->caps_.build(this->mesh(), this->options_.measure, stages.back(), this->metric_.isTrivial());
+  const double highest = this->options_.effort == Effort::Best
+    ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
+    : this->options_.targetQuality;
+  this->caps_.build(this->mesh(), this->options_.measure, highest, this->metric_.isTrivial());
   this->report_.bound = this->caps_.bound();
+  const std::vector<double> stages = this->stages();
   bool more = true;
   int idle = 0;
-  for (std::size_t k = 0; k < stages.size() && more; ++k)
+  for (std::size_t k = 0; k < stages.size() && more && idle < 2; ++k)
   {
+    const bool past = stages[k] > this->options_.targetQuality + 1e-9;
     this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
     const double before = this->report_.history.back().worst;
     more = this->stage(stages[k]);
-    if (more && k == 0)
+    if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
     {
-      more = this->polish(stages[k]);
+      more = this->polish(stages[k], false);
     }
     // Past the target, two stages that did not lift the worst cell are the end.
-    const bool stuck = this->report_.history.back().worst < before + 1e-3;
-    idle = stages[k] > this->options_.targetQuality + 1e-9 && stuck ? idle + 1 : 0;
-    more &= idle < 2;
+    const bool stuck = this->report_.history.back().worst < before + Gain;
+    idle = past && stuck ? idle + 1 : 0;
   }
-  if (more)
+  if (more && this->options_.effort == Effort::Best)
   {
-    this->polish(this->options_.targetQuality);
+    this->polish(stages.back(), true);
   }
   this->report_.stopReason = this->reason();
-}
-
-/// The few worst cells once more, now at the price of others becoming bad; again as long as that
-/// lifts the worst one.
-template <int D, class Shape>
-bool WorstFirst<D, Shape>::polish(double target)
-{
-  bool more = true;
-  this->guard_ = false;
-  for (int round = 0; round < PolishRounds && more; ++round)
-  {
-    std::vector<double> worst;
-    for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
-    {
-      if (this->mesh().isAlive(c) && this->mesh().quality(c) < target &&
-        !this->caps_.isCapped(this->mesh(), c))
-      {
-        worst.push_back(this->mesh().quality(c));
-      }
-    }
-    if (worst.empty())
-    {
-      break;
-    }
-    const std::size_t k = std::min<std::size_t>(PolishedCells, worst.size()) - 1;
-    std::nth_element(worst.begin(), worst.begin() + k, worst.end());
-    const double before = this->report_.history.back().worst;
-    more = this->stage(std::nextafter(worst[k], 1.0));
-    if (!(this->report_.history.back().worst > before + 1e-3 * std::fabs(before)))
-    {
-      break;
-    }
-  }
-  this->guard_ = true;
-  return more;
 }
 
 template <int D, class Shape>
 bool WorstFirst<D, Shape>::stage(double target)
 {
   std::vector<Index> bad;
-  const int highest = this->guard_ ? this->highestLevel() : Improver<D, Shape>::LongLookAhead;
+  const int highest = this->highestLevel();
   for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
   {
     const int level = std::min(pass, highest);
@@ -241,7 +225,7 @@ bool WorstFirst<D, Shape>::stage(double target)
       return false;
     }
     if (level == highest && this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / 2000) &&
-      this->report_.history.back().worst < before + 1e-3)
+      this->report_.history.back().worst < before + this->gain_)
     {
       break;
     }
@@ -297,7 +281,8 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
   }
   while (static_cast<int>(this->workers_.size()) < n)
   {
-    this->workers_.push_back(std::make_unique<Worker>(this->editor_, this->model_, this->options_));
+    this->workers_.push_back(
+      std::make_unique<Worker>(this->editor_, this->model_, this->caps_, this->options_));
   }
   // All slots that are free go round, then the mesh grows, if several are to work at once.
   std::vector<Index>& freeCells = this->editor_.freeCells();
@@ -322,6 +307,7 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
     take(freePoints, n > 1 ? pointRoom : freePoints.size(), w.editor.freePoints());
     w.improver.setGrowth((this->growth_ - (this->guard_ ? this->reserve_ : 0)) / n);
     w.improver.setTangled(this->tangled_);
+    w.improver.setGain(this->gain_);
     w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
     w.kept = w.tries = 0;
   }
@@ -466,15 +452,27 @@ void WorstFirst<D, Shape>::record(double target, int pass)
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
   this->tangled_ = inverted > 0;
   char name[32];
-  std::snprintf(name, sizeof name, "towards %.2f, pass %d", target, pass + 1);
-  row.pass = static_cast<int>(this->report_.history.size());
+  std::snprintf(name, sizeof name, this->guard_ ? "towards %.2f, pass %d" : "polish towards %.2f",
+    this->guard_ ? target : this->polishTarget_, pass + 1);
   row.stage = name;
   row.tried = this->tried_;
   row.done = this->done_;
   const auto now = std::chrono::steady_clock::now();
   row.seconds = std::chrono::duration<double>(now - this->passBegin_).count();
   this->passBegin_ = now;
-  this->report_.history.push_back(row);
+  std::vector<PassRecord>& history = this->report_.history;
+  if (history.back().stage == row.stage) // the many short passes of one polish make one row
+  {
+    for (int op = 0; op < NumberOfOperations; ++op)
+    {
+      row.tried[op] += history.back().tried[op];
+      row.done[op] += history.back().done[op];
+    }
+    row.seconds += history.back().seconds;
+    history.pop_back();
+  }
+  row.pass = static_cast<int>(history.size());
+  history.push_back(row);
 }
 
 template <int D, class Shape>
@@ -510,6 +508,8 @@ void runWorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options&
   worstfirst::WorstFirst<D, Shape>(editor, metric, options, control, report).run();
 }
 }
+
+#include "Optimize/WorstFirstPolish.hxx"
 
 /// Instantiates the engine for a measure in both dimensions.
 #define MESHOPT_INSTANTIATE_WORST_FIRST(Shape)                                 \

@@ -18,7 +18,7 @@ namespace
  * Stems of column names, in the order of meshopt::Operation.
  */
 constexpr const char* OperationNames[] = { "NodeMotion", "EdgeRemoval", "FaceRemoval",
-  "EdgeContraction", "NodeInsertion", "NodeReplacement", "LookAhead" };
+  "EdgeContraction", "NodeInsertion", "NodeReplacement", "Retriangulation", "LookAhead" };
 static_assert(sizeof(OperationNames) / sizeof(OperationNames[0]) == meshopt::NumberOfOperations,
   "a name for each operation");
 
