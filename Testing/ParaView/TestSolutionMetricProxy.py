@@ -29,7 +29,7 @@ low, high = metric.PointData["DesiredSize"].GetRange()
 check(low == high == metric.DesiredSize, "array DesiredSize", low, high)
 
 # What comes out goes in: all operations off, the mesh is measured only.
-optimize = simple.MeshOptimize(Input=metric, Beta=1, MoveNodes=0, Reconnect=0, InsertNodes=0, RemoveNodes=0)
+optimize = simple.MeshOptimize(Input=metric, Beta=2, MoveNodes=0, Reconnect=0, InsertNodes=0, RemoveNodes=0)
 optimize.MetricArray = ["POINTS", "Metric"]
 optimize.SizeArray = ["POINTS", "DesiredSize"]
 optimize.UpdatePipeline()
