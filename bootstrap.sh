@@ -21,7 +21,7 @@ packages=(
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev liblzma-dev liblz4-dev
   qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools
   xvfb libgl1-mesa-dri)
-test_packages=(libgtest-dev)
+test_packages=(libgtest-dev calculix-ccx)
 
 usage() { sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
