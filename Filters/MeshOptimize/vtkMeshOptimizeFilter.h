@@ -139,9 +139,9 @@ public:
   ///@{
   /**
    * The shape measure S that is optimized. All are 0 for a flat simplex and negative for an
-   * inverted one, greatest for the regular one, 1 but for the sines, and do not depend on size. What
-   * is chosen here decides which figures get good: Shape leads to good overall shapes, MinimumSine
-   * to good smallest dihedral angles. Default: Shape.
+   * inverted one, greatest for the regular one, 1 but for the sines, and do not depend on size.
+   * What is chosen here decides which figures get good: Shape leads to good overall shapes,
+   * MinimumSine to good smallest dihedral angles. Default: Shape.
    */
   vtkSetClampMacro(QualityMeasure, int, Shape, VolumeLength);
   vtkGetMacro(QualityMeasure, int);

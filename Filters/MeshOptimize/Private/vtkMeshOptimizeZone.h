@@ -37,8 +37,8 @@ struct LeftOut
  * cells in place. Cells that were numbered the wrong way round count as inverted ones, which they
  * were in the grid: none is left out.
  *
- * `mesh` comes with all simplices of `cells`, and `metric` is its. Qualities are those of `options`.
- * What is left out is linear in the size of the mesh to find, and so is each layer.
+ * `mesh` comes with all simplices of `cells`, and `metric` is its. Qualities are those of
+ * `options`. What is left out is linear in the size of the mesh to find, and so is each layer.
  */
 template <int D>
 LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, const Frame<D>& frame,
