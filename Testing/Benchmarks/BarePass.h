@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The unit of the benchmarks: one bare pass over a grid of tetrahedra, on one thread.
+// The unit of the benchmarks: one bare pass over tetrahedra, on one thread. No VTK.
 #ifndef meshopt_Testing_BarePass_h
 #define meshopt_Testing_BarePass_h
 
 #include "Quality/Shape.h"
 
-#include "vtkCellArray.h"
-#include "vtkPoints.h"
-#include "vtkUnstructuredGrid.h"
-
 #include <algorithm>
+#include <cstdint>
 #include <ctime>
 #include <limits>
 #include <vector>
@@ -20,33 +17,17 @@ struct BarePass
   double Minimum = std::numeric_limits<double>::infinity(); ///< worst S
 };
 
-/**
- * Loads the four corners of each cell, computes S and stores it, `repeats` times. The grid must
- * hold tetrahedra only. What is not stored as double coordinates and 64-bit ids is copied so first;
- * that is not counted.
- */
-inline BarePass MeasureBarePass(vtkUnstructuredGrid* grid, int repeats)
+/// Loads the four corners of each cell, computes S and stores it, `repeats` times. Coordinates x y z
+/// of each point, four point ids of each cell.
+inline BarePass measureBarePass(
+  const std::vector<double>& x, const std::vector<std::int64_t>& ids, int repeats)
 {
-  const std::size_t n = static_cast<std::size_t>(grid->GetNumberOfCells());
-  std::vector<double> x(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()));
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    grid->GetPoint(p, x.data() + 3 * p);
-  }
-  std::vector<vtkIdType> ids(4 * n);
-  for (std::size_t c = 0; c < n; ++c)
-  {
-    vtkIdType size = 0;
-    const vtkIdType* nodes = nullptr;
-    grid->GetCellPoints(static_cast<vtkIdType>(c), size, nodes);
-    std::copy(nodes, nodes + 4, ids.begin() + 4 * c);
-  }
-  std::vector<double> values(n);
+  std::vector<double> values(ids.size() / 4);
   BarePass pass;
   for (int k = 0; k < repeats; ++k)
   {
     const std::clock_t start = std::clock();
-    for (std::size_t c = 0; c < n; ++c)
+    for (std::size_t c = 0; c < values.size(); ++c)
     {
       meshopt::Corners<3> corners;
       for (int i = 0; i < 4; ++i)

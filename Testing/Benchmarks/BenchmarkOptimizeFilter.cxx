@@ -9,7 +9,7 @@
 // measured afterwards, so that its arrays are not taken for the filter's.
 #include "vtkMeshOptimizeFilter.h"
 
-#include "BarePass.h"
+#include "BarePassOfGrid.h"
 
 #include "vtkDataArray.h"
 #include "vtkNew.h"

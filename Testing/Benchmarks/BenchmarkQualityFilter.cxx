@@ -6,7 +6,7 @@
 // Prints the ratios with and without the bound; fails if one is above the limit (default 5).
 #include "vtkMeshQualityMinMax.h"
 
-#include "BarePass.h"
+#include "BarePassOfGrid.h"
 
 #include "vtkCellArray.h"
 #include "vtkNew.h"
