@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkThermoelasticFilter
  * @brief   linear thermoelastic finite element analysis on tetrahedra or triangles

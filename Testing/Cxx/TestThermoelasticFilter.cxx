@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // vtkThermoelasticFilter: arrays in and out, loads, constraints, planes, figures. What the elements
 // themselves compute is tested in the core.
 #include "ThermoelasticFilterTesting.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What vtkThermoelasticFilter does with what cannot be solved: one error that names what and where,
 // and empty outputs.
 #include "ThermoelasticFilterTesting.h"

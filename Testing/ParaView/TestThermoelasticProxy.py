@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Thermoelastic by its proxy, from a file, on one rank and on several: no array grabbed, results that can be read, a warped picture's data.
 
 A bar (a box of tetrahedra) held at x = 0 and heated: with the sides free it grows by alpha dT in length, and away from the

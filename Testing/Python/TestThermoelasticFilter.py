@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """vtkThermoelasticFilter from Python, against a finite element program of numpy's few lines with a dense solver.
 
 Written from the textbook, sharing no code with the filter: B matrices in engineering strains, prescribed displacements by

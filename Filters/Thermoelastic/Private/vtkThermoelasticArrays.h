@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The input arrays of vtkThermoelasticFilter: found, under the names chosen or their default ones, and
  * checked.

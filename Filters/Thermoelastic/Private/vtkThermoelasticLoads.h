@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * Tractions and pressures of a grid as forces on the points of the core.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * grid -> core: material, temperature, constraints and loads of a grid as the core's Problem.
  */

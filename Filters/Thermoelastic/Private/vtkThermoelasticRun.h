@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * What vtkThermoelasticFilter does with a grid, from import to export.
  */
