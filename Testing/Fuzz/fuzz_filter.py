@@ -272,7 +272,7 @@ def main():
     parser.add_argument("--limit", type=float, default=60.0)
     parser.add_argument("--verbose", action="store_true")
     opt = parser.parse_args()
-    failed, slowest, faults, operations = 0, (0.0, None), 0, 0
+    failed, slowest, faults, operations = 0, (0.0, opt.first), 0, 0
     for seed in range(opt.first, opt.first + opt.count):
         case = Case(seed, opt.limit)
         if opt.verbose:
