@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Stress intensity factors of straight cracks in an infinite plane under remote tension: the reference for section 5.3 of the paper.
+"""Stress intensity factors of straight cracks in an infinite plane under remote load: the reference for section 5.3 of the paper.
 
-    /usr/bin/python3 two_cracks_reference.py [GAP ...]     the two cracks at these gaps (in parts of 2a), and the gap for the ratio 1.6
+    /usr/bin/python3 two_cracks_reference.py [GAP ...]     the two cracks at these gaps, and the gap for the ratio 1.6
 
 Needs numpy only. Method of singular integral equations: the jump of the displacement across each crack has the derivative
 g(t) = phi(t) / sqrt(1 - t^2), t from -1 to 1 along it, and the tractions that all g make on a crack cancel those of the remote
