@@ -2,6 +2,7 @@
 
 #include "vtkMeshOptimizeArrays.h"
 #include "vtkMeshOptimizeControl.h"
+#include "vtkMeshOptimizeCurves.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeRun.h"
 #include "vtkMeshOptimizeVTKCompat.h"
@@ -15,7 +16,9 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -28,7 +31,11 @@ vtkStandardNewMacro(vtkMeshOptimizeFilter);
 namespace bridge = vtkMeshOptimizeBridge;
 
 //------------------------------------------------------------------------------
-vtkMeshOptimizeFilter::vtkMeshOptimizeFilter() { this->SetNumberOfOutputPorts(2); }
+vtkMeshOptimizeFilter::vtkMeshOptimizeFilter()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
 
 vtkMeshOptimizeFilter::~vtkMeshOptimizeFilter() = default;
 
@@ -56,6 +63,9 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GrowthBudget: " << this->GrowthBudget << "\n";
   os << indent << "OptimizeBelow: " << this->OptimizeBelow << "\n";
   os << indent << "NumberOfLayers: " << this->NumberOfLayers << "\n";
+  os << indent << "BoundaryMode: " << this->BoundaryMode << "\n";
+  os << indent << "BoundaryCurve: " << this->BoundaryCurve << "\n";
+  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "WorstQualityBefore: " << this->WorstQualityBefore << "\n";
   os << indent << "WorstQualityAfter: " << this->WorstQualityAfter << "\n";
@@ -65,6 +75,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfCappedCells: " << this->NumberOfCappedCells << "\n";
   os << indent << "NumberOfInvertedCellsBefore: " << this->NumberOfInvertedCellsBefore << "\n";
   os << indent << "NumberOfInvertedCellsAfter: " << this->NumberOfInvertedCellsAfter << "\n";
+  os << indent << "EdgeLengthShare: " << this->EdgeLengthShare << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
   os << indent << "NumberOfOperations: " << this->NumberOfOperations << "\n";
   os << indent << "OptimizeSeconds: " << this->OptimizeSeconds << "\n";
@@ -95,6 +106,22 @@ void vtkMeshOptimizeFilter::SetMetricArray(const char* name)
     bridge::MetricArray, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
 }
 
+void vtkMeshOptimizeFilter::SetCornerArray(const char* name)
+{
+  this->SetInputArrayToProcess(
+    bridge::CornerArray, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+}
+
+void vtkMeshOptimizeFilter::SetGeometryConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(1, output);
+}
+
+void vtkMeshOptimizeFilter::SetGeometryData(vtkPolyData* geometry)
+{
+  this->SetInputData(1, geometry);
+}
+
 const char* vtkMeshOptimizeFilter::GetStopReasonAsString()
 {
   return meshopt::toString(static_cast<meshopt::StopReason>(this->StopReason));
@@ -111,8 +138,14 @@ vtkTypeBool vtkMeshOptimizeFilter::ProcessRequest(
   return this->Superclass::ProcessRequest(request, input, output);
 }
 
-int vtkMeshOptimizeFilter::FillInputPortInformation(int, vtkInformation* info)
+int vtkMeshOptimizeFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObjectTree");
   return 1;
@@ -177,6 +210,9 @@ vtkMeshOptimizeBridge::Request vtkMeshOptimizeFilter::MakeRequest()
   o.timeLimit = this->TimeLimit;
   request.OptimizeBelow = this->OptimizeBelow;
   request.NumberOfLayers = this->NumberOfLayers;
+  request.Slide = this->BoundaryMode == Slide;
+  request.Curves.splines = this->BoundaryCurve == BSpline;
+  request.Curves.cornerAngle = this->CornerAngle;
   return request;
 }
 
@@ -247,7 +283,17 @@ std::string CheckRequest(const bridge::Request& request, const std::vector<Task>
   {
     return "OptimizeBelow, the quality under which cells may change, must be a number.";
   }
-  const std::string error = bridge::CheckArraysAreThere(request.Filter, grids);
+  if (request.Slide && request.OptimizeBelow > 0.0)
+  {
+    return "The boundary mode Slide works on the whole mesh; it cannot be used with OptimizeBelow.";
+  }
+  if (request.Slide && request.Options.algorithm != meshopt::Algorithm::WorstFirst)
+  {
+    return "The boundary mode Slide needs the algorithm WorstFirst.";
+  }
+  const bool inGeometry = bridge::HasCornerArray(request.Filter, request.Geometry);
+  const std::string error = bridge::CheckArraysAreThere(
+    request.Filter, grids, inGeometry ? bridge::CornerArray : -1);
   return error.empty() ? request.Options.check(hasSizes) : error;
 }
 
@@ -255,11 +301,13 @@ std::string CheckRequest(const bridge::Request& request, const std::vector<Task>
 
 //------------------------------------------------------------------------------
 std::string vtkMeshOptimizeFilter::OptimizeAll(
-  vtkDataObject* input, vtkDataObject* output, vtkTable* history, bridge::Outcome& outcome)
+  vtkDataObject* input, vtkPolyData* geometry, vtkDataObject* output, vtkTable* history,
+  bridge::Outcome& outcome)
 {
   const std::vector<Task> tasks = ListTasks(input, output);
   const bool isComposite = vtkDataObjectTree::SafeDownCast(input) != nullptr;
   bridge::Request request = this->MakeRequest();
+  request.Geometry = geometry;
   std::string error = CheckRequest(request, tasks);
   if (!error.empty())
   {
@@ -303,6 +351,7 @@ void vtkMeshOptimizeFilter::StoreResults(const bridge::Outcome& outcome)
   this->NumberOfInvertedCellsAfter = report.invertedAfter;
   this->StopReason = static_cast<int>(report.stopReason);
   this->NumberOfOperations = outcome.NumberOfOperations;
+  this->EdgeLengthShare = outcome.Lengths.share;
   this->OptimizeSeconds = outcome.Seconds;
 }
 
@@ -326,6 +375,18 @@ void vtkMeshOptimizeFilter::Warn(const bridge::Outcome& outcome)
   }
 }
 
+/**
+ * The border of a piece is no boundary.
+ */
+std::string vtkMeshOptimizeFilter::CheckPieces(vtkInformationVector* outputVector)
+{
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
+  return this->BoundaryMode == Slide && info->Has(pieces) && info->Get(pieces) > 1
+    ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed data."
+    : "";
+}
+
 int vtkMeshOptimizeFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -335,7 +396,12 @@ int vtkMeshOptimizeFilter::RequestData(
   std::string error;
   try
   {
-    error = this->OptimizeAll(vtkDataObject::GetData(inputVector[0]), output, history, outcome);
+    error = this->CheckPieces(outputVector);
+    if (error.empty())
+    {
+      error = this->OptimizeAll(vtkDataObject::GetData(inputVector[0]),
+        vtkPolyData::GetData(inputVector[1]), output, history, outcome);
+    }
   }
   catch (const std::bad_alloc&)
   {

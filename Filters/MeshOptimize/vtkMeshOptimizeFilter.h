@@ -82,7 +82,9 @@
 
 #include <string> // for std::string
 
+class vtkAlgorithmOutput;
 class vtkDataObject;
+class vtkPolyData;
 class vtkTable;
 
 namespace vtkMeshOptimizeBridge
@@ -157,7 +159,10 @@ public:
   /**
    * Weight of size in the quality (2.2): Q = S exp(-beta^2 ln^2(h / h*)), h the longest edge of the
    * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give
-   * the size by DesiredSize or SetSizeArray().
+   * the size by DesiredSize or SetSizeArray(). WorstFirst then first splits and contracts edges until
+   * they have the wanted length, about, and the mesh has the number of elements of (5.3), as far as
+   * the boundary lets it; GrowthBudget counts from there on. With the boundary mode Slide it does so even
+   * if Beta is 0. Where sizes are followed the worst quality may fall, but not under TargetQuality.
    */
   vtkSetClampMacro(Beta, double, 0.0, 1e6);
   vtkGetMacro(Beta, double);
@@ -167,7 +172,7 @@ public:
   /**
    * h* of (2.2), the longest edge that an element should have, the same everywhere, in units of the
    * coordinates (of the metric, if there is one). Range >= 0, default 0: not set. Used only if Beta
-   * > 0; a size array takes precedence.
+   * > 0 or the boundary slides; a size array takes precedence.
    */
   vtkSetClampMacro(DesiredSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DesiredSize, double);
@@ -314,6 +319,62 @@ public:
   vtkGetMacro(NumberOfLayers, int);
   ///@}
 
+  enum BoundaryModeType
+  {
+    Fixed = 0, ///< the boundary is kept, bit for bit
+    Slide = 1  ///< its nodes slide, come and go along the geometry
+  };
+  ///@{
+  /**
+   * What may happen to the boundary of triangles, their interfaces between regions and the sides of
+   * cracks included. Slide: nodes slide along the curves that it follows, edges on them are split
+   * and contracted, and new nodes lie on the curve. Corners stay. The curves come from the mesh's own
+   * boundary, or from input port 1 if that is connected. Points of FixedPointArray, and of lines and
+   * other cells that pass through, are corners. Slide needs WorstFirst, and the whole mesh in one piece; for
+   * tetrahedra it is an error. Default: Fixed.
+   */
+  vtkSetClampMacro(BoundaryMode, int, Fixed, Slide);
+  vtkGetMacro(BoundaryMode, int);
+  void SetBoundaryModeToFixed() { this->SetBoundaryMode(Fixed); }
+  void SetBoundaryModeToSlide() { this->SetBoundaryMode(Slide); }
+  ///@}
+
+  enum BoundaryCurveType
+  {
+    Straight = 0, ///< straight lines from point to point
+    BSpline = 1   ///< a cubic B-spline through the points between two corners
+  };
+  ///@{
+  /**
+   * What the boundary is between the points that are given. Lines that go straight on stay straight
+   * with either. Default: BSpline.
+   */
+  vtkSetClampMacro(BoundaryCurve, int, Straight, BSpline);
+  vtkGetMacro(BoundaryCurve, int);
+  void SetBoundaryCurveToStraight() { this->SetBoundaryCurve(Straight); }
+  void SetBoundaryCurveToBSpline() { this->SetBoundaryCurve(BSpline); }
+  ///@}
+
+  ///@{
+  /**
+   * Where the boundary (or the geometry of port 1) turns by more than this there is a corner, in
+   * degrees. Range 0 to 180, default 45. SetCornerArray() adds others.
+   */
+  vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
+  vtkGetMacro(CornerAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * Input port 1, optional: the geometry of the boundary, a vtkPolyData whose lines the boundary
+   * follows; for BoundaryMode Slide. The boundary points of the mesh must lie on it (to 1e-3 of the
+   * diagonal), and there must be one at each of its corners: else there is one error that says where. Both
+   * sides of a crack may be given as one line.
+   */
+  void SetGeometryConnection(vtkAlgorithmOutput* output);
+  void SetGeometryData(vtkPolyData* geometry);
+  ///@}
+
   ///@{
   /**
    * Stop after so many seconds. Range >= 0, default 0: no limit. With a limit, two runs can
@@ -332,15 +393,18 @@ public:
    * - 1, fixed points: point array of one numeric component. Points where it is not 0 neither move
    *   nor vanish.
    * - 2, size: point array of one numeric component greater than 0: h* of (2.2) at the points,
-   *   interpolated between them; takes the place of DesiredSize. Needs Beta > 0 to matter.
+   *   interpolated between them; takes the place of DesiredSize. Needs Beta > 0, or BoundaryMode Slide, to matter.
    * - 3, metric: point array of a symmetric positive definite tensor M, 6 components in VTK's order
    *   XX YY ZZ XY YZ XZ or 9; lengths are measured as sqrt(e' M e). Triangles use its part in their
    *   plane.
+   * - 4, corners: point array of one numeric component, of the mesh or of the geometry on port 1.
+   *   Points where it is not 0 are corners for BoundaryMode Slide.
    */
   void SetRegionArray(const char* name);
   void SetFixedPointArray(const char* name);
   void SetSizeArray(const char* name);
   void SetMetricArray(const char* name);
+  void SetCornerArray(const char* name);
   ///@}
 
   enum StopReasonType
@@ -391,6 +455,13 @@ public:
   ///@}
 
   /**
+   * Share of the edges that in the end are from 1/sqrt(2) to sqrt(2) times as long as was wanted at their
+   * place, in the metric if there is one; 0 if neither a size nor a metric was given. The field data
+   * of the output have it, too, and the histogram `EdgeLengthHistogram`.
+   */
+  vtkGetMacro(EdgeLengthShare, double);
+
+  /**
    * Operations done in the last run, all kinds together.
    */
   vtkGetMacro(NumberOfOperations, vtkIdType);
@@ -418,8 +489,9 @@ private:
   void operator=(const vtkMeshOptimizeFilter&) = delete;
 
   vtkMeshOptimizeBridge::Request MakeRequest();
-  std::string OptimizeAll(vtkDataObject* input, vtkDataObject* output, vtkTable* history,
-    vtkMeshOptimizeBridge::Outcome& outcome);
+  std::string CheckPieces(vtkInformationVector* outputVector);
+  std::string OptimizeAll(vtkDataObject* input, vtkPolyData* geometry, vtkDataObject* output,
+    vtkTable* history, vtkMeshOptimizeBridge::Outcome& outcome);
   void StoreResults(const vtkMeshOptimizeBridge::Outcome& outcome);
   void Warn(const vtkMeshOptimizeBridge::Outcome& outcome);
 
@@ -444,6 +516,9 @@ private:
   double OptimizeBelow = 0.0;
   int NumberOfLayers = 2;
   double TimeLimit = 0.0;
+  int BoundaryMode = Fixed;
+  int BoundaryCurve = BSpline;
+  double CornerAngle = 45.0;
 
   double WorstQualityBefore = 0.0;
   double WorstQualityAfter = 0.0;
@@ -455,6 +530,7 @@ private:
   vtkIdType NumberOfInvertedCellsAfter = 0;
   int StopReason = NotRun;
   vtkIdType NumberOfOperations = 0;
+  double EdgeLengthShare = 0.0;
   double OptimizeSeconds = 0.0;
 };
 

@@ -169,6 +169,7 @@ Index MeshEditor<D>::addPoint(const Vec<D>& x)
   point.stamp = ++this->clock_;
   point.owner = this->owner_ == None ? 0 : this->owner_;
   point.flags = Mesh::PointMoved;
+  static_cast<CurvePlace<D>&>(point) = CurvePlace<D>();
   return p;
 }
 
@@ -297,6 +298,13 @@ void MeshEditor<D>::movePoint(Index p, const Vec<D>& x)
 }
 
 template <int D>
+void MeshEditor<D>::setCurvePlace(Index p, const CurvePlace<D>& place)
+{
+  this->savePoint(p);
+  static_cast<CurvePlace<D>&>(this->mesh_->points_[p]) = place;
+}
+
+template <int D>
 void MeshEditor<D>::setQuality(Index c, double q)
 {
   this->saveCell(c);
@@ -321,15 +329,26 @@ void MeshEditor<D>::stamp(const std::vector<Index>& cells)
 }
 
 template <int D>
-void MeshEditor<D>::collectOpenFacets(const std::vector<Index>& cavity, std::uint32_t inCavity)
+void MeshEditor<D>::collectOpenFacets(
+  const std::vector<Index>& cavity, std::uint32_t inCavity, const KeptChange<D>* change)
 {
   this->facets_.clear();
+  const auto isGone = [&](const Facet<D>& key)
+  {
+    return change &&
+      std::any_of(change->gone.begin(), change->gone.end(),
+        [&](const Facet<D>& f) { return sorted<D>(f) == key; });
+  };
   for (Index c : cavity)
   {
     for (int i = 0; i <= D; ++i)
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
       const bool kept = this->mesh_->isConstrained(c, i);
+      if (kept && isGone(sorted<D>(this->mesh_->facet(c, i))))
+      {
+        continue;
+      }
       if (h == None || !this->owns(Mesh::cellOf(h)) || !this->isMarked(Mesh::cellOf(h), inCavity))
       {
         this->facets_.push_back(
@@ -377,6 +396,28 @@ void MeshEditor<D>::keepEdges(Index c)
     if (std::find(this->keptEdges_.begin(), this->keptEdges_.end(), edge) != this->keptEdges_.end())
     {
       this->mesh_->cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + e));
+    }
+  }
+}
+
+/// Marks facets of the new cells as kept, and their points as fixed.
+template <int D>
+void MeshEditor<D>::keepFacets(const std::vector<Facet<D>>& facets)
+{
+  for (Index c : this->created_)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      const Facet<D> key = sorted<D>(this->mesh_->facet(c, i));
+      if (std::any_of(facets.begin(), facets.end(),
+            [&](const Facet<D>& f) { return sorted<D>(f) == key; }))
+      {
+        this->mesh_->cellData_[c].flags |= std::uint16_t(1u << i);
+        for (Index p : key) // saved already: they are of the cavity, or new
+        {
+          this->mesh_->points_[p].flags |= Mesh::PointFixed | Mesh::PointBoundary;
+        }
+      }
     }
   }
 }
@@ -505,11 +546,26 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   return f.parent;
 }
 
+/// For a new cell that has no facet of the cavity's boundary: the parent of a cell of its region.
+template <int D>
+Index MeshEditor<D>::parentIn(Index region) const
+{
+  for (const std::array<Index, 2>& r : this->parents_)
+  {
+    if (r[0] == region)
+    {
+      return r[1];
+    }
+  }
+  return this->parents_[0][1];
+}
+
 template <int D>
 bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
-  const std::vector<double>& qualities)
+  const std::vector<double>& qualities, const KeptChange<D>* change)
 {
   assert(cells.size() == qualities.size());
+  assert(!change || change->regions.size() == cells.size());
   if (cells.size() > cavity.size() && !this->reserveCells(cells.size() - cavity.size()))
   {
     return false;
@@ -520,11 +576,15 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
   {
     this->setMark(c, inCavity);
   }
-  this->collectOpenFacets(cavity, inCavity);
+  this->collectOpenFacets(cavity, inCavity, change);
   this->collectKeptEdges(cavity);
   this->killPoints(cavity);
   const Index region = this->mesh_->region(cavity[0]);
-  const Index parent = this->mesh_->parent(cavity[0]);
+  this->parents_.clear();
+  for (Index c : cavity)
+  {
+    this->parents_.push_back({ this->mesh_->region(c), this->mesh_->parent(c) });
+  }
   for (std::size_t k = cavity.size(); k-- > 0;)
   {
     this->freeCell(cavity[k]);
@@ -533,7 +593,7 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
   this->created_.clear();
   for (std::size_t n = 0; n < cells.size(); ++n)
   {
-    this->create(cells[n], qualities[n], region);
+    this->create(cells[n], qualities[n], change ? change->regions[n] : region);
   }
   for (Index c : this->created_)
   {
@@ -543,16 +603,21 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
       const Index facetParent = this->linkFacet(c, i);
       behind = behind == None ? facetParent : behind;
     }
-    this->mesh_->cellData_[c].parent = behind == None ? parent : behind;
+    this->mesh_->cellData_[c].parent =
+      behind == None ? this->parentIn(this->mesh_->region(c)) : behind;
     if (!this->keptEdges_.empty())
     {
       this->keepEdges(c);
     }
   }
+  if (change)
+  {
+    this->keepFacets(change->come);
+  }
 #ifndef NDEBUG
   for (const OpenFacet& f : this->facets_)
   {
-    assert(f.closed && "the new cells do not fill the cavity");
+    assert((f.closed || change) && "the new cells do not fill the cavity");
   }
 #endif
   this->buryPoints();

@@ -8,6 +8,15 @@
 
 namespace meshopt
 {
+/// How a replacement changes what is kept, where the boundary itself is remeshed.
+template <int D>
+struct KeptChange
+{
+  std::vector<Facet<D>> gone; ///< kept facets of the cavity, at its boundary or inside, that vanish
+  std::vector<Facet<D>> come; ///< facets of the new cells that are kept from now on
+  std::vector<Index> regions; ///< of each new cell
+};
+
 /// Edits a mesh through two operations, both journalled while a transaction is open:
 ///  - replace(): exchange a cavity (cells) for other cells that fill the same boundary;
 ///  - movePoint().
@@ -38,9 +47,11 @@ public:
   /// in created(). Points of the cavity that no new cell uses die (they must be interior to the
   /// cavity), which has no kept facet inside. All cells of the cavity have one region; a new cell
   /// takes its parent from the cavity cell behind its facet.
+  /// With `change` the boundary of the cavity may differ where it is the surface, and the cavity may
+  /// have several regions and the kept facets between them inside.
   /// Returns false, with nothing changed, only if no slot is left in the editor's pool.
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
-    const std::vector<double>& qualities);
+    const std::vector<double>& qualities, const KeptChange<D>* change = nullptr);
   const std::vector<Index>& created() const { return this->created_; }
 
   /// A new point at x that no cell uses yet; None if no slot is left in the editor's pool.
@@ -51,6 +62,9 @@ public:
 
   /// Moves a point; stamps it. Qualities of its star are the caller's to set.
   void movePoint(Index p, const Vec<D>& x);
+
+  /// Says where on a curve the point lies; changes nothing else.
+  void setCurvePlace(Index p, const CurvePlace<D>& place);
 
   void setQuality(Index c, double q);
   /// Stamps all points of these cells with a new time: their stars have changed.
@@ -170,7 +184,8 @@ private:
   void freeCell(Index c);
   void saveCell(Index c);
   void savePoint(Index p);
-  void collectOpenFacets(const std::vector<Index>& cavity, std::uint32_t inCavity);
+  void collectOpenFacets(
+    const std::vector<Index>& cavity, std::uint32_t inCavity, const KeptChange<D>* change);
   void collectKeptEdges(const std::vector<Index>& cavity);
   void killPoints(const std::vector<Index>& cavity);
   void buryPoints();
@@ -178,6 +193,8 @@ private:
   void create(const Simplex<D>& nodes, double quality, Index region);
   Index linkFacet(Index c, int i);
   void keepEdges(Index c);
+  void keepFacets(const std::vector<Facet<D>>& facets);
+  Index parentIn(Index region) const;
 
   Mesh* mesh_;
   Index owner_ = None;
@@ -198,6 +215,7 @@ private:
   std::vector<OpenFacet> facets_;
   std::vector<Index> table_;
   std::vector<std::array<Index, 2>> keptEdges_;
+  std::vector<std::array<Index, 2>> parents_; // region and parent of each cell of the cavity
   std::vector<Index> cavityPoints_;
 };
 

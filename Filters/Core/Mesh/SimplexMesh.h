@@ -42,6 +42,19 @@ struct MeshError
   Index point = None; ///< first offending point of the input, or None
 };
 
+/// Where a point lies on a curve of the boundary that it may slide along (D = 2). It is kept with the
+/// point, so that what undoes a move of the point takes it back, too.
+template <int D>
+struct CurvePlace
+{
+};
+template <>
+struct CurvePlace<2>
+{
+  Index curve = None;     ///< of BoundaryCurves, or None: the point does not slide
+  double parameter = 0.0; ///< along the curve
+};
+
 /// A conforming mesh of simplices. Cells and points live in slots; a slot may be dead after an
 /// edit and be used again. Slots of the input's points are never used for another point, so that
 /// point p < numberOfInputPoints() is always point p of the input.
@@ -90,7 +103,7 @@ public:
     std::uint8_t level = 0; ///< free for algorithms: effort of the last failed try
   };
 
-  struct Point
+  struct Point : CurvePlace<D>
   {
     Vec<D> x;
     Index cell = None;       ///< a cell that uses the point

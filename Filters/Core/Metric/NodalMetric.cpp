@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Metric/NodalMetric.h"
 
+#include "Metric/MetricVolume.h"
 #include "Metric/TensorFunctions.h"
+
+#include <Eigen/LU>
 
 #include <cmath>
 #include <sstream>
@@ -121,6 +124,46 @@ void NodalMetric<D>::resample(Index p, const Vec<D>& x, Index near)
     value.logTensor = Background<D>::interpolate(
       at, [this](Index q) { return this->backgroundValues_[q].logTensor; });
   }
+}
+
+template <int D>
+double NodalMetric<D>::logSize(Index p) const
+{
+  return this->hasSizes_    ? this->values_[p].logSize
+    : this->constantSize_ > 0 ? std::log(this->constantSize_)
+                            : 0.0;
+}
+
+template <int D>
+Tensor<D> NodalMetric<D>::unitTensor(Index p) const
+{
+  Tensor<D> m = Tensor<D>::Identity();
+  if (this->hasTensors_)
+  {
+    m = exponential<D>(this->values_[p].logTensor);
+  }
+  else if (this->hasConstant_)
+  {
+    m = this->constantMap_ * this->constantMap_;
+  }
+  return m * std::exp(-2.0 * this->logSize(p));
+}
+
+template <int D>
+double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) const
+{
+  std::vector<double> halfLogDeterminants(mesh.numberOfPointSlots(), 0.0);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (mesh.isPointAlive(p))
+    {
+      const double trace = this->hasTensors_ ? this->values_[p].logTensor.trace()
+        : this->hasConstant_                 ? 2.0 * std::log(this->constantMap_.determinant())
+                                             : 0.0;
+      halfLogDeterminants[p] = 0.5 * trace - D * this->logSize(p);
+    }
+  }
+  return regularElementsPerVolume<D> * metricVolume<D>(mesh, halfLogDeterminants);
 }
 
 template <int D>

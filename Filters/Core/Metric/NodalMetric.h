@@ -87,10 +87,19 @@ public:
     return m;
   }
 
+  /// M / h*^2 at point p as it was sampled: in it, edges of the wanted length have length 1. The
+  /// identity where neither a size nor a metric is given.
+  Tensor<D> unitTensor(Index p) const;
+
+  /// The number of regular elements whose edges have the wanted length that fill `mesh` (5.3); it is
+  /// to be the one that the values were given for.
+  double predictedNumberOfElements(const SimplexMesh<D>& mesh) const;
+
   /// The frozen input mesh; null if the field does not vary.
   const std::shared_ptr<const Background<D>>& background() const { return this->background_; }
 
 private:
+  double logSize(Index p) const;
   void fill(const Simplex<D>& nodes, ElementMetric<D>& m) const;
 
   double constantSize_ = 0.0;

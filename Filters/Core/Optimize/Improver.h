@@ -10,6 +10,7 @@
 #include "Optimize/Options.h"
 #include "Optimize/QualityModel.h"
 #include "Reconnect/Cavity.h"
+#include "Reconnect/EdgeChange.h"
 #include "Reconnect/EdgeRemoval.h"
 #include "Reconnect/FaceRemoval.h"
 #include "Reconnect/SmallPolyhedron.h"
@@ -32,13 +33,21 @@ public:
     LongLookAhead = 3
   };
 
+  /// `curves`: what the boundary may slide along (D = 2), or null: it is kept.
   Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Caps<D>& caps,
-    const Options& options);
+    const Options& options, const BoundaryCurves* curves = nullptr);
 
   /// Tries to improve the neighbourhood of cell t, whose quality is to rise. True if it did.
   bool improve(Index t, int level);
 
-  /// Cells that the last successful improve() made or whose quality it changed; some may be dead.
+  /// Only changes of the connectivity: edge and face removal at cell t. True if one helped.
+  bool swap(Index t)
+  {
+    this->changed_.clear();
+    return this->reconnect(t);
+  }
+
+  /// Cells that the last successful improve() or swap() made or whose quality it changed; some may be dead.
   const std::vector<Index>& changed() const { return this->changed_; }
 
   /// Node motion stops a little above `quality`: what is more than enough is not paid for.
@@ -81,8 +90,14 @@ private:
   bool reconnect(Index t);
   bool move(Index t);
   bool moveNode(Index v);
+  bool settleStar(double old);
   bool removeNodes(Index t);
   bool removeNode(Index v);
+  bool changeBoundary(Index t, int level);
+  bool slideNode(Index v);
+  bool removeSlidingNode(Index v);
+  bool splitBoundary(Index t, int i);
+  bool replaceKept(const EdgeChange<D>& change);
   bool insert(Index t);
   bool retriangulate(Index t);
   bool retriangulate(Index t, const typename SmallPolyhedron<Shape>::Limits& limits);
@@ -93,7 +108,8 @@ private:
   void seeds(Index t, std::vector<Vec<D>>& x) const;
   long badBalance() const;
   bool insertHere(Index p, const Vec<D>& x);
-  bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells);
+  bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
+    const KeptChange<D>* kept = nullptr);
   bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }
@@ -108,6 +124,7 @@ private:
   const QualityModel<D, Shape>* model_;
   const Caps<D>* caps_;
   const Options* options_;
+  const BoundaryCurves* curves_;
   double target_ = 1.0;
   double guard_ = -1.0;
   double gain_ = 1e-3;
@@ -124,11 +141,13 @@ private:
   FaceRemoval<Shape> faceRemoval_;
   SmallPolyhedron<Shape> smallPolyhedron_;
   Cavity<D, Shape> cavity_;
+  EdgeChange<D> edgeChange_;
   StarProblem<D, Shape> problem_;
 };
 }
 
 #include "Optimize/Improver.hxx"
+#include "Optimize/ImproverBoundary.hxx"
 #include "Optimize/ImproverInsert.hxx"
 
 #endif

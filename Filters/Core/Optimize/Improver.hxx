@@ -6,11 +6,12 @@ namespace meshopt
 {
 template <int D, class Shape>
 Improver<D, Shape>::Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model,
-  const Caps<D>& caps, const Options& options)
+  const Caps<D>& caps, const Options& options, const BoundaryCurves* curves)
   : editor_(&editor)
   , model_(&model)
   , caps_(&caps)
   , options_(&options)
+  , curves_(curves)
 {
 }
 
@@ -27,6 +28,10 @@ bool Improver<D, Shape>::improve(Index t, int level)
     return true;
   }
   if (level >= Insertion && this->options_->removeNodes && this->removeNodes(t))
+  {
+    return true;
+  }
+  if (this->curves_ && this->changeBoundary(t, level))
   {
     return true;
   }
@@ -90,10 +95,10 @@ void Improver<D, Shape>::place(Index p, const Vec<D>& x, Index near)
 }
 
 template <int D, class Shape>
-bool Improver<D, Shape>::replace(
-  const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells)
+bool Improver<D, Shape>::replace(const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells, const KeptChange<D>* kept)
 {
-  if (this->tangled_ &&
+  if (this->tangled_ && !kept &&
     (!fillsCavity<D>(this->editor_->mesh(), cavity, cells) || this->conflicts(cavity, cells)))
   {
     return false;
@@ -117,7 +122,7 @@ bool Improver<D, Shape>::replace(
   {
     bad -= this->isBad(this->editor_->mesh().quality(c));
   }
-  if (!this->editor_->replace(cavity, cells, this->qualities_))
+  if (!this->editor_->replace(cavity, cells, this->qualities_, kept))
   {
     return false;
   }
@@ -270,24 +275,32 @@ bool Improver<D, Shape>::moveNode(Index v)
   }
   const Place start = this->begin();
   this->place(v, x, v);
-  bool holds = true;
-  long bad = 0;
-  for (std::size_t k = 0; k < this->star_.size(); ++k)
-  {
-    const Index c = this->star_[k];
-    const double q = (*this->model_)(mesh.nodes(c));
-    holds &= q > old;
-    bad += this->isBad(q) - this->isBad(mesh.quality(c));
-    this->editor_->setQuality(c, q);
-  }
-  if (!holds)
+  if (!this->settleStar(old))
   {
     this->rollback(start);
     return false;
   }
+  this->commit(start);
+  return true;
+}
+
+/// After a move: sets the qualities of star_. False, then to be undone, unless all are above `old`.
+template <int D, class Shape>
+bool Improver<D, Shape>::settleStar(double old)
+{
+  long bad = 0;
+  for (Index c : this->star_)
+  {
+    const double q = (*this->model_)(this->editor_->mesh().nodes(c));
+    if (!(q > old))
+    {
+      return false;
+    }
+    bad += this->isBad(q) - this->isBad(this->editor_->mesh().quality(c));
+    this->editor_->setQuality(c, q);
+  }
   this->bad_ += bad;
   this->editor_->stamp(this->star_);
-  this->commit(start);
   this->changed_.insert(this->changed_.end(), this->star_.begin(), this->star_.end());
   return true;
 }

@@ -3,6 +3,7 @@
 
 #include "Mesh/MeshEditor.h"
 #include "Optimize/Paper1996.h"
+#include "Optimize/SizeStage.h"
 #include "Optimize/Statistics.h"
 #include "Optimize/WorstFirst.h"
 
@@ -10,9 +11,59 @@
 
 namespace meshopt
 {
+namespace
+{
+template <int D>
+bool wantsSizes(
+  const NodalMetric<D>& metric, const Options& options, const BoundaryCurves* curves)
+{
+  return (options.beta > 0.0 || curves) && (options.desiredSize > 0.0 || metric.hasSizes());
+}
+
+/// Sizes first, then the worst elements. Should the worst be lower in the end than it was and than is
+/// wanted, all is undone, and the mesh is optimized with its sizes as they are.
+template <int D>
+void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
+  const Control& control, Report& report, const BoundaryCurves* curves)
+{
+  const SimplexMesh<D> meshBefore = editor.mesh();
+  const NodalMetric<D> metricBefore = metric;
+  const bool more = followSizes<D>(editor, metric, options, control, curves, report);
+  computeQualities<D>(editor, metric, options.measure, options.beta);
+  if (more)
+  {
+    PassRecord row = summarize(editor.mesh(), options.targetQuality);
+    row.stage = "sizes, qualities with them";
+    row.pass = static_cast<int>(report.history.size());
+    report.history.push_back(row);
+    optimizeWorstFirst<D>(editor, metric, options, control, report, curves);
+  }
+  else
+  {
+    report.stopReason = StopReason::Aborted;
+  }
+  const double worst = summarize(editor.mesh(), options.targetQuality).worst;
+  if (worst < std::min(report.worstBefore, options.targetQuality))
+  {
+    editor.mesh() = meshBefore;
+    metric = metricBefore;
+    editor = MeshEditor<D>(editor.mesh());
+    PassRecord row = summarize(editor.mesh(), options.targetQuality);
+    row.stage = "sizes given up";
+    row.pass = static_cast<int>(report.history.size());
+    report.history.push_back(row);
+    if (report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit)
+    {
+      optimizeWorstFirst<D>(editor, metric, options, control, report, curves);
+    }
+  }
+}
+}
+
 template <int D>
 Report optimize(
-  SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options, const Control& control)
+  SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options, const Control& control,
+  const BoundaryCurves* curves)
 {
   const auto begin = std::chrono::steady_clock::now();
   Report report;
@@ -28,9 +79,13 @@ Report optimize(
   {
     report.stopReason = StopReason::NothingToDo;
   }
+  else if (options.algorithm == Algorithm::WorstFirst && wantsSizes(metric, options, curves))
+  {
+    optimizeSizesToo<D>(editor, metric, options, control, report, curves);
+  }
   else if (options.algorithm == Algorithm::WorstFirst)
   {
-    optimizeWorstFirst<D>(editor, metric, options, control, report);
+    optimizeWorstFirst<D>(editor, metric, options, control, report, curves);
   }
   else
   {
@@ -44,6 +99,6 @@ Report optimize(
   return report;
 }
 
-template Report optimize<2>(SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&);
-template Report optimize<3>(SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&);
+template Report optimize<2>(SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*);
+template Report optimize<3>(SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*);
 }

@@ -14,6 +14,7 @@
 #ifndef meshopt_Optimize_WorstFirst_h
 #define meshopt_Optimize_WorstFirst_h
 
+#include "Boundary/BoundaryCurves.h"
 #include "Mesh/MeshEditor.h"
 #include "Metric/NodalMetric.h"
 #include "Optimize/Options.h"
@@ -24,12 +25,12 @@ namespace meshopt
 /// stage and pass to report.history and sets stopReason, bound and cappedCells.
 template <int D>
 void optimizeWorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report);
+  const Control& control, Report& report, const BoundaryCurves* curves = nullptr);
 
 extern template void optimizeWorstFirst<2>(
-  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&);
+  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, const BoundaryCurves*);
 extern template void optimizeWorstFirst<3>(
-  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&);
+  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&, const BoundaryCurves*);
 }
 
 #endif

@@ -47,7 +47,7 @@ class WorstFirst
 {
 public:
   WorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-    const Control& control, Report& report);
+    const Control& control, Report& report, const BoundaryCurves* curves);
   void run();
 
 private:
@@ -63,9 +63,9 @@ private:
     long kept = 0, tries = 0; // in this pass
 
     Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Caps<D>& caps,
-      const Options& options)
+      const Options& options, const BoundaryCurves* curves)
       : editor(root.mesh(), root.clock(), root.lastMark())
-      , improver(this->editor, model, caps, options)
+      , improver(this->editor, model, caps, options, curves)
     {
     }
   };
@@ -96,6 +96,7 @@ private:
   const Options& options_;
   const Control& control_;
   Report& report_;
+  const BoundaryCurves* curves_;
   QualityModel<D, Shape> model_;
   Progress progress_;
   Caps<D> caps_;
@@ -117,12 +118,13 @@ private:
 
 template <int D, class Shape>
 WorstFirst<D, Shape>::WorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric,
-  const Options& options, const Control& control, Report& report)
+  const Options& options, const Control& control, Report& report, const BoundaryCurves* curves)
   : editor_(editor)
   , metric_(metric)
   , options_(options)
   , control_(control)
   , report_(report)
+  , curves_(curves)
   , model_(editor.mesh(), metric, options.beta)
   , progress_(control)
 {
@@ -174,7 +176,8 @@ void WorstFirst<D, Shape>::run()
   const double highest = this->options_.effort == Effort::Best
     ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
     : this->options_.targetQuality;
-  this->caps_.build(this->mesh(), this->options_.measure, highest, this->metric_.isTrivial());
+  this->caps_.build(this->mesh(), this->options_.measure, highest,
+    this->metric_.isTrivial() && !this->curves_);
   this->report_.bound = this->caps_.bound();
   const std::vector<double> stages = this->stages();
   bool more = true;
@@ -282,7 +285,8 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
   while (static_cast<int>(this->workers_.size()) < n)
   {
     this->workers_.push_back(
-      std::make_unique<Worker>(this->editor_, this->model_, this->caps_, this->options_));
+      std::make_unique<Worker>(
+        this->editor_, this->model_, this->caps_, this->options_, this->curves_));
   }
   // All slots that are free go round, then the mesh grows, if several are to work at once.
   std::vector<Index>& freeCells = this->editor_.freeCells();
@@ -503,9 +507,9 @@ StopReason WorstFirst<D, Shape>::reason()
 
 template <int D, class Shape>
 void runWorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report)
+  const Control& control, Report& report, const BoundaryCurves* curves)
 {
-  worstfirst::WorstFirst<D, Shape>(editor, metric, options, control, report).run();
+  worstfirst::WorstFirst<D, Shape>(editor, metric, options, control, report, curves).run();
 }
 }
 
@@ -514,8 +518,8 @@ void runWorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options&
 /// Instantiates the engine for a measure in both dimensions.
 #define MESHOPT_INSTANTIATE_WORST_FIRST(Shape)                                 \
   template void runWorstFirst<2, Shape<2>>(                                    \
-    MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&); \
+    MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, const BoundaryCurves*); \
   template void runWorstFirst<3, Shape<3>>(                                    \
-    MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&);
+    MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&, const BoundaryCurves*);
 
 #endif

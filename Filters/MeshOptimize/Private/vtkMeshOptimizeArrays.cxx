@@ -31,6 +31,7 @@ constexpr ArrayRole Roles[NumberOfInputArrays] = {
   { "fixed point array", false, false, false },
   { "size array", false, false, false },
   { "metric array", false, false, true },
+  { "corner array", false, false, false },
 };
 
 std::string Title(const ArrayRole& role, vtkAbstractArray* array)
@@ -127,7 +128,7 @@ meshopt::Tensor<3> MakeTensor(const double* t, int numberOfComponents)
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays)
 {
   vtkDataArray** targets[NumberOfInputArrays] = { &arrays.Region, &arrays.FixedPoints, &arrays.Size,
-    &arrays.Metric };
+    &arrays.Metric, &arrays.Corners };
   arrays = InputArrays();
   for (int i = 0; i < NumberOfInputArrays; ++i)
   {
@@ -146,11 +147,11 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
 }
 
 std::string CheckArraysAreThere(
-  vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids)
+  vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids, int elsewhere)
 {
   for (int i = 0; i < NumberOfInputArrays; ++i)
   {
-    bool isThere = false, hasCells = false;
+    bool isThere = i == elsewhere, hasCells = false;
     for (vtkUnstructuredGrid* grid : grids)
     {
       hasCells |= grid->GetNumberOfCells() > 0;

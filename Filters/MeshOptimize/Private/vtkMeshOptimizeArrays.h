@@ -1,5 +1,5 @@
 /**
- * The input arrays of the filter: region, fixed points, size, metric. Found, checked, and read as
+ * The input arrays of the filter: region, fixed points, size, metric, corners. Found, checked, and read as
  * the core wants them.
  */
 #ifndef vtkMeshOptimizeArrays_h
@@ -28,7 +28,8 @@ enum ArrayIndex
   FixedPointArray = 1,
   SizeArray = 2,
   MetricArray = 3,
-  NumberOfInputArrays = 4
+  CornerArray = 4,
+  NumberOfInputArrays = 5
 };
 
 /**
@@ -40,6 +41,7 @@ struct InputArrays
   vtkDataArray* FixedPoints = nullptr;
   vtkDataArray* Size = nullptr;
   vtkDataArray* Metric = nullptr;
+  vtkDataArray* Corners = nullptr;
 };
 
 /**
@@ -51,10 +53,11 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
 
 /**
  * Returns a sentence about the first array that the caller of `filter` wants and none of `grids`
- * has; an empty string if there is none, or if no grid has cells (a process without a piece).
+ * has; an empty string if there is none, or if no grid has cells (a process without a piece). The
+ * array of index `elsewhere` has been found in another place.
  */
 std::string CheckArraysAreThere(
-  vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids);
+  vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids, int elsewhere = -1);
 
 /**
  * Region of each simplex. Numbers that do not fit into the core's 32 bits are replaced by their

@@ -105,6 +105,22 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkIdTypeArray>(fields, "NumberOfInvertedCellsAfter", report.invertedAfter);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
+  const meshopt::EdgeLengths& lengths = outcome.Lengths;
+  if (lengths.edges > 0)
+  {
+    AddFigure<vtkDoubleArray>(fields, "EdgeLengthShare", lengths.share);
+    vtkNew<vtkDoubleArray> histogram;
+    histogram->SetName("EdgeLengthHistogram");
+    histogram->SetNumberOfComponents(2);
+    histogram->SetComponentName(0, "LengthFrom");
+    histogram->SetComponentName(1, "Edges");
+    for (std::size_t k = 0; k < lengths.histogram.size(); ++k)
+    {
+      histogram->InsertNextTuple2(
+        meshopt::EdgeLengths::lowerEnd(k), static_cast<double>(lengths.histogram[k]));
+    }
+    fields->AddArray(histogram);
+  }
   AddFigure<vtkStringArray>(
     fields, "StopReason", std::string(meshopt::toString(report.stopReason)));
 }

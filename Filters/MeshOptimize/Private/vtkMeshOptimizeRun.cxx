@@ -3,6 +3,7 @@
 #include "vtkMeshOptimizeArrays.h"
 #include "vtkMeshOptimizeCells.h"
 #include "vtkMeshOptimizeControl.h"
+#include "vtkMeshOptimizeCurves.h"
 #include "vtkMeshOptimizeExport.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeImport.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <sstream>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -28,10 +30,9 @@ namespace
 
 template <int D>
 std::string SetMetric(const Cells& cells, const InputArrays& arrays, const Frame<D>& frame,
-  const meshopt::Options& options, const meshopt::SimplexMesh<D>& mesh,
-  meshopt::NodalMetric<D>& metric)
+  const Request& request, const meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric)
 {
-  vtkDataArray* sizes = options.beta > 0.0 ? arrays.Size : nullptr;
+  vtkDataArray* sizes = request.UsesSizes() ? arrays.Size : nullptr;
   if (!sizes && !arrays.Metric)
   {
     return {};
@@ -40,12 +41,36 @@ std::string SetMetric(const Cells& cells, const InputArrays& arrays, const Frame
 }
 
 template <int D>
+std::string CheckCount(const Request& request, const meshopt::SimplexMesh<D>& mesh,
+  const meshopt::NodalMetric<D>& metric)
+{
+  constexpr double most = 1e8; // memory, and the core's 32-bit ids
+  const bool hasSizes = request.Options.desiredSize > 0.0 || metric.hasSizes();
+  if (!request.UsesSizes() || !hasSizes ||
+    request.Options.algorithm != meshopt::Algorithm::WorstFirst)
+  {
+    return {};
+  }
+  const double count = metric.predictedNumberOfElements(mesh);
+  if (count <= most)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "The wanted sizes stand for some " << count
+       << " elements, more than can be made (1e8). Is the size in the units of the coordinates, or, "
+          "with a metric, of the metric?";
+  return text.str();
+}
+
+template <int D>
 void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
-  const Request& request, Outcome& outcome)
+  const Request& request, const meshopt::BoundaryCurves& curves, Outcome& outcome)
 {
   const auto start = std::chrono::steady_clock::now();
   outcome.NumberOfCellsBefore = mesh.numberOfInputCells();
-  outcome.Report = meshopt::optimize(mesh, metric, request.Options, request.Control);
+  outcome.Report = meshopt::optimize(
+    mesh, metric, request.Options, request.Control, request.Slide ? &curves : nullptr);
   if (outcome.Report.stopReason == meshopt::StopReason::Aborted && request.TimeLimit->WasSeen())
   {
     outcome.Report.stopReason = meshopt::StopReason::TimeLimit;
@@ -56,6 +81,10 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
     outcome.NumberOfOperations += std::accumulate(row.done.begin(), row.done.end(), 0L);
   }
   outcome.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!metric.isTrivial() || (request.UsesSizes() && request.Options.desiredSize > 0.0))
+  {
+    outcome.Lengths = meshopt::measureEdges(mesh, metric);
+  }
 }
 
 template <int D>
@@ -93,7 +122,10 @@ std::string OptimizeSimplices(vtkUnstructuredGrid* input, Cells& cells, const In
     return error;
   }
   meshopt::NodalMetric<D> metric(request.Options.desiredSize);
-  error = SetMetric(cells, arrays, frame, request.Options, mesh, metric);
+  error = SetMetric(cells, arrays, frame, request, mesh, metric);
+  error = error.empty() ? CheckCount(request, mesh, metric) : error;
+  meshopt::BoundaryCurves curves;
+  error = error.empty() ? BuildCurves(cells, arrays, frame, request, mesh, curves) : error;
   if (!error.empty())
   {
     return error;
@@ -105,7 +137,7 @@ std::string OptimizeSimplices(vtkUnstructuredGrid* input, Cells& cells, const In
     rest = RestrictToZone(input, arrays, frame, metric, request.Options, request.OptimizeBelow,
       request.NumberOfLayers, cells, mesh);
   }
-  Optimize(mesh, metric, request, outcome);
+  Optimize(mesh, metric, request, curves, outcome);
   AddLeftOut(rest, outcome);
   Export(input, cells, frame, mesh, metric, request, output, outcome);
   return {};
@@ -182,6 +214,7 @@ void Outcome::Add(const Outcome& other)
   this->NumberOfQuadraticSimplices += other.NumberOfQuadraticSimplices;
   this->NumberOfOperations += other.NumberOfOperations;
   this->Seconds += other.Seconds;
+  this->Lengths.add(other.Lengths);
   this->Tangle += (this->Tangle.empty() || other.Tangle.empty() ? "" : " ") + other.Tangle;
 }
 

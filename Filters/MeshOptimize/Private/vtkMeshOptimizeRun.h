@@ -4,6 +4,8 @@
 #ifndef vtkMeshOptimizeRun_h
 #define vtkMeshOptimizeRun_h
 
+#include "Boundary/BoundaryCurves.h"
+#include "Optimize/EdgeLengths.h"
 #include "Optimize/Options.h"
 
 #include "vtkType.h"
@@ -11,6 +13,7 @@
 #include <string>
 
 class vtkAlgorithm;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
@@ -29,6 +32,11 @@ struct Request
   const Deadline* TimeLimit = nullptr; ///< tells an abort by the clock from one by the user
   double OptimizeBelow = 0.0; ///< only cells under it may change, and layers around; 0: all
   int NumberOfLayers = 0;
+  bool Slide = false; ///< the boundary may be remeshed along its curves
+  meshopt::CurveOptions Curves;
+  /// Sizes count for the quality, or the boundary follows them.
+  bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }
+  vtkPolyData* Geometry = nullptr; ///< what the curves are made from; nullptr: the mesh itself
 };
 
 /**
@@ -43,6 +51,7 @@ struct Outcome
   vtkIdType NumberOfQuadraticSimplices = 0;
   vtkIdType NumberOfOperations = 0;
   double Seconds = 0.0;
+  meshopt::EdgeLengths Lengths; ///< in the end; no edges if neither sizes nor a metric are given
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
   /// Takes another grid's outcome in: minima, means by number of cells, sums, the strongest stop
