@@ -3,7 +3,7 @@
 
     /usr/bin/python3 pellet.py list                        names, elements, worst shape, what the surface allows
     /usr/bin/python3 pellet.py write FOLDER [NAME ...]     the meshes as FOLDER/NAME.vtu
-    /usr/bin/python3 pellet.py find [NAME ...]             searches the volumes that MESHES holds, and prints them
+    /usr/bin/python3 pellet.py find [NAME ...]             searches the volumes of the cracked ones, and prints them
 
 NAME: A, B, C, D (table 1), crack20, crack40, crack60 (table 2). Needs numpy and the package meshoptimize (./bootstrap.sh env).
 
@@ -28,17 +28,19 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstruct
 RADIUS = 0.531
 HEIGHT = 1.2
 SLOT_WIDTH = 0.01
+FLAT = 1e-9  # quality under which an element is taken for flat: nothing can be computed on it
 
-# Elements in the paper; depth of the crack in parts of the radius; rings of triangles from the centre of a cap to its
-# rim; the greatest volume that makes TetGen come out at so many elements (found by "pellet.py find", 3 digits).
+# What the paper says of its meshes: elements, worst quality and, in percent, the error of the tangential stress as generated;
+# depth of the crack in parts of the radius. What makes TetGen come near that (found by "pellet.py find"): rings of triangles
+# from the centre of a cap to its rim; spacing and jitter of the inner points, and its seed (seeds.py); or the greatest volume.
 MESHES = {
-    "A": {"elements": 21369, "crack": 0.0, "rings": 8, "volume": 9.35e-5},
-    "B": {"elements": 52464, "crack": 0.0, "rings": 10, "volume": 3.68e-5},
-    "C": {"elements": 68868, "crack": 0.0, "rings": 11, "volume": 2.83e-5},
-    "D": {"elements": 165769, "crack": 0.0, "rings": 15, "volume": 1.19e-5},
-    "crack20": {"elements": 80887, "crack": 0.2, "rings": 12, "volume": 2.44e-5},
-    "crack40": {"elements": 74380, "crack": 0.4, "rings": 11, "volume": 2.62e-5},
-    "crack60": {"elements": 93260, "crack": 0.6, "rings": 12, "volume": 2.07e-5},
+    "A": {"elements": 21369, "worst": 0.103, "error": 16, "crack": 0.0, "rings": 8, "spacing": 0.0854, "jitter": 0.31, "seed": 10},
+    "B": {"elements": 52464, "worst": 0.004, "error": 14, "crack": 0.0, "rings": 10, "spacing": 0.0628, "jitter": 0.275, "seed": 6},
+    "C": {"elements": 68868, "worst": 0.004, "error": 13.9, "crack": 0.0, "rings": 11, "spacing": 0.0577, "jitter": 0.32, "seed": 7},
+    "D": {"elements": 165769, "worst": 3e-6, "error": 7.5, "crack": 0.0, "rings": 15, "spacing": 0.0432, "jitter": 0.3, "seed": 1},
+    "crack20": {"elements": 80887, "worst": 0.002, "crack": 0.2, "rings": 12, "volume": 2.443e-5},
+    "crack40": {"elements": 74380, "worst": 0.002, "crack": 0.4, "rings": 11, "volume": 2.632e-5},
+    "crack60": {"elements": 93260, "worst": 0.004, "crack": 0.6, "rings": 12, "volume": 2.081e-5},
 }
 
 
@@ -183,14 +185,42 @@ def rings_for_edge(edge, radius=RADIUS):
     return max(2, round(2 * np.pi * radius / (6 * edge)))
 
 
-def tetrahedralize(closed_surface, maximum_volume):
-    """TetGen's mesh as generated: its surface kept, its optimization off. A vtkUnstructuredGrid."""
+def lattice(rings, spacing, jitter, seed):
+    """Points inside the cylinder without crack: a body-centred cubic lattice, each point moved at random.
+
+    The lattice has 12 tetrahedra per cube of edge `spacing`. jitter: how far a point moves in each direction at most, in parts of
+    the spacing. Points keep off the surface by 0.6 edges of it.
+    """
+    gap = 0.6 * 2 * np.pi * RADIUS / (6 * rings)
+    across, up = int(RADIUS / spacing) + 2, int(HEIGHT / spacing) + 2
+    cubes = np.stack(np.meshgrid(np.arange(-across, across), np.arange(-across, across), np.arange(-1, up), indexing="ij"), -1)
+    cubes = cubes.reshape(-1, 3).astype(float)
+    points = np.concatenate([cubes, cubes + 0.5])
+    points += jitter * (2 * np.random.default_rng(seed).random(points.shape) - 1)
+    points *= spacing
+    inside = ((np.hypot(points[:, 0], points[:, 1]) < RADIUS - gap)
+              & (points[:, 2] > gap) & (points[:, 2] < HEIGHT - gap))
+    return points[inside]
+
+
+def tetrahedralize(closed_surface, maximum_volume=0, interior=None):
+    """TetGen's mesh as generated: its surface kept, its optimization off. A vtkUnstructuredGrid.
+
+    Refined until no element is larger than the volume; or, with interior points, on these alone.
+    """
     from meshoptimize import vtkTetGenFilter
     tetgen = vtkTetGenFilter()
     tetgen.SetInputData(closed_surface)
     tetgen.SetKeepSurface(True)
     tetgen.SetOptimizationLevel(0)
     tetgen.SetMaximumVolume(maximum_volume)
+    if interior is not None:
+        points = vtkPoints()
+        points.SetData(numpy_to_vtk(np.ascontiguousarray(interior), deep=1))
+        cloud = vtkPolyData()
+        cloud.SetPoints(points)
+        tetgen.SetInteriorPointsData(cloud)
+        tetgen.SetMaximumRadiusEdgeRatio(0)
     tetgen.Update()
     if tetgen.GetErrorCode() != 0:
         raise RuntimeError("TetGen failed")
@@ -199,22 +229,26 @@ def tetrahedralize(closed_surface, maximum_volume):
     return grid
 
 
-def mesh(name):
-    """The mesh of that name in MESHES, as generated."""
+def mesh(name, seed=None):
+    """The mesh of that name in MESHES, as generated; without a crack, also with another seed."""
     setup = MESHES[name]
-    return tetrahedralize(surface(setup["rings"], setup["crack"]), setup["volume"])
+    closed = surface(setup["rings"], setup["crack"])
+    if setup["crack"] > 0:
+        return tetrahedralize(closed, setup["volume"])
+    seed = setup["seed"] if seed is None else seed
+    return tetrahedralize(closed, interior=lattice(setup["rings"], setup["spacing"], setup["jitter"], seed))
 
 
 def _rounded(volume):
-    return float(f"{volume:.3g}")
+    return float(f"{volume:.4g}")
 
 
 def find_volume(name, tolerance=0.002):
-    """The greatest volume, to 3 digits, that gives about the paper's number of elements: (volume, elements, worst quality).
+    """For a cracked pellet: (volume, elements, worst quality) that come near to the paper's, the volume to 4 digits.
 
-    First a bisection, until the number is the paper's within tolerance; it is no smooth function of the volume, so the
-    nearest one seen is taken. Then steps of 0.3 % to either side, until also the worst quality is under 0.01, as that of
-    the paper's meshes of these sizes is (all but A's 0.103).
+    First a bisection, until the number of elements is the paper's within tolerance; it is no smooth function of the volume, so the
+    nearest one seen is taken. Then steps of 0.1 % to either side: of the meshes within 3 % of that number, the one whose worst
+    quality is nearest to the paper's (in its logarithm).
     """
     setup = MESHES[name]
     closed = surface(setup["rings"], setup["crack"])
@@ -229,13 +263,16 @@ def find_volume(name, tolerance=0.002):
         if error <= tolerance:
             break
         low, high = (volume, high) if elements > setup["elements"] else (low, volume)
-    for step in sorted(range(-10, 11), key=lambda k: (abs(k), -k)):
-        volume = _rounded(best * (1 + 0.003 * step))
+    found = []
+    for step in range(-8, 9):
+        volume = _rounded(best * (1 + 0.001 * step))
         grid = tetrahedralize(closed, volume)
         worst = quality(grid)[0]
-        if abs(grid.GetNumberOfCells() / setup["elements"] - 1) <= 0.03 and worst < 0.01:
-            return volume, grid.GetNumberOfCells(), worst
-    raise RuntimeError(f"no volume found for {name}")
+        if abs(grid.GetNumberOfCells() / setup["elements"] - 1) <= 0.03 and worst > FLAT:
+            found.append((abs(np.log(worst / setup["worst"])), volume, grid.GetNumberOfCells(), worst))
+    if not found:
+        raise RuntimeError(f"no volume found for {name}")
+    return min(found)[1:]
 
 
 def quality(grid):
@@ -280,6 +317,9 @@ def main():
     for name in options.names or MESHES:
         wanted = MESHES[name]["elements"]
         if options.command == "find":
+            if MESHES[name]["crack"] == 0:
+                print(f"{name}: see seeds.py")
+                continue
             volume, elements, worst = find_volume(name)
             print(f"{name}: volume {volume:g}, {elements} elements (the paper has {wanted}), worst {worst:.2g}", flush=True)
             continue
