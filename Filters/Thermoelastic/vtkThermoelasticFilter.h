@@ -25,7 +25,8 @@
  *   (In a plane, what is across it is not looked at.)
  * - point `Traction`: force per area in the directions of the axes (3 components), or a pressure (1
  *   component, positive when it pushes). It acts on those facets of the surface whose points all have
- *   one that is not 0, and is linear on them.
+ *   one that is not 0, and is linear on them. If there are tractions but no such facet, that is an
+ *   error.
  * - cell `FacetTraction`: the same, constant on a facet. It is read at cells of the input that are
  *   facets of the surface: triangles on tetrahedra, lines on triangles.
  *

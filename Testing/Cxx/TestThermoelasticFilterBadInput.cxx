@@ -148,6 +148,11 @@ void TestLoads()
     return Point{ { 0.0, x[0] == 1.0 && x[1] == 0.0 && x[2] == 0.0 ? NaN : 1.0, 0.0 } };
   };
   ExpectError(With(false, "Traction", 3, oneBad), { "traction 'Traction' at point 2" }, Nothing);
+  const auto atOnePoint = [](const Point& x) {
+    return Point{ { 0.0, x[0] == 1.0 && x[1] == 0.0 && x[2] == 0.0 ? 1.0 : 0.0, 0.0 } };
+  };
+  ExpectError(With(false, "Traction", 3, atOnePoint),
+    { "traction 'Traction' at point 2", "nothing to act on" }, Nothing);
   const auto onTop = [](const Point& x) { return Point{ { 0.0, 0.0, x[2] == 1.0 ? 2.0 : 0.0 } }; };
   ExpectError(With(false, "Traction", 3, onTop),
     { "not in equilibrium", "translate along (0, 0, 1)" }, Nothing);

@@ -75,12 +75,14 @@ bool IsFinite(vtkDataArray* array, vtkIdType id)
 }
 
 /**
- * Facets whose points all carry a load.
+ * Facets whose points all carry a load. That there are loads and no such facet is an error: nobody
+ * wants a load to be lost.
  */
 template <int D>
 std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& model)
 {
   vtkDataArray* array = model.Arrays[TractionArray];
+  bool isAnyLoaded = false;
   for (const Facet<D>& facet : surface)
   {
     std::array<vtkIdType, D> ids;
@@ -98,6 +100,16 @@ std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
     if (isLoaded)
     {
       AddLoad<D>(model, facet, array, ids);
+      isAnyLoaded = true;
+    }
+  }
+  for (vtkIdType point = 0; point < array->GetNumberOfTuples() && !isAnyLoaded; ++point)
+  {
+    if (!IsZero(array, point))
+    {
+      return std::string("The traction '") + array->GetName() + "' at point " +
+        std::to_string(point) +
+        " has nothing to act on: no facet of the surface has a traction at all of its points.";
     }
   }
   return {};
