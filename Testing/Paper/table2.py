@@ -3,7 +3,7 @@
 
     /usr/bin/python3 table2.py FOLDER [--meshes crack20 crack40 crack60] [--ways "target .4" default best]
 
-Writes FOLDER/table2.csv and FOLDER/table2.md. The exit status is 1 if a claim does not hold in the last of the ways. Needs the package
+Writes FOLDER/table2.csv and FOLDER/table2.md. The exit status is 1 if a claim does not hold with the default effort. Needs the package
 meshoptimize (./bootstrap.sh env); takes one to two minutes.
 """
 import argparse
@@ -94,10 +94,13 @@ def main():
             rows[name, way] = measure(name, way, study.optimize(grid, way))
             print(name, way, "done", flush=True)
     text = TEXT.format(choices=study.CHOICES) + "\n" + markdown(rows, options.meshes, options.ways)
+    good = True
     for way in options.ways:
         claims = add_claims(rows, options.meshes, way)
         text += f"\n## Claims, optimized: {way}\n\n{claims.markdown()}"
-    return study.finish(options.folder, "table2", list(rows.values()), text, claims)
+        good = good and (claims.all_hold() or way != "default")
+    study.write(options.folder, "table2", list(rows.values()), text)
+    return 0 if good else 1
 
 
 if __name__ == "__main__":
