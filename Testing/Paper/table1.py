@@ -4,7 +4,7 @@
     /usr/bin/python3 table1.py FOLDER [--meshes A B C D] [--ways "target .4" default best]
 
 Writes FOLDER/table1.csv and FOLDER/table1.md. The exit status is 1 if a claim does not hold with the default effort. Needs the package
-meshoptimize (./bootstrap.sh env); takes two minutes.
+meshoptimize (./bootstrap.sh env); takes three to five minutes.
 """
 import argparse
 import sys
