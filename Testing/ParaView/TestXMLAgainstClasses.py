@@ -17,7 +17,7 @@ NOT_OFFERED = {
     # report only: an error in the optimizer
     ("MeshOptimize", "QualityMeasure"): {"MinimumDihedralAngle"},
 }
-NOT_IN_XML = {"MeshOptimize": {"Controller"}, "MeshQualityMinMax": {"Controller"},
+NOT_IN_XML = {"MeshOptimize": {"Controller", "GeometryData"}, "MeshQualityMinMax": {"Controller"},
               "Thermoelastic": {"Controller"},
               "TetGen": {"InteriorPointsData"}}
 

@@ -107,6 +107,7 @@ private:
   double tryInsertion(Index t, Index p, Vec<D>& x, bool needGain);
   void seeds(Index t, std::vector<Vec<D>>& x) const;
   long badBalance() const;
+  double worstOf(const std::vector<Index>& cells) const;
   bool insertHere(Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
     const KeptChange<D>* kept = nullptr);

@@ -111,6 +111,17 @@ bool Improver<D, Shape>::insertHere(Index p, const Vec<D>& x)
   return this->replace(this->cavity_.cells(), this->cells_);
 }
 
+template <int D, class Shape>
+double Improver<D, Shape>::worstOf(const std::vector<Index>& cells) const
+{
+  double worst = std::numeric_limits<double>::infinity();
+  for (Index c : cells)
+  {
+    worst = std::min(worst, this->editor_->mesh().quality(c));
+  }
+  return worst;
+}
+
 /// Bad cells of the insertion last tried, less those of its cavity.
 template <int D, class Shape>
 long Improver<D, Shape>::badBalance() const
@@ -141,7 +152,16 @@ bool Improver<D, Shape>::insert(Index t)
     const double old = this->cavity_.oldWorst();
     if (q > old + gain(old) && this->badBalance() <= 0)
     {
-      done = this->insertHere(p, x[k]);
+      // The search took the metric where the node was: what counts is the one where it is now.
+      const Place before = this->begin();
+      done = this->insertHere(p, x[k]) &&
+        (this->model_->plain ||
+          (this->worstOf(this->editor_->created()) > old + gain(old) && this->bad_ <= start.bad));
+      done ? this->commit(before) : this->rollback(before);
+      if (!done)
+      {
+        this->changed_.clear();
+      }
     }
   }
   this->count(Operation::NodeInsertion, done);

@@ -32,10 +32,6 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   computeQualities<D>(editor, metric, options.measure, options.beta);
   if (more)
   {
-    PassRecord row = summarize(editor.mesh(), options.targetQuality);
-    row.stage = "sizes, qualities with them";
-    row.pass = static_cast<int>(report.history.size());
-    report.history.push_back(row);
     optimizeWorstFirst<D>(editor, metric, options, control, report, curves);
   }
   else

@@ -28,6 +28,8 @@ constexpr int MaximumCorrections = 3;
 constexpr double GreatestScale = 1.25;
 /// Edges are split so far from their middle, at random.
 constexpr double Jitter = 0.1;
+/// An edge is split if no cell at it has one that is longer than it by more than this factor.
+constexpr double LongestFirst = 0.7;
 /// No change may make a quality lower than both this and what was there.
 constexpr double GoodEnough = 0.3;
 
@@ -82,6 +84,8 @@ private:
   void smooth();
   void swapWhatChanged();
 
+  double longestEdge() const;
+  bool isAboutLongest(const std::vector<Index>& cells, double length) const;
   bool splitEdge(const Edge& edge);
   bool contractEdge(Index v, Index u, double& above, EdgeChange<D>& best);
   bool moveNode(Index v);
@@ -112,7 +116,8 @@ private:
   EdgeChange<D> change_;
 
   std::vector<Tensor<D>> units_; // M / h*^2 at the points
-  double scale_ = 1.0;           // of h*
+  double scale_ = 1.0;                          // of h*
+  double longest_ = Longest;                    // longer edges are split
   std::uint32_t swappedAt_ = 0;
   std::vector<std::uint32_t> failedAt_; // when a node could not be moved to advantage
   Queue queue_;
@@ -201,7 +206,7 @@ void SizeStage<D>::push(Index c, bool isLong)
     const Index p = this->mesh().nodes(c)[e[0]], q = this->mesh().nodes(c)[e[1]];
     const Index a = std::min(p, q), b = std::max(p, q);
     const double l = this->length(a, b);
-    if (isLong ? l > Longest : l < Shortest)
+    if (isLong ? l > this->longest_ : l < Shortest)
     {
       this->queue_.push({ isLong ? l : -l, a, b, c });
     }
@@ -248,6 +253,41 @@ void SizeStage<D>::swapAround(Push&& push)
 }
 
 // --- edges that are too long
+
+template <int D>
+double SizeStage<D>::longestEdge() const
+{
+  double longest = 0.0;
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    for (int e = 0; this->mesh().isAlive(c) && e < Local<D>::numberOfEdges; ++e)
+    {
+      const Simplex<D>& nodes = this->mesh().nodes(c);
+      longest = std::max(
+        longest, this->length(nodes[Local<D>::edges[e][0]], nodes[Local<D>::edges[e][1]]));
+    }
+  }
+  return longest;
+}
+
+/// No cell has an edge that is much longer: that comes first, and where it must stay (the surface is
+/// kept) sizes can only grow finer from layer to layer.
+template <int D>
+bool SizeStage<D>::isAboutLongest(const std::vector<Index>& cells, double length) const
+{
+  for (Index c : cells)
+  {
+    for (const auto& e : Local<D>::edges)
+    {
+      if (LongestFirst * this->length(this->mesh().nodes(c)[e[0]], this->mesh().nodes(c)[e[1]]) >
+        length)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
 
 template <int D>
 long SizeStage<D>::split()
@@ -305,10 +345,11 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
   }
   const Index p = this->editor_.addPoint(x);
   this->sample(p, a);
-  if (this->change_.split(this->editor_, this->curves_, edge.cell, a, b, p))
+  if (this->change_.split(this->editor_, this->curves_, edge.cell, a, b, p) &&
+    this->isAboutLongest(this->change_.cavity, edge.length))
   {
     const double worst = this->worstOf(this->change_.cavity);
-    if (this->measure(this->change_.cells, std::min(0.1 * worst, GoodEnough)))
+    if (this->measure(this->change_.cells, std::min(0.3 * worst, GoodEnough)))
     {
       this->editor_.setCurvePlace(p, place);
       this->editor_.replace(this->change_.cavity, this->change_.cells, this->qualities_,
@@ -382,11 +423,19 @@ bool SizeStage<D>::contractEdge(Index v, Index u, double& above, EdgeChange<D>& 
   {
     return false;
   }
+  double longest = Longest;
+  for (Index c : this->change_.cavity)
+  {
+    for (Index w : this->mesh().nodes(c))
+    {
+      longest = w != v ? std::max(longest, this->length(v, w)) : longest;
+    }
+  }
   for (const Simplex<D>& cell : this->change_.cells)
   {
     for (Index w : cell)
     {
-      if (w != u && this->length(w, u) > Longest)
+      if (w != u && this->length(w, u) > longest)
       {
         return false;
       }
@@ -582,7 +631,10 @@ bool SizeStage<D>::keepGoing(int round)
 template <int D>
 void SizeStage<D>::record(int round)
 {
+  // The history is about the quality that the caller wants.
+  computeQualities<D>(this->editor_, this->metric_, this->options_.measure, this->options_.beta);
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality);
+  computeQualities<D>(this->editor_, this->metric_, Measure::Shape, 0.0);
   row.stage = "sizes, round " + std::to_string(round + 1);
   row.done = this->improver_.done;
   row.tried = this->improver_.tried;
@@ -601,18 +653,31 @@ void SizeStage<D>::record(int round)
   this->report_.history.push_back(row);
 }
 
+/// Edges are halved round by round: to split a long edge to the end at once would make its
+/// neighbourhood fine in all directions, also where it is to be so in one only.
 template <int D>
 bool SizeStage<D>::run()
 {
   const double predicted = this->metric_.predictedNumberOfElements(this->mesh());
+  this->longest_ = std::max(Longest, 0.5 * this->longestEdge());
   int corrections = 0;
-  bool more = true;
-  for (int round = 0; round < MaximumRounds && more; ++round)
+  for (int round = 0, last = MaximumRounds; round < last; ++round)
   {
-    const long changes = this->split() + this->contract();
+    long changes = this->contract(); // first: what is too fine in one direction is split in another
+    changes += this->split();
+    changes += this->contract();
     this->smooth();
     this->record(round);
-    more = this->keepGoing(round);
+    if (!this->keepGoing(round))
+    {
+      return false;
+    }
+    if (this->longest_ > Longest)
+    {
+      this->longest_ = std::max(Longest, 0.5 * this->longest_);
+      ++last; // these rounds do not count
+      continue;
+    }
     const double cells = static_cast<double>(this->report_.history.back().cells);
     if (static_cast<double>(changes) > FewChanges * cells)
     {
@@ -627,7 +692,7 @@ bool SizeStage<D>::run()
       this->scale_ * std::pow(ratio, 1.0 / D), 1.0 / GreatestScale, GreatestScale);
     this->failedAt_.clear();
   }
-  return more;
+  return true;
 }
 }
 

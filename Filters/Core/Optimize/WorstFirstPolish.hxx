@@ -16,7 +16,7 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
 {
   this->guard_ = false;
   this->polishTarget_ = target;
-  this->gain_ = finely ? FineGain : Gain;
+  this->gain_ = finely ? FineGain : this->usualGain_;
   this->caps_.setReached(finely ? CapReachedFinely : CapReached);
   const bool past = finely || target > this->options_.targetQuality + 1e-9;
   bool more = true;
@@ -57,7 +57,7 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
     }
   }
   this->guard_ = true;
-  this->gain_ = Gain;
+  this->gain_ = this->usualGain_;
   this->caps_.setReached(CapReached);
   return more;
 }

@@ -36,6 +36,9 @@ constexpr double LiftStep = 0.02;
 /// the best effort polishes.
 constexpr double Gain = 1e-3, FineGain = 1e-4;
 constexpr double CapReached = 0.998, CapReachedFinely = 0.9995;
+/// The least gain where the metric or a wanted size varies: qualities then cost many times more, and
+/// most cells can be under the target.
+constexpr double CoarseGain = 1e-2;
 /// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
 constexpr long Patience[] = { 1000000, 50, 20, 20 };
 constexpr long PatientTries = 200; // before that is looked at
@@ -105,7 +108,8 @@ private:
   int numberOfChunks_ = 0;
   int variant_ = 0;
   bool guard_ = true;
-  double gain_ = Gain;
+  double usualGain_; ///< least gain of a change
+  double gain_;
   double polishTarget_ = 0.0;
   bool tangled_ = true; ///< there are inverted cells
   long growth_ = 0, kept_ = 0;
@@ -127,6 +131,8 @@ WorstFirst<D, Shape>::WorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric,
   , curves_(curves)
   , model_(editor.mesh(), metric, options.beta)
   , progress_(control)
+  , usualGain_(this->model_.plain ? Gain : CoarseGain)
+  , gain_(this->usualGain_)
 {
 }
 
