@@ -130,7 +130,11 @@ def slope(numbers, errors):
 
 
 def draw(grid, uniform_rows, adapted_rows, name, path):
-    import matplotlib
+    try:
+        import matplotlib
+    except ImportError:
+        print("no picture: matplotlib is not installed")
+        return
     matplotlib.use("Agg")
     from matplotlib import pyplot
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 5), layout="constrained")
@@ -143,6 +147,7 @@ def draw(grid, uniform_rows, adapted_rows, name, path):
     right.triplot(*points.T, triangles, linewidth=0.3, color="0.2")
     right.set(aspect="equal", title=f"{len(triangles)} elements", xlim=(0, 1), ylim=(0, 1))
     figure.savefig(path, dpi=110)
+    print("picture:", path)
 
 
 def main():
@@ -177,7 +182,6 @@ def main():
     print("slopes: " + ", ".join(f"{kind} {slope(*np.transpose(row)):.2f}" for kind, row in rows.items()))
     path = os.path.join(options.folder, f"adapt_{options.function}.png")
     draw(grid, rows["uniform"], rows["adapted"], options.function, path)
-    print("picture:", path)
 
 
 if __name__ == "__main__":

@@ -126,9 +126,12 @@ def triangles_only(grid):
     return result
 
 
-def optimize(grid, size=None):
+def optimize(grid, lines, size=None):
+    """In the grid's metric, or to one size. The boundary follows the lines in every step, not what the last mesh had of them."""
     optimizer = vtkMeshOptimizeFilter()
     optimizer.SetInputData(grid)
+    optimizer.SetGeometryData(lines)
+    optimizer.SetCornerArray("Corner")
     optimizer.SetBoundaryModeToSlide()
     optimizer.SetBeta(2.0)
     if size:
@@ -183,15 +186,15 @@ def tip_sizes(solution, cracks):
     return np.array(sizes)
 
 
-def loop(cracks, elements, steps, least):
+def loop(cracks, elements, steps, least=1e-3):
     """Yields (name, mesh, solution grid, seconds so far): the uniform mesh and each adapted one."""
-    start, correction = time.perf_counter(), 1.0
-    mesh = optimize(first_mesh(cracks), np.sqrt(4 / np.sqrt(3) * (2 * WIDTH) ** 2 / elements))
+    start, correction, lines = time.perf_counter(), 1.0, geometry(cracks)
+    mesh = optimize(first_mesh(cracks), lines, np.sqrt(4 / np.sqrt(3) * (2 * WIDTH) ** 2 / elements))
     for step in range(steps + 1):
         solved = solve(mesh, cracks).GetOutput()
         yield "uniform" if step == 0 else f"step {step}", mesh, solved, time.perf_counter() - start
         if step < steps:
-            mesh = optimize(metric_of(solved, elements, correction, least))
+            mesh = optimize(metric_of(solved, elements, correction, least), lines)
             correction = min(max(correction * mesh.GetNumberOfCells() / elements, 0.2), 5.0)
 
 
@@ -228,7 +231,10 @@ def main():
     writer.SetDataModeToBinary()  # Debian's VTK cannot read raw appended data
     writer.SetFileName(os.path.join(options.folder, "two_cracks.vtu"))
     writer.Write()
-    from two_cracks_figures import draw
+    try:
+        from two_cracks_figures import draw
+    except ImportError as missing:
+        sys.exit(f"no figures: {missing}")
     draw(meshes, solved, cracks, WIDTH, tips_of(cracks), np.array(rows), options.folder)
 
 

@@ -1,4 +1,4 @@
-# Installs BUILD into WORK/install, builds CONSUMER against it, runs it.
+# Installs BUILD into WORK/install, builds CONSUMER against it, runs its programs.
 function (step)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
   if (result)
@@ -18,3 +18,4 @@ step("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${CONSUMER}" -B "${WORK}/build"
   "-DMeshOptimize_DIR=${WORK}/install/${LIBDIR}/cmake/MeshOptimize")
 step("${CMAKE_COMMAND}" --build "${WORK}/build")
 step("${WORK}/build/consumer")
+step("${WORK}/build/adapt")
