@@ -12,12 +12,13 @@ from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 from adapt_function import arrays_of  # noqa: E402
 
 INK = "#1f2937"
+LEVELS = np.concatenate([np.arange(0.2, 2, 0.2), np.arange(2, 6.1, 0.5)])  # of the stress over the tension
 
 
 def draw(meshes, solved, cracks, width, tips, errors, folder):
     """meshes: first, uniform, adapted ...; solved: on the last one; errors[step, tip, method]: K_I over the reference."""
     pictures = {"figure_5": domain(cracks, width), "figure_6": three_meshes([meshes[0], meshes[1], meshes[-1]], width),
-                "figure_7": details(meshes[-1], tips), "figure_8": von_mises(solved, cracks),
+                "figure_7": details(meshes[-1], tips), "figure_8": von_mises(solved, cracks), "overview": overview(meshes, solved, cracks, width, tips),
                 "convergence": convergence(errors)}
     for name, figure in pictures.items():
         figure.savefig(os.path.join(folder, f"two_cracks_{name}.png"), dpi=120)
@@ -47,13 +48,40 @@ def domain(cracks, width):
     return figure
 
 
+def whole(panel, mesh, width, letter):
+    points, triangles = arrays_of(mesh)
+    plain(panel, f"{letter}{len(points)} nodes, {len(triangles)} elements")
+    panel.triplot(*points.T, triangles, color=INK, linewidth=0.9 if len(triangles) < 100 else 0.2)
+    panel.set(xlim=(-1.01 * width, 1.01 * width), ylim=(-1.01 * width, 1.01 * width))
+
+
 def three_meshes(meshes, width):
     figure, panels = pyplot.subplots(1, 3, figsize=(15, 5.3), layout="constrained")
     for panel, mesh, letter in zip(panels, meshes, "abc"):
-        points, triangles = arrays_of(mesh)
-        plain(panel, f"({letter}) {len(points)} nodes, {len(triangles)} elements")
-        panel.triplot(*points.T, triangles, color=INK, linewidth=0.9 if len(triangles) < 100 else 0.2)
-        panel.set(xlim=(-width, width), ylim=(-width, width))
+        whole(panel, mesh, width, f"({letter}) ")
+    return figure
+
+
+def part(panel, mesh, tips, centre, half, title):
+    points, triangles = arrays_of(mesh)
+    shown = (np.abs(points - centre).max(axis=1) < 2 * half)[triangles].any(axis=1)
+    plain(panel, title)
+    panel.triplot(*points.T, triangles[shown], color=INK, linewidth=0.4)
+    for crack in zip(tips[::2], tips[1::2]):
+        panel.plot(*np.transpose([tip.position for tip in crack]), color="#c0392b", linewidth=1.2)
+    panel.set(xlim=(centre[0] - half, centre[0] + half), ylim=(centre[1] - half, centre[1] + half))
+
+
+def overview(meshes, solved, cracks, width, tips):
+    """First mesh, last mesh, the inner tips in it, the stress there: one row."""
+    figure, panels = pyplot.subplots(1, 4, figsize=(16, 4.2), layout="constrained")
+    whole(panels[0], meshes[0], width, "")
+    whole(panels[1], meshes[-1], width, "")
+    middle = np.mean([tips[1].position, tips[2].position], axis=0)
+    part(panels[2], meshes[-1], tips, middle, 0.3, "the inner tips, 0.6 a across")
+    drawn = isolines(panels[3], solved, cracks, middle, 0.3)
+    panels[3].set_title("von Mises stress there, over the tension")
+    figure.colorbar(drawn, ax=panels[3], shrink=0.7)
     return figure
 
 
@@ -65,31 +93,31 @@ def details(mesh, tips):
     views += [(tips[i].position, 0.02, f"{name} tip") for i, name in enumerate(("left outer", "left inner", "right inner", "right outer"))]
     figure, panels = pyplot.subplots(2, 3, figsize=(14, 9.6), layout="constrained")
     for panel, (centre, half, title) in zip(panels.flat, views):
-        shown = (np.abs(points - centre).max(axis=1) < 2 * half)[triangles].any(axis=1)
-        plain(panel, f"{title}, {2 * half:g} a across")
-        panel.triplot(*points.T, triangles[shown], color=INK, linewidth=0.4)
-        for crack in zip(tips[::2], tips[1::2]):
-            panel.plot(*np.transpose([tip.position for tip in crack]), color="#c0392b", linewidth=1.2)
-        panel.set(xlim=(centre[0] - half, centre[0] + half), ylim=(centre[1] - half, centre[1] + half))
+        part(panel, mesh, tips, centre, half, f"{title}, {2 * half:g} a across")
     return figure
 
 
 def von_mises(solved, cracks):
+    figure, panels = pyplot.subplots(1, 2, figsize=(14, 7), layout="constrained")
+    for panel, (centre, half) in zip(panels, (((0, 0), 2.6), ((0, -0.09), 0.4))):
+        drawn = isolines(panel, solved, cracks, centre, half)
+        panel.set_title(f"von Mises stress over the tension, {2 * half:g} a across")
+    figure.colorbar(drawn, ax=panels, shrink=0.8)
+    return figure
+
+
+def isolines(panel, solved, cracks, centre, half):
     points = vtk_to_numpy(solved.GetPoints().GetData())
     triangles = vtk_to_numpy(solved.GetCells().GetConnectivityArray())
     count = sum(solved.GetCellType(i) == 5 for i in range(solved.GetNumberOfCells()))
     triangles = triangles[:3 * count].reshape(-1, 3)
     stress = vtk_to_numpy(solved.GetPointData().GetArray("VonMises"))
-    figure, panels = pyplot.subplots(1, 2, figsize=(14, 5.6), layout="constrained")
-    levels = np.concatenate([np.arange(0.2, 2, 0.2), np.arange(2, 6.1, 0.5)])
-    for panel, (centre, half) in zip(panels, (((0, 0), 2.6), ((0, -0.09), 0.4))):
-        plain(panel, "von Mises stress over the tension")
-        drawn = panel.tricontour(*points[:, :2].T, triangles, stress, levels=levels, cmap="viridis", linewidths=0.9)
-        for crack in cracks.positions(np.array([-1.0, 1.0])):
-            panel.plot(crack.real, crack.imag, color="#c0392b", linewidth=1.5)
-        panel.set(xlim=(centre[0] - half, centre[0] + half), ylim=(centre[1] - 0.75 * half, centre[1] + 0.75 * half))
-    figure.colorbar(drawn, ax=panels, shrink=0.8)
-    return figure
+    plain(panel)
+    drawn = panel.tricontour(*points[:, :2].T, triangles, stress, levels=LEVELS, cmap="viridis", linewidths=0.9)
+    for crack in cracks.positions(np.array([-1.0, 1.0])):
+        panel.plot(crack.real, crack.imag, color="#c0392b", linewidth=1.5)
+    panel.set(xlim=(centre[0] - half, centre[0] + half), ylim=(centre[1] - half, centre[1] + half))
+    return drawn
 
 
 def convergence(errors):
