@@ -11,14 +11,15 @@
 namespace meshopt
 {
 /// Sets Point::owner of all live points to 0 ... n - 1 by recursive bisection of the point set at the
-/// median along its longest extent (ties by id). Different n put the borders elsewhere.
-/// O(points log n).
+/// median along its longest extent (ties by id). `shift`, in ]-1/2, 1/2[, moves all borders by that part
+/// of a chunk: with the same one they would hold up the same cells again. O(points log n).
 template <int D>
 class Chunks
 {
 public:
-  void assign(MeshEditor<D>& editor, int n)
+  void assign(MeshEditor<D>& editor, int n, double shift)
   {
+    this->shift_ = shift;
     const SimplexMesh<D>& mesh = editor.mesh();
     this->ids_.clear();
     for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
@@ -55,7 +56,8 @@ private:
       axis = high[i] - low[i] > high[axis] - low[axis] ? i : axis;
     }
     const int left = n / 2;
-    const Index middle = begin + static_cast<Index>(std::int64_t(end - begin) * left / n);
+    const Index middle =
+      begin + static_cast<Index>(static_cast<double>(end - begin) * (left + this->shift_) / n);
     std::nth_element(this->ids_.begin() + begin, this->ids_.begin() + middle,
       this->ids_.begin() + end,
       [&](Index a, Index b)
@@ -68,6 +70,7 @@ private:
   }
 
   std::vector<Index> ids_;
+  double shift_ = 0.0;
 };
 }
 

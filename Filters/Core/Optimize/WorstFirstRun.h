@@ -27,8 +27,11 @@ constexpr int MaximumPasses = 10;      // of one stage
 constexpr Index CellsPerChunk = 20000; // fewer make borders too long
 constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
 constexpr int MaximumChunks = 256;
+constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of their borders, by turns
 constexpr std::size_t PolishedCells = 10, MostPolishedCells = 320;
 constexpr int PolishRounds = 50;
+/// What is under this part of the target and of the bound gets all tries also with the default effort.
+constexpr double FarBelow = 0.9;
 /// How far around the worst cells others are lifted, and by how much per layer.
 constexpr int LiftedLayers = 3;
 constexpr double LiftStep = 0.02;
@@ -40,7 +43,7 @@ constexpr double CapReached = 0.998, CapReachedFinely = 0.9995;
 /// most cells can be under the target.
 constexpr double CoarseGain = 1e-2;
 /// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
-constexpr long Patience[] = { 1000000, 50, 20, 20 };
+constexpr long Patience[] = { std::numeric_limits<int>::max(), 50, 20, 20 };
 constexpr long PatientTries = 200; // before that is looked at
 /// Tries of one chunk between two looks at progress, by level: some tenth of a second.
 constexpr long Tries[] = { 20000, 4000, 400, 100 };
@@ -64,6 +67,7 @@ private:
     Improver<D, Shape> improver;
     Queue queue;
     long kept = 0, tries = 0; // in this pass
+    bool isPatient = true;    // likewise
 
     Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Caps<D>& caps,
       const Options& options, const BoundaryCurves* curves)
@@ -285,8 +289,7 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
   this->numberOfChunks_ = n;
   if (n > 1)
   {
-    this->numberOfChunks_ = n += this->variant_++ % 3; // so that borders move
-    this->chunks_.assign(this->editor_, n);
+    this->chunks_.assign(this->editor_, n, Shifts[this->variant_++ % 3]);
   }
   while (static_cast<int>(this->workers_.size()) < n)
   {
@@ -320,6 +323,7 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
     w.improver.setGain(this->gain_);
     w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
     w.kept = w.tries = 0;
+    w.isPatient = true;
   }
   if (!this->metric_.isTrivial())
   {
@@ -404,17 +408,16 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
   {
     const auto [q, c] = w.queue.top();
     w.queue.pop();
+    // Without patience cells are still tried cheaply: a border may have kept them from it before.
+    w.isPatient = w.isPatient && (w.tries < PatientTries || w.kept * Patience[level] >= w.tries);
+    level = w.isPatient ? level : Improver<D, Shape>::Topology;
     if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
       this->caps_.isCapped(mesh, c))
     {
       continue;
     }
     --tries;
-    if (++w.tries > PatientTries && w.kept * Patience[level] < w.tries)
-    {
-      w.queue = Queue();
-      break;
-    }
+    ++w.tries;
     w.editor.resetBlocked();
     if (w.improver.improve(c, level))
     {
