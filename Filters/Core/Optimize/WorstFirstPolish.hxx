@@ -37,9 +37,9 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
       layers = 0;
       wanted = PolishedCells;
     }
-    else if (!past && !(before < FarBelow * std::min(target, this->report_.bound)))
+    else if (!past)
     {
-      break; // up to the target, the rest is left to those who want the best
+      break;
     }
     else if (worst.size() == wanted && wanted < MostPolishedCells)
     {

@@ -30,8 +30,6 @@ constexpr int MaximumChunks = 256;
 constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of their borders, by turns
 constexpr std::size_t PolishedCells = 10, MostPolishedCells = 320;
 constexpr int PolishRounds = 50;
-/// What is under this part of the target and of the bound gets all tries also with the default effort.
-constexpr double FarBelow = 0.9;
 /// How far around the worst cells others are lifted, and by how much per layer.
 constexpr int LiftedLayers = 3;
 constexpr double LiftStep = 0.02;
