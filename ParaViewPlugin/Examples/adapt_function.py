@@ -90,10 +90,11 @@ def add_metric(grid, function, elements, correction=1.0, norm_order=2.0):
     return metric.GetOutput()
 
 
-def optimize(grid, size=None):
+def optimize(grid, size=None, threads=0):
     """(mesh, seconds): in the grid's Metric and to its DesiredSize; if a size is given, to that size in the plane as it is."""
     optimizer = vtkMeshOptimizeFilter()
     optimizer.SetInputData(grid)
+    optimizer.SetNumberOfThreads(threads)
     optimizer.SetBoundaryModeToSlide()
     optimizer.SetBeta(2.0)
     if size:

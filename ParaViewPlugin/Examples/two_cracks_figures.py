@@ -18,8 +18,8 @@ LEVELS = np.concatenate([np.arange(0.2, 2, 0.2), np.arange(2, 6.1, 0.5)])  # of 
 def draw(meshes, solved, cracks, width, tips, errors, folder):
     """meshes: first, uniform, adapted ...; solved: on the last one; errors[step, tip, method]: K_I over the reference."""
     pictures = {"figure_5": domain(cracks, width), "figure_6": three_meshes([meshes[0], meshes[1], meshes[-1]], width),
-                "figure_7": details(meshes[-1], tips), "figure_8": von_mises(solved, cracks), "overview": overview(meshes, solved, cracks, width, tips),
-                "convergence": convergence(errors)}
+                "figure_7": details(meshes[-1], tips), "figure_8": von_mises(solved, cracks),
+                "overview": overview(meshes, solved, cracks, width, tips), "convergence": convergence(errors)}
     for name, figure in pictures.items():
         figure.savefig(os.path.join(folder, f"two_cracks_{name}.png"), dpi=120)
         pyplot.close(figure)
