@@ -26,6 +26,7 @@ constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.70, 0.72, 0.
 constexpr int MaximumPasses = 10;      // of one stage
 constexpr Index CellsPerChunk = 20000; // fewer make borders too long
 constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
+constexpr int PolishedPerChunk = 4;    // the same where each is tried long
 constexpr int MaximumChunks = 256;
 constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of their borders, by turns
 constexpr std::size_t PolishedCells = 10, MostPolishedCells = 320;
@@ -281,8 +282,9 @@ template <int D, class Shape>
 void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& bad)
 {
   const Index cells = this->mesh().numberOfCellSlots();
+  const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
   int n = static_cast<int>(
-    std::min<long>(cells / CellsPerChunk, static_cast<long>(bad.size()) / BadCellsPerChunk));
+    std::min<long>(cells / CellsPerChunk, static_cast<long>(bad.size()) / each));
   n = this->tangled_ ? 1 : std::min(std::max(n, 1), MaximumChunks); // tangled: checks look anywhere
   this->numberOfChunks_ = n;
   if (n > 1)
