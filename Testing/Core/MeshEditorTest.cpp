@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Editing a mesh: cavities replaced, what they hand on, undoing, editors that own a part only.
-#include "Mesh/MeshEditor.h"
+#include "MeshSnapshot.h"
 #include "TestMeshes.h"
 
 #include <map>
@@ -19,50 +19,6 @@ double volumeOf(const SimplexMesh<D>& mesh, const Simplex<D>& cell)
   }
   return signedVolume(x);
 }
-
-/// Everything but marks, and the editor's pools.
-template <int D>
-struct Snapshot
-{
-  std::vector<std::int64_t> numbers;
-  std::vector<double> values;
-
-  explicit Snapshot(MeshEditor<D>& editor)
-  {
-    const SimplexMesh<D>& mesh = editor.mesh();
-    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
-    {
-      this->add(mesh.nodes(c));
-      for (int i = 0; i <= D; ++i)
-      {
-        this->numbers.push_back(mesh.adjacent(c, i));
-      }
-      const auto& data = mesh.cellData(c);
-      this->add(std::array<std::int64_t, 5>{
-        data.region, data.parent, data.stamp, data.flags, data.level });
-      this->values.push_back(data.quality);
-    }
-    for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
-    {
-      const auto& data = mesh.pointData(p);
-      this->add(std::array<std::int64_t, 4>{ data.cell, data.stamp, data.owner, data.flags });
-      this->values.insert(this->values.end(), data.x.data(), data.x.data() + D);
-    }
-    this->numbers.push_back(-7);
-    this->add(editor.freeCells());
-    this->numbers.push_back(-8);
-    this->add(editor.freePoints());
-  }
-  template <class List>
-  void add(const List& list)
-  {
-    this->numbers.insert(this->numbers.end(), list.begin(), list.end());
-  }
-  bool operator==(const Snapshot& o) const
-  {
-    return this->numbers == o.numbers && this->values == o.values;
-  }
-};
 
 /// Facets of the cavity that only one of its cells has, each such that (facet, node) is positive.
 template <int D>

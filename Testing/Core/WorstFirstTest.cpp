@@ -3,9 +3,7 @@
 #include "Optimize/Optimizer.h"
 #include "Optimize/Statistics.h"
 #include "TestMeshes.h"
-
-#include <atomic>
-#include <thread>
+#include "TestThreads.h"
 
 using namespace meshopt;
 
@@ -111,43 +109,6 @@ long count(const Report& report, Operation op)
     n += row.done[static_cast<int>(op)];
   }
   return n;
-}
-
-/// Runs bodies on n threads, in an order shuffled by `seed`.
-Control threads(int n, unsigned seed = 0)
-{
-  Control control;
-  control.parallelFor = [n, seed](int bodies, const std::function<void(int)>& body)
-  {
-    std::vector<int> order(bodies);
-    for (int k = 0; k < bodies; ++k)
-    {
-      order[k] = k;
-    }
-    std::mt19937 engine(seed);
-    for (int k = bodies; seed != 0 && k > 1; --k)
-    {
-      std::swap(order[k - 1], order[engine() % k]);
-    }
-    std::atomic<int> next{ 0 };
-    std::vector<std::thread> team;
-    for (int t = 0; t < n; ++t)
-    {
-      team.emplace_back(
-        [&]
-        {
-          for (int k = next++; k < bodies; k = next++)
-          {
-            body(order[k]);
-          }
-        });
-    }
-    for (std::thread& t : team)
-    {
-      t.join();
-    }
-  };
-  return control;
 }
 
 struct Two

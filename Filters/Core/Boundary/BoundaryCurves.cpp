@@ -11,6 +11,8 @@ namespace
 {
 constexpr double Tolerance = 1e-3; ///< of the diagonal of the mesh
 constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
+/// Degrees. Where a line turns by more it goes back, as at the tip of a slit: always a corner.
+constexpr double TurnsBack = 179.0;
 
 using Lines = std::vector<std::vector<Index>>;
 
@@ -85,7 +87,7 @@ void BoundaryCurves::markCorners(LineNetwork& network, double cornerAngle)
 {
   const Lines lines = linesOfPoints(network);
   network.corners.resize(network.points.size(), 0);
-  const double limit = std::cos(cornerAngle * std::acos(-1.0) / 180.0);
+  const double limit = std::cos(std::min(cornerAngle, TurnsBack) * std::acos(-1.0) / 180.0);
   for (std::size_t p = 0; p < lines.size(); ++p)
   {
     if (lines[p].empty())
@@ -342,7 +344,7 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   }
   const double tolerance = Tolerance * diagonal(editor.mesh());
   std::string error = this->matchCorners(editor.mesh(), geometry, tolerance, boundary);
-  markCorners(boundary, 181.0); // only where not exactly two lines meet
+  markCorners(boundary, TurnsBack); // else only where not exactly two lines meet
   for (const Chain& chain : chains(boundary))
   {
     error = error.empty() ? this->place(editor, chain, tolerance) : error;

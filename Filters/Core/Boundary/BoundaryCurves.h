@@ -23,7 +23,8 @@ struct LineNetwork
 
 struct CurveOptions
 {
-  /// Degrees. Where lines turn by more than this there is a corner.
+  /// Degrees. Where lines turn by more than this there is a corner; in any case where they turn back
+  /// (179 degrees), as at the tip of a slit.
   double cornerAngle = 45.0;
   /// Cubic B-splines through the points between two corners; else straight lines.
   bool splines = true;

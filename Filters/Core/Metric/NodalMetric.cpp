@@ -146,6 +146,10 @@ Tensor<D> NodalMetric<D>::unitTensor(Index p) const
   {
     m = this->constantMap_ * this->constantMap_;
   }
+  if (!this->hasSizes_ && this->constantSize_ > 0.0) // exact where it can be
+  {
+    return m / (this->constantSize_ * this->constantSize_);
+  }
   return m * std::exp(-2.0 * this->logSize(p));
 }
 
@@ -160,10 +164,15 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
       const double trace = this->hasTensors_ ? this->values_[p].logTensor.trace()
         : this->hasConstant_                 ? 2.0 * std::log(this->constantMap_.determinant())
                                              : 0.0;
-      halfLogDeterminants[p] = 0.5 * trace - D * this->logSize(p);
+      halfLogDeterminants[p] = 0.5 * trace - (this->hasSizes_ ? D * this->logSize(p) : 0.0);
     }
   }
-  return regularElementsPerVolume<D> * metricVolume<D>(mesh, halfLogDeterminants);
+  double inUnits = metricVolume<D>(mesh, halfLogDeterminants);
+  for (int d = 0; d < D && !this->hasSizes_ && this->constantSize_ > 0.0; ++d)
+  {
+    inUnits /= this->constantSize_;
+  }
+  return regularElementsPerVolume<D> * inUnits;
 }
 
 template <int D>

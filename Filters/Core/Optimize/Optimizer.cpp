@@ -7,6 +7,7 @@
 #include "Optimize/Statistics.h"
 #include "Optimize/WorstFirst.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace meshopt
@@ -26,17 +27,27 @@ template <int D>
 void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
   const Control& control, Report& report, const BoundaryCurves* curves)
 {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto timeLeft = [&] // for what is still to be done
+  {
+    Options left = options;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    left.timeLimit =
+      options.timeLimit > 0.0 ? std::max(options.timeLimit - spent.count(), 1e-9) : 0.0;
+    return left;
+  };
   const SimplexMesh<D> meshBefore = editor.mesh();
   const NodalMetric<D> metricBefore = metric;
   const bool more = followSizes<D>(editor, metric, options, control, curves, report);
   computeQualities<D>(editor, metric, options.measure, options.beta);
   if (more)
   {
-    optimizeWorstFirst<D>(editor, metric, options, control, report, curves);
+    optimizeWorstFirst<D>(editor, metric, timeLeft(), control, report, curves);
   }
   else
   {
-    report.stopReason = StopReason::Aborted;
+    const bool isLate = options.timeLimit > 0.0 && timeLeft().timeLimit <= 1e-9;
+    report.stopReason = isLate ? StopReason::TimeLimit : StopReason::Aborted;
   }
   const double worst = summarize(editor.mesh(), options.targetQuality).worst;
   if (worst < std::min(report.worstBefore, options.targetQuality))
@@ -50,7 +61,7 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
     report.history.push_back(row);
     if (report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit)
     {
-      optimizeWorstFirst<D>(editor, metric, options, control, report, curves);
+      optimizeWorstFirst<D>(editor, metric, timeLeft(), control, report, curves);
     }
   }
 }
