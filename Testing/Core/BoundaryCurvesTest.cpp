@@ -178,6 +178,33 @@ TEST(BoundaryCurves, FinerGeometry)
   EXPECT_EQ(four.curves.numberOfPieces(), 4u);
 }
 
+/// A closed line with one corner begins and ends there.
+TEST(BoundaryCurves, GeometryWithOneCorner)
+{
+  for (Index at : { 0, 12, 44 })
+  {
+    LineNetwork geometry = loop(circle(64));
+    geometry.corners.assign(64, 0);
+    geometry.corners[at] = 1;
+    for (bool another : { false, true })
+    {
+      std::vector<std::uint8_t> flags(17, 0);
+      flags[another ? 5 : 16] = 1;
+      const Made made = make(disc(16), geometry, {}, flags);
+      ASSERT_EQ(made.error, "");
+      EXPECT_EQ(made.curves.numberOfPieces(), another ? 2u : 1u);
+      EXPECT_EQ(slidingPoints(made.mesh).size(), another ? 14u : 15u);
+      for (Index p = 0; p < 16; ++p)
+      {
+        const auto span = made.curves.span(made.mesh, p, (p + 1) % 16);
+        ASSERT_TRUE(span);
+        const Vec<2> x = made.curves.at(span->piece, 0.5 * (span->from + span->to));
+        EXPECT_LT((x - onCircle((p + 0.5) / 16)).norm(), 1e-3) << at << " " << p;
+      }
+    }
+  }
+}
+
 TEST(BoundaryCurves, GeometryOfASlitIsOneLineOrTwo)
 {
   const LineNetwork square = loop({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } });
@@ -264,6 +291,27 @@ TEST(BoundaryCurves, LensOfTwoArcs)
         ASSERT_TRUE(span);
         const double y = made.curves.at(span->piece, 0.5 * (span->from + span->to))[1];
         EXPECT_EQ(y > 0.0, k >= n) << n << " " << k << " " << given;
+      }
+    }
+  }
+}
+
+/// Two boundary points at one place, or nearly: legal in a mesh, whose cell there is flat.
+TEST(BoundaryCurves, PointsAtOnePlaceAreCorners)
+{
+  for (double gap : { 0.0, 1e-14 })
+  {
+    MeshInput<2> in = disc(16);
+    in.points[5] = (1.0 - gap) * in.points[4] + gap * in.points[5];
+    const Made made = make(in);
+    EXPECT_EQ(corners(made.mesh).size(), 2u);
+    for (Index p = 0; p < 16; ++p)
+    {
+      const auto span = made.curves.span(made.mesh, p, (p + 1) % 16);
+      EXPECT_TRUE(p == 4 || span) << p;
+      if (span)
+      {
+        EXPECT_TRUE(made.curves.at(span->piece, 0.5 * (span->from + span->to)).allFinite());
       }
     }
   }

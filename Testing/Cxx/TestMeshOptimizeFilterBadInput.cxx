@@ -2,6 +2,7 @@
 // outputs; or it passes.
 #include "MeshOptimizeFilterTesting.h"
 
+#include "vtkCellArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
@@ -312,6 +313,104 @@ void TestOptions()
   CHECK(f->GetNumberOfLayers() == 0);
 }
 
+vtkSmartPointer<vtkPolyData> Lines(
+  const std::vector<Point>& points, const std::vector<std::vector<vtkIdType>>& lines)
+{
+  auto geometry = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> x;
+  x->SetDataTypeToDouble();
+  for (const Point& p : points)
+  {
+    x->InsertNextPoint(p.data());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const std::vector<vtkIdType>& line : lines)
+  {
+    cells->InsertNextCell(static_cast<vtkIdType>(line.size()), line.data());
+  }
+  geometry->SetPoints(x);
+  geometry->SetLines(cells);
+  return geometry;
+}
+
+/**
+ * The boundary mode Slide: where it cannot be, and geometries that are none.
+ */
+void TestSlide()
+{
+  const auto slide = [](vtkMeshOptimizeFilter* f) { f->SetBoundaryModeToSlide(); };
+  const auto flat = [](double u, double v) { return Point{ { u, v, 0 } }; };
+  const Grid square = MakeSquare(4, 0.1, flat);
+  if (Algorithm == vtkMeshOptimizeFilter::Paper1996)
+  {
+    ExpectError(square, { "Slide", "WorstFirst" }, slide);
+    return;
+  }
+  ExpectError(MakeBox(2, 0.1), { "Slide", "tetrahedra" }, slide);
+  ExpectError(square, { "Slide", "OptimizeBelow" },
+    [&](vtkMeshOptimizeFilter* f)
+    {
+      slide(f);
+      f->SetOptimizeBelow(0.5);
+    });
+  ExpectError(square, { "corner array 'c'", "not there" },
+    [&](vtkMeshOptimizeFilter* f)
+    {
+      slide(f);
+      f->SetCornerArray("c");
+    });
+  ExpectError(square, { "1e8", "elements" },
+    [&](vtkMeshOptimizeFilter* f)
+    {
+      slide(f);
+      f->SetDesiredSize(1e-6); // 2.3e12 of them
+    });
+  ExpectError(square, { "target" },
+    [&](vtkMeshOptimizeFilter* f)
+    {
+      slide(f);
+      f->SetTargetQuality(NaN);
+    });
+
+  const auto along = [&](vtkPolyData* geometry)
+  {
+    return [=](vtkMeshOptimizeFilter* f)
+    {
+      f->SetBoundaryModeToSlide();
+      f->SetGeometryData(geometry);
+    };
+  };
+  const std::vector<Point> corners{ { { 0, 0, 0 } }, { { 1, 0, 0 } }, { { 1, 1, 0 } },
+    { { 0, 1, 0 } } };
+  const std::vector<std::vector<vtkIdType>> around{ { 0, 1, 2, 3, 0 } };
+  ExpectError(square, { "geometry", "no lines" }, along(Lines(corners, {})));
+  ExpectError(square, { "geometry", "no lines" }, along(vtkSmartPointer<vtkPolyData>::New()));
+  std::vector<Point> lifted = corners;
+  lifted[2][2] = 0.1;
+  ExpectError(square, { "Point 2 of the geometry", "plane", "0.1" }, along(Lines(lifted, around)));
+  for (const double bad : { NaN, Infinity })
+  {
+    std::vector<Point> broken = corners;
+    broken[3][1] = bad;
+    ExpectError(square, { "Point 3 of the geometry", "finite" }, along(Lines(broken, around)));
+  }
+  for (const vtkIdType bad : { vtkIdType(4), vtkIdType(-1), vtkIdType(1) << 40 })
+  {
+    ExpectError(square, { "geometry", "point " + std::to_string(bad), "4 points" },
+      along(Lines(corners, { { 0, 1, 2, bad, 0 } })));
+  }
+  std::vector<Point> larger = corners;
+  for (Point& x : larger)
+  {
+    x[0] = 1.2 * x[0] - 0.1;
+    x[1] = 1.2 * x[1] - 0.1;
+  }
+  ExpectError(square, { "geometry", "corner", "point 0" }, along(Lines(larger, around)));
+  ExpectError(square, { "does not lie on the geometry", "point " },
+    along(Lines(corners, { { 0, 1, 2, 3 } }))); // open
+  ExpectError(square, { "does not lie on the geometry", "point " }, along(Lines(corners, { { 0, 1 } })));
+}
+
 /**
  * Nothing connected, nullptr, another type of data: the executive's one error, and no crash.
  */
@@ -360,6 +459,7 @@ int main(int, char*[])
       TestTopology();
       TestArrays();
       TestOptions();
+      TestSlide();
       TestNoInput();
       TestBlock();
     });

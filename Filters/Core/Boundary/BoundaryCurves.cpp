@@ -11,6 +11,8 @@ namespace
 {
 constexpr double Tolerance = 1e-3; ///< of the diagonal of the mesh
 constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
+/// A line that is so much shorter than the next one has no direction: its ends are corners.
+constexpr double NoLength = 1e-9;
 /// Degrees. Where a line turns by more it goes back, as at the tip of a slit: always a corner.
 constexpr double TurnsBack = 179.0;
 
@@ -100,7 +102,8 @@ void BoundaryCurves::markCorners(LineNetwork& network, double cornerAngle)
       const Index id = static_cast<Index>(p);
       const Vec<2> in = network.points[p] - network.points[otherEnd(network, lines[p][0], id)];
       const Vec<2> out = network.points[otherEnd(network, lines[p][1], id)] - network.points[p];
-      isCorner = !(in.dot(out) >= limit * in.norm() * out.norm());
+      const double a = in.norm(), b = out.norm();
+      isCorner = !(in.dot(out) >= limit * a * b) || std::min(a, b) <= NoLength * std::max(a, b);
     }
     network.corners[p] = network.corners[p] || isCorner;
   }
@@ -237,6 +240,30 @@ double BoundaryCurves::period(const Piece& piece) const
   return curve.isClosed() ? curve.length() : 0.0;
 }
 
+namespace
+{
+/// A curve that goes from a corner around to itself has two parameters there: the middle of the edge
+/// that leaves the corner tells which is the one of the end of the chain.
+void tellEndsApart(const SimplexMesh<2>& mesh, const std::vector<Index>& points,
+  const PlaneCurve& curve, double tolerance, std::vector<double>& s)
+{
+  if ((curve.at(0.0) - curve.at(curve.length())).norm() > tolerance)
+  {
+    return;
+  }
+  const std::size_t last = points.size() - 1;
+  for (const auto& [end, next] : { std::pair<std::size_t, std::size_t>{ 0, 1 }, { last, last - 1 } })
+  {
+    const Vec<2> &x = mesh.point(points[end]), &y = mesh.point(points[next]);
+    if ((x - curve.at(0.0)).norm() <= tolerance)
+    {
+      double d = 0.0;
+      s[end] = curve.closest(Vec<2>(0.5 * (x + y)), d) < s[next] ? 0.0 : curve.length();
+    }
+  }
+}
+}
+
 /// Puts a chain of the mesh's boundary on the curve that is nearest to it.
 std::string BoundaryCurves::place(MeshEditor<2>& editor, const Chain& chain, double tolerance)
 {
@@ -297,6 +324,10 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const Chain& chain, dou
     {
       s.back() += std::round((s[s.size() - 2] - s.back()) / period) * period;
     }
+  }
+  if (!chain.isClosed && period == 0.0)
+  {
+    tellEndsApart(mesh, chain.points, curve, tolerance, s);
   }
   const double direction = s.back() > s.front() ? 1.0 : -1.0;
   for (std::size_t k = 1; k < s.size() && !(chain.isClosed && s.size() < 4); ++k)

@@ -19,7 +19,8 @@ constexpr int Samples = 8;
 double alongSegment(const Vec<2>& a, const Vec<2>& b, const Vec<2>& x)
 {
   const Vec<2> d = b - a;
-  return std::clamp((x - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
+  const double l = d.squaredNorm();
+  return l > 0.0 ? std::clamp((x - a).dot(d) / l, 0.0, 1.0) : 0.0;
 }
 }
 
@@ -97,7 +98,8 @@ Vec<2> PlaneCurve::at(double s) const
   auto next = std::upper_bound(this->knots_.begin(), this->knots_.end(), s);
   const std::size_t k = std::clamp<std::size_t>(
     static_cast<std::size_t>(next - this->knots_.begin()), 1, this->knots_.size() - 1);
-  const double t = (s - this->knots_[k - 1]) / (this->knots_[k] - this->knots_[k - 1]);
+  const double step = this->knots_[k] - this->knots_[k - 1];
+  const double t = step > 0.0 ? (s - this->knots_[k - 1]) / step : 0.0;
   return Vec<2>(this->points_[k - 1] + t * (this->points_[k] - this->points_[k - 1]));
 }
 
@@ -183,8 +185,7 @@ double PlaneCurve::sagitta(double s0, double s1) const
   for (int k = 1; k < Samples; ++k)
   {
     const Vec<2> x = this->at(s0 + (s1 - s0) * k / Samples);
-    const double t = (b - a).squaredNorm() > 0.0 ? alongSegment(a, b, x) : 0.0;
-    result = std::max(result, (a + t * (b - a) - x).norm());
+    result = std::max(result, (a + alongSegment(a, b, x) * (b - a) - x).norm());
   }
   return result;
 }

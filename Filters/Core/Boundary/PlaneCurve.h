@@ -17,8 +17,8 @@ namespace meshopt
 class PlaneCurve
 {
 public:
-  /// At least two points (closed: three), neighbours at different places. A spline goes through
-  /// all points, with continuous curvature also where a closed curve closes.
+  /// At least two points (closed: three), neighbours at different places (two points alone may lie
+  /// at one). A spline goes through all points, with continuous curvature also where a closed curve closes.
   PlaneCurve(std::vector<Vec<2>> points, bool isClosed, bool isSpline);
 
   bool isClosed() const { return this->isClosed_; }

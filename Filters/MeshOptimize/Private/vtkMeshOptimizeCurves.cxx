@@ -3,19 +3,22 @@
 #include "vtkMeshOptimizeRun.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPointLocator.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -34,8 +37,80 @@ vtkDataArray* FindCorners(vtkAlgorithm* filter, vtkPolyData* geometry)
 }
 
 /**
- * The lines of `geometry` in the plane of the mesh. Points at the same place become one, and so do
- * lines with the same ends: both sides of a crack may be given as one line or as two.
+ * Calls f(n, points) for each line of `geometry`.
+ */
+template <class F>
+void ForLines(vtkPolyData* geometry, F&& f)
+{
+  auto line = vtkSmartPointer<vtkCellArrayIterator>::Take(geometry->GetLines()->NewIterator());
+  for (line->GoToFirstCell(); !line->IsDoneWithTraversal(); line->GoToNextCell())
+  {
+    vtkIdType n = 0;
+    const vtkIdType* points = nullptr;
+    line->GetCurrentCell(n, points);
+    f(n, points);
+  }
+}
+
+std::string FindUsedPoints(vtkPolyData* geometry, std::vector<char>& used)
+{
+  const vtkIdType all = geometry->GetNumberOfPoints();
+  std::string error;
+  used.assign(static_cast<std::size_t>(all), 0);
+  ForLines(geometry,
+    [&](vtkIdType n, const vtkIdType* points)
+    {
+      for (vtkIdType k = 0; k < n && error.empty(); ++k)
+      {
+        if (points[k] < 0 || points[k] >= all)
+        {
+          error = "A line of the geometry uses point " + std::to_string(points[k]) +
+            ", but the geometry has " + std::to_string(all) + " points.";
+          return;
+        }
+        used[static_cast<std::size_t>(points[k])] = 1;
+      }
+    });
+  return error;
+}
+
+/**
+ * Points of `geometry`, those in use, must be finite and in the plane of the mesh; `box` is theirs.
+ */
+std::string CheckPoints(vtkPolyData* geometry, const std::vector<char>& used,
+  const Frame<2>& frame, vtkBoundingBox& box)
+{
+  double x[3], back[3];
+  for (std::size_t p = 0; p < used.size(); ++p)
+  {
+    geometry->GetPoint(static_cast<vtkIdType>(p), x);
+    if (used[p] && !(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])))
+    {
+      return "Point " + std::to_string(p) + " of the geometry has coordinates that are not finite.";
+    }
+    if (used[p])
+    {
+      box.AddPoint(x);
+    }
+  }
+  for (std::size_t p = 0; p < used.size(); ++p)
+  {
+    geometry->GetPoint(static_cast<vtkIdType>(p), x);
+    frame.ToGrid(frame.ToCore(x), back);
+    const double away = std::hypot(x[0] - back[0], x[1] - back[1], x[2] - back[2]);
+    if (used[p] && away > 1e-6 * box.GetDiagonalLength())
+    {
+      return "Point " + std::to_string(p) + " of the geometry is not in the plane of the mesh, but " +
+        std::to_string(away) + " away from it.";
+    }
+  }
+  return {};
+}
+
+/**
+ * The lines of `geometry` in the plane of the mesh. Points at the same place (but for rounding)
+ * become one, and so do lines with the same ends: both sides of a crack may be given as one line or
+ * as two.
  */
 std::string ReadLines(
   vtkPolyData* geometry, vtkDataArray* corners, const Frame<2>& frame, LineNetwork& network)
@@ -45,65 +120,51 @@ std::string ReadLines(
     return "The geometry has no lines. (It must be polygonal data whose lines the boundary of the "
            "mesh is to follow.)";
   }
+  std::vector<char> used;
+  vtkBoundingBox box;
+  std::string error = FindUsedPoints(geometry, used);
+  error = error.empty() ? CheckPoints(geometry, used, frame, box) : error;
+  if (!error.empty())
+  {
+    return error;
+  }
   double bounds[6];
-  geometry->GetBounds(bounds);
-  const double extent = std::max(
-    { bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4], 1e-300 });
-  std::map<std::array<double, 2>, Index> places;
-  std::vector<Index> ids(static_cast<std::size_t>(geometry->GetNumberOfPoints()), meshopt::None);
-  const auto take = [&](vtkIdType p) -> std::string
+  box.GetBounds(bounds);
+  vtkNew<vtkPoints> distinct;
+  distinct->SetDataTypeToDouble();
+  vtkNew<vtkPointLocator> places;
+  places->SetTolerance(1e-10 * box.GetDiagonalLength());
+  places->InitPointInsertion(distinct, bounds, geometry->GetNumberOfPoints());
+  std::vector<Index> ids(used.size(), meshopt::None);
+  for (std::size_t p = 0; p < used.size(); ++p)
   {
-    Index& id = ids[static_cast<std::size_t>(p)];
-    if (id != meshopt::None)
+    if (used[p])
     {
-      return {};
-    }
-    double x[3], back[3];
-    geometry->GetPoint(p, x);
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-    {
-      return "Point " + std::to_string(p) + " of the geometry has coordinates that are not finite.";
-    }
-    const meshopt::Vec<2> u = frame.ToCore(x);
-    frame.ToGrid(u, back);
-    const double away = std::hypot(x[0] - back[0], x[1] - back[1], x[2] - back[2]);
-    if (away > 1e-6 * extent)
-    {
-      return "Point " + std::to_string(p) + " of the geometry is not in the plane of the mesh, but " +
-        std::to_string(away) + " away from it.";
-    }
-    const auto [place, isNew] =
-      places.emplace(std::array<double, 2>{ u[0], u[1] }, static_cast<Index>(network.points.size()));
-    id = place->second;
-    if (isNew)
-    {
-      network.points.push_back(u);
-      network.corners.push_back(0);
-    }
-    network.corners[id] |= std::uint8_t(corners && corners->GetComponent(p, 0) != 0.0);
-    return {};
-  };
-  auto line = vtkSmartPointer<vtkCellArrayIterator>::Take(geometry->GetLines()->NewIterator());
-  for (line->GoToFirstCell(); !line->IsDoneWithTraversal(); line->GoToNextCell())
-  {
-    vtkIdType n = 0;
-    const vtkIdType* points = nullptr;
-    line->GetCurrentCell(n, points);
-    for (vtkIdType k = 0; k < n; ++k)
-    {
-      const std::string error = take(points[k]);
-      if (!error.empty())
+      double x[3];
+      vtkIdType id = 0;
+      geometry->GetPoint(static_cast<vtkIdType>(p), x);
+      if (places->InsertUniquePoint(x, id))
       {
-        return error;
+        network.points.push_back(frame.ToCore(x));
+        network.corners.push_back(0);
       }
-      const Index to = ids[points[k]];
-      const Index from = k > 0 ? ids[points[k - 1]] : to;
-      if (from != to)
-      {
-        network.lines.push_back({ std::min(from, to), std::max(from, to) });
-      }
+      ids[p] = static_cast<Index>(id);
+      network.corners[id] |=
+        std::uint8_t(corners && corners->GetComponent(static_cast<vtkIdType>(p), 0) != 0.0);
     }
   }
+  ForLines(geometry,
+    [&](vtkIdType n, const vtkIdType* points)
+    {
+      for (vtkIdType k = 1; k < n; ++k)
+      {
+        const Index from = ids[points[k - 1]], to = ids[points[k]];
+        if (from != to)
+        {
+          network.lines.push_back({ std::min(from, to), std::max(from, to) });
+        }
+      }
+    });
   std::sort(network.lines.begin(), network.lines.end());
   network.lines.erase(
     std::unique(network.lines.begin(), network.lines.end()), network.lines.end());
