@@ -15,6 +15,9 @@ namespace
 constexpr int Wrap = 16;
 constexpr int Samples = 8;
 
+/// Points closer to a straight line than this part of its length are on it.
+constexpr double Straight = 1e-10;
+
 /// The parameter of the nearest point of segment ab, in [0, 1].
 double alongSegment(const Vec<2>& a, const Vec<2>& b, const Vec<2>& x)
 {
@@ -22,12 +25,29 @@ double alongSegment(const Vec<2>& a, const Vec<2>& b, const Vec<2>& x)
   const double l = d.squaredNorm();
   return l > 0.0 ? std::clamp((x - a).dot(d) / l, 0.0, 1.0) : 0.0;
 }
+
+/// A straight line as a spline would come out straight to rounding only, and who looks for the points
+/// with x == 2 would miss some.
+bool isStraight(const std::vector<Vec<2>>& points)
+{
+  const Vec<2> along = points.back() - points.front();
+  const double length = along.norm();
+  return length > 0.0 &&
+    std::all_of(points.begin(), points.end(),
+      [&](const Vec<2>& p)
+      {
+        const Vec<2> d = p - points.front();
+        const double t = d.dot(along) / length;
+        return std::fabs(along[0] * d[1] - along[1] * d[0]) <= Straight * length * length &&
+          t >= -Straight * length && t <= (1.0 + Straight) * length;
+      });
+}
 }
 
 PlaneCurve::PlaneCurve(std::vector<Vec<2>> points, bool isClosed, bool isSpline)
   : points_(std::move(points))
   , isClosed_(isClosed)
-  , isSpline_(isSpline && points_.size() > 2)
+  , isSpline_(isSpline && points_.size() > 2 && !isStraight(points_))
 {
   if (isClosed)
   {
