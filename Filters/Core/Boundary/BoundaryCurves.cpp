@@ -16,6 +16,10 @@ constexpr double NoLength = 1e-9;
 /// Degrees. Where a line turns by more it goes back, as at the tip of a slit: always a corner.
 constexpr double TurnsBack = 179.0;
 
+/// Radians: what turns less is taken for smooth. And how much of the turn of a point a neighbour of it
+/// must turn, at least, if both are to be on a curve.
+constexpr double LeastKink = 0.17, KinkShare = 0.25;
+
 using Lines = std::vector<std::vector<Index>>;
 
 /// The lines at each point.
@@ -50,6 +54,13 @@ double diagonal(const SimplexMesh<2>& mesh)
     }
   }
   return (high - low).norm();
+}
+
+/// See PlaneCurve::mostCurvedSegment(): that of a circle whose polygon turns by `angle`, and some more.
+double greatestShare(double angle)
+{
+  constexpr double margin = 1.2;
+  return margin * 0.5 * std::tan(angle / 4.0 * std::acos(-1.0) / 180.0);
 }
 
 std::string nameOf(const char* what, Index p, const Vec<2>& x)
@@ -163,6 +174,71 @@ PlaneCurve BoundaryCurves::curve(
   return PlaneCurve(std::move(points), chain.isClosed, splines);
 }
 
+/// A point where the line turns while it does not at the neighbours is no sample of a curve, but a
+/// corner that is not very sharp.
+void BoundaryCurves::markKinks(LineNetwork& network)
+{
+  const Lines lines = linesOfPoints(network);
+  const std::vector<std::uint8_t> corners = network.corners;
+  const auto next = [&](Index from, Index p) // None beyond a corner
+  {
+    if (corners[p])
+    {
+      return None;
+    }
+    const Index a = otherEnd(network, lines[p][0], p);
+    return a == from ? otherEnd(network, lines[p][1], p) : a;
+  };
+  const auto turn = [&](Index from, Index p, Index to)
+  {
+    if (to == None)
+    {
+      return 0.0;
+    }
+    const Vec<2> in = network.points[p] - network.points[from];
+    const Vec<2> out = network.points[to] - network.points[p];
+    return std::atan2(in[0] * out[1] - in[1] * out[0], in.dot(out));
+  };
+  for (std::size_t k = 0; k < lines.size(); ++k)
+  {
+    const Index p = static_cast<Index>(k);
+    if (lines[k].size() != 2 || corners[k])
+    {
+      continue;
+    }
+    const Index a = otherEnd(network, lines[k][0], p), b = otherEnd(network, lines[k][1], p);
+    const double here = turn(a, p, b);
+    const double before = -turn(p, a, next(p, a)), after = turn(p, b, next(p, b));
+    network.corners[k] = std::fabs(here) > LeastKink && !(before / here > KinkShare) &&
+      !(after / here > KinkShare);
+  }
+}
+
+/// A spline through a long straight side and the short ones of an arc would swing far out on the
+/// long one: its ends become corners, and it stays straight.
+void BoundaryCurves::markWhereSplinesOvershoot(
+  LineNetwork& network, const CurveOptions& options) const
+{
+  for (bool again = true; again;)
+  {
+    again = false;
+    for (const Chain& chain : chains(network))
+    {
+      const PlaneCurve curve = this->curve(network, chain, true);
+      double share = 0.0;
+      const std::size_t k = curve.mostCurvedSegment(share);
+      if (share > greatestShare(options.cornerAngle))
+      {
+        for (std::size_t end : { k, (k + 1) % chain.points.size() })
+        {
+          network.corners[chain.points[end]] = 1;
+        }
+        again = true;
+      }
+    }
+  }
+}
+
 void BoundaryCurves::build(MeshEditor<2>& editor, const CurveOptions& options,
   const std::vector<std::uint8_t>& corners)
 {
@@ -174,6 +250,11 @@ void BoundaryCurves::build(MeshEditor<2>& editor, const CurveOptions& options,
     boundary.corners[p] |= corners[p];
   }
   markCorners(boundary, options.cornerAngle);
+  if (options.splines)
+  {
+    markKinks(boundary);
+    this->markWhereSplinesOvershoot(boundary, options);
+  }
   for (const Chain& chain : chains(boundary))
   {
     const PlaneCurve curve = this->curve(boundary, chain, options.splines);
@@ -364,9 +445,17 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   this->pieces_.clear();
   LineNetwork geometry = given;
   markCorners(geometry, options.cornerAngle);
+  if (options.splines)
+  {
+    markKinks(geometry);
+  }
   for (const Chain& chain : chains(geometry))
   {
-    this->curves_.push_back(this->curve(geometry, chain, options.splines));
+    const PlaneCurve curve = this->curve(geometry, chain, options.splines);
+    double share = 0.0;
+    curve.mostCurvedSegment(share);
+    const bool overshoots = share > greatestShare(options.cornerAngle);
+    this->curves_.push_back(overshoots ? this->curve(geometry, chain, false) : curve);
   }
   LineNetwork boundary = network(editor.mesh());
   for (std::size_t p = 0; p < corners.size(); ++p)

@@ -26,7 +26,10 @@ struct CurveOptions
   /// Degrees. Where lines turn by more than this there is a corner; in any case where they turn back
   /// (179 degrees), as at the tip of a slit.
   double cornerAngle = 45.0;
-  /// Cubic B-splines through the points between two corners; else straight lines.
+  /// Cubic B-splines through the points between two corners; else straight lines. Where a spline
+  /// would go farther from its points than a circle does that turns by cornerAngle from point to
+  /// point, there are corners after all: a straight side that goes over into an arc stays straight.
+  /// So there are where only a single point turns, by more than 10 degrees.
   bool splines = true;
 };
 
@@ -90,6 +93,8 @@ private:
 
   static LineNetwork network(const SimplexMesh<2>& mesh);
   static void markCorners(LineNetwork& network, double cornerAngle);
+  static void markKinks(LineNetwork& network);
+  void markWhereSplinesOvershoot(LineNetwork& network, const CurveOptions& options) const;
   static std::vector<Chain> chains(const LineNetwork& network);
   PlaneCurve curve(const LineNetwork& network, const Chain& chain, bool splines) const;
   std::string matchCorners(const SimplexMesh<2>& mesh, const LineNetwork& geometry,

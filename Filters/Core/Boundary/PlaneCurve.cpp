@@ -209,4 +209,21 @@ double PlaneCurve::sagitta(double s0, double s1) const
   }
   return result;
 }
+
+std::size_t PlaneCurve::mostCurvedSegment(double& share) const
+{
+  std::size_t result = 0;
+  share = 0.0;
+  for (std::size_t k = 0; k + 1 < this->points_.size() && this->isSpline_; ++k)
+  {
+    const double s = this->sagitta(this->knots_[k], this->knots_[k + 1]) /
+      (this->points_[k + 1] - this->points_[k]).norm();
+    if (s > share)
+    {
+      share = s;
+      result = k;
+    }
+  }
+  return result;
+}
 }

@@ -35,6 +35,11 @@ public:
   /// How far the curve goes from its chord between two parameters, at most (sampled).
   double sagitta(double s0, double s1) const;
 
+  /// The segment between two neighbours of the points that the curve leaves farthest, in parts of the
+  /// segment's length: its number, and that part in `share`. A circle by points every a degrees has
+  /// tan(a / 4) / 2 everywhere.
+  std::size_t mostCurvedSegment(double& share) const;
+
 private:
   using Spline = Eigen::Spline<double, 2, Eigen::Dynamic>;
 
