@@ -161,7 +161,7 @@ public:
    * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give
    * the size by DesiredSize or SetSizeArray(). WorstFirst then first splits and contracts edges until
    * they have the wanted length, about, and the mesh has the number of elements of (5.3), as far as
-   * the boundary lets it; GrowthBudget counts from there on. With the boundary mode Slide it does so even
+   * the boundary lets it; GrowthBudget counts from there on, at most 0.05. With the boundary mode Slide it does so even
    * if Beta is 0. Where sizes are followed the worst quality may fall, but not under TargetQuality.
    */
   vtkSetClampMacro(Beta, double, 0.0, 1e6);

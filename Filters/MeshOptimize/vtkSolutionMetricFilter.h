@@ -33,7 +33,8 @@
  * optimize->SetBeta(2.0);
  * @endcode
  * With Beta 2 an element of perfect shape reaches the quality 0.6, the default target, if its longest
- * edge is right to a factor of sqrt 2.
+ * edge is right to a factor of sqrt 2. That suits triangles; tetrahedra, whose longest edges differ more
+ * from the others, get better and sooner with Beta 1.
  *
  * <b>Input</b>: a vtkUnstructuredGrid whose cells of the greatest dimension are all linear
  * tetrahedra, or all linear triangles in one plane. Cells of lower dimension (faces, lines,

@@ -135,7 +135,7 @@ def optimize(grid):
     """(filter, seconds)"""
     optimizer = vtkMeshOptimizeFilter()
     optimizer.SetInputData(grid)
-    optimizer.SetBeta(2.0)
+    optimizer.SetBeta(1.0)
     optimizer.SetMetricArray("Metric")
     optimizer.SetSizeArray("DesiredSize")
     start = time.perf_counter()

@@ -14,6 +14,9 @@ namespace meshopt
 {
 namespace
 {
+/// What may be added once the number of elements is what the sizes ask for.
+constexpr double GrowthAfterSizes = 0.05;
+
 template <int D>
 bool wantsSizes(
   const NodalMetric<D>& metric, const Options& options, const BoundaryCurves* curves)
@@ -42,7 +45,9 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   computeQualities<D>(editor, metric, options.measure, options.beta);
   if (more)
   {
-    optimizeWorstFirst<D>(editor, metric, timeLeft(), control, report, curves);
+    Options rest = timeLeft();
+    rest.growthBudget = std::min(rest.growthBudget, GrowthAfterSizes);
+    optimizeWorstFirst<D>(editor, metric, rest, control, report, curves);
   }
   else
   {
