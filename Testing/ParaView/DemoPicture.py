@@ -5,16 +5,11 @@ new picture over as the baseline: look at it first.
 """
 import os
 import runpy
-import shutil
 import sys
 
 from paraview import simple
-from vtkmodules.vtkImagingCore import vtkImageDifference
-from vtkmodules.vtkIOImage import vtkPNGReader
 
-from paraview_case import DATA, OUTPUT, check, jittered_box, load_plugin, source_of
-
-TOLERANCE = 25.0  # vtkImageDifference's thresholded error, as VTK's own regression tests use it
+from paraview_case import OUTPUT, compare_picture, jittered_box, load_plugin, source_of
 
 load_plugin()
 folder = os.path.join(OUTPUT, "demo_picture")
@@ -27,26 +22,4 @@ demo = os.path.join(os.environ["MESHOPTIMIZE_SOURCE"], "ParaViewPlugin", "Exampl
 sys.argv = [demo, mesh, folder]
 runpy.run_path(demo)
 
-picture = os.path.join(folder, "before_after.png")
-baseline = os.path.join(DATA, "Baseline", "demo_picture.png")
-
-
-def image(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
-
-
-if os.environ.get("MESHOPTIMIZE_ACCEPT_BASELINES") == "1":
-    os.makedirs(os.path.dirname(baseline), exist_ok=True)
-    shutil.copyfile(picture, baseline)
-    print("accepted", baseline)
-else:
-    difference = vtkImageDifference()
-    difference.SetInputData(image(picture))
-    difference.SetImageData(image(baseline))
-    difference.Update()
-    error = difference.GetThresholdedError()
-    print(f"difference {error:.2f}, allowed {TOLERANCE}")
-    check(error <= TOLERANCE, "the picture changed: compare", picture, "with", baseline)
+compare_picture(os.path.join(folder, "before_after.png"), "demo_picture.png")

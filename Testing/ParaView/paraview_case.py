@@ -1,14 +1,18 @@
 """What the paraview tests share: the plugin, a mesh made in the script, and a check that speaks."""
 import itertools
 import os
+import shutil
 
 from paraview import simple
 from vtkmodules.vtkCommonCore import vtkMinimalStandardRandomSequence, vtkPoints
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkFiltersCore import vtkDelaunay3D
+from vtkmodules.vtkImagingCore import vtkImageDifference
+from vtkmodules.vtkIOImage import vtkPNGReader
 
 OUTPUT = os.environ["MESHOPTIMIZE_OUTPUT"]
 DATA = os.environ["MESHOPTIMIZE_DATA"]
+TOLERANCE = 25.0  # vtkImageDifference's thresholded error, as VTK's own regression tests use it
 
 
 def load_plugin():
@@ -86,3 +90,26 @@ def source_of(grid):
 def check(condition, *message):
     if not condition:
         raise SystemExit("FAILED: " + " ".join(str(m) for m in message))
+
+
+def compare_picture(picture, name):
+    """A PNG file against Data/Baseline/name. MESHOPTIMIZE_ACCEPT_BASELINES=1 takes it over: look at it first."""
+    def image(path):
+        reader = vtkPNGReader()
+        reader.SetFileName(path)
+        reader.Update()
+        return reader.GetOutput()
+
+    baseline = os.path.join(DATA, "Baseline", name)
+    if os.environ.get("MESHOPTIMIZE_ACCEPT_BASELINES") == "1":
+        os.makedirs(os.path.dirname(baseline), exist_ok=True)
+        shutil.copyfile(picture, baseline)
+        print("accepted", baseline)
+        return
+    difference = vtkImageDifference()
+    difference.SetInputData(image(picture))
+    difference.SetImageData(image(baseline))
+    difference.Update()
+    error = difference.GetThresholdedError()
+    print(f"difference {error:.2f}, allowed {TOLERANCE}")
+    check(error <= TOLERANCE, "the picture changed: compare", picture, "with", baseline)
