@@ -3,7 +3,7 @@
 
     /usr/bin/python3 table1.py FOLDER [--meshes A B C D] [--ways "target .4" default best]
 
-Writes FOLDER/table1.csv and FOLDER/table1.md. The exit status is 1 if a claim does not hold with the effort best. Needs the package
+Writes FOLDER/table1.csv and FOLDER/table1.md. The exit status is 1 if a claim does not hold with the last of --ways. Needs the package
 meshoptimize (./bootstrap.sh env); takes three to five minutes.
 """
 import argparse
@@ -142,7 +142,7 @@ def main():
     for way in options.ways:
         claims = add_claims(rows, options.meshes, way)
         text += f"\n## Claims, optimized: {way}\n\n{claims.markdown()}"
-        good = good and (claims.all_hold() or way != "best")
+        good = good and (claims.all_hold() or way != options.ways[-1])
     study.write(options.folder, "table1", list(rows.values()), text)
     return 0 if good else 1
 
