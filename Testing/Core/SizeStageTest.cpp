@@ -470,3 +470,32 @@ TEST(SizeStage, QualitiesAreTheShapesInTheMetric)
     EXPECT_EQ(row.stage.rfind("sizes", 0), 0u);
   }
 }
+
+/// Where cells are inverted the usual geometric reasons do not hold: no facet may get a third cell.
+TEST(SizeStage, TangledMeshesStayMeshes)
+{
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    MeshInput<2> in = jitteredGrid<2>(6, 0.0);
+    TestRandom random(seed);
+    for (Vec<2>& x : in.points)
+    {
+      x += 0.3 * Vec<2>(random(), random()); // the boundary, too
+    }
+    SimplexMesh<2> mesh = buildMesh(in);
+    const long euler = mesh.eulerCharacteristic();
+    MeshEditor<2> editor(mesh);
+    BoundaryCurves curves;
+    CurveOptions straight;
+    straight.splines = seed % 2 == 0;
+    straight.cornerAngle = 20.0 * (seed % 5);
+    curves.build(editor, straight);
+    Options o = options(0.0);
+    o.desiredSize = seed % 3 ? 0.5 : 0.1;
+    NodalMetric<2> metric(o.desiredSize);
+    const Report report = optimize<2>(mesh, metric, o, {}, &curves);
+    expectSound(mesh, report.invertedAfter == 0);
+    EXPECT_EQ(mesh.eulerCharacteristic(), euler) << seed;
+    EXPECT_GE(report.worstAfter, std::min(report.worstBefore, Wanted));
+  }
+}

@@ -66,6 +66,10 @@ public:
   /// Guards against inputs whose cells overlap, where the usual geometric reasons do not hold.
   void setTangled(bool tangled) { this->tangled_ = tangled; }
 
+  /// Whether `cells`, in place of the cavity, would have an edge or a facet that is there already
+  /// outside of it. Where no cells overlap that cannot be.
+  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
+
   std::array<long, NumberOfOperations> tried{}, done{};
 
 private:
@@ -111,7 +115,6 @@ private:
   bool insertHere(Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
     const KeptChange<D>* kept = nullptr);
-  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }
   bool isBad(double q) const { return q < this->guard_; }

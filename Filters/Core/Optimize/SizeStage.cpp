@@ -20,6 +20,11 @@ SizeStage<D>::SizeStage(MeshEditor<D>& editor, NodalMetric<D>& metric, const Opt
   , improver_(editor, this->model_, this->caps_, options)
 {
   this->improver_.setGrowth(std::numeric_limits<long>::max() / 2);
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    this->tangled_ |= this->mesh().isAlive(c) && !(this->mesh().quality(c) > 0.0);
+  }
+  this->improver_.setTangled(this->tangled_);
   for (Index p = 0; p < this->mesh().numberOfPointSlots(); ++p)
   {
     if (this->mesh().isPointAlive(p))

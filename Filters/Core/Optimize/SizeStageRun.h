@@ -119,6 +119,7 @@ private:
   EdgeChange<D> change_;
 
   std::vector<Tensor<D>> units_; // M / h*^2 at the points
+  bool tangled_ = false;                        // there are inverted cells
   double scale_ = 1.0;                          // of h*
   double longest_ = Longest;                    // longer edges are split
   std::uint32_t swappedAt_ = 0;
