@@ -280,7 +280,10 @@ bool SizeStage<D>::contractEdge(Index v, Index u, double& above, EdgeChange<D>& 
   const double least =
     std::max(above, std::max(0.0, std::min(this->worstOf(this->change_.cavity), GoodEnough)));
   if (!this->measure(this->change_.cells, least) ||
-    (this->tangled_ && this->improver_.conflicts(this->change_.cavity, this->change_.cells)))
+    (this->tangled_ &&
+      ((!this->change_.changesKept &&
+         !fillsCavity<D>(this->mesh(), this->change_.cavity, this->change_.cells)) ||
+        this->improver_.conflicts(this->change_.cavity, this->change_.cells))))
   {
     return false;
   }
