@@ -44,6 +44,8 @@ constexpr double CoarseGain = 1e-2;
 /// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
 constexpr long Patience[] = { std::numeric_limits<int>::max(), 50, 20, 20 };
 constexpr long PatientTries = 200; // before that is looked at
+/// Where the metric or a wanted size varies a try costs many times more: it counts as so many.
+constexpr long Hurry = 5;
 /// Tries of one chunk between two looks at progress, by level: some tenth of a second.
 constexpr long Tries[] = { 20000, 4000, 400, 100 };
 
@@ -409,7 +411,9 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
     const auto [q, c] = w.queue.top();
     w.queue.pop();
     // Without patience cells are still tried cheaply: a border may have kept them from it before.
-    w.isPatient = w.isPatient && (w.tries < PatientTries || w.kept * Patience[level] >= w.tries);
+    const long more = this->model_.plain ? 1 : Hurry;
+    w.isPatient = w.isPatient &&
+      (w.tries * more < PatientTries || w.kept * Patience[level] >= w.tries * more);
     level = w.isPatient ? level : Improver<D, Shape>::Topology;
     if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
       this->caps_.isCapped(mesh, c))
