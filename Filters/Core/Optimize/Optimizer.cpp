@@ -39,6 +39,17 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
       options.timeLimit > 0.0 ? std::max(options.timeLimit - spent.count(), 1e-9) : 0.0;
     return left;
   };
+  if (report.invertedBefore > 0) // where cells overlap, lengths say little: untangle first
+  {
+    optimizeWorstFirst<D>(editor, metric, timeLeft(), control, report, curves);
+    long inverted = 0;
+    summarize(editor.mesh(), options.targetQuality, &inverted);
+    if (inverted > 0 || report.stopReason == StopReason::Aborted ||
+      report.stopReason == StopReason::TimeLimit)
+    {
+      return;
+    }
+  }
   const SimplexMesh<D> meshBefore = editor.mesh();
   const NodalMetric<D> metricBefore = metric;
   const bool more = followSizes<D>(editor, metric, options, control, curves, report);

@@ -496,6 +496,7 @@ template <int D, class Shape>
 StopReason WorstFirst<D, Shape>::reason()
 {
   long below = 0;
+  this->report_.cappedCells = 0; // there may have been a run before
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
     if (this->mesh().isAlive(c) && this->mesh().quality(c) < this->options_.targetQuality)
