@@ -300,9 +300,8 @@ std::string CheckRequest(const bridge::Request& request, const std::vector<Task>
 } // namespace
 
 //------------------------------------------------------------------------------
-std::string vtkMeshOptimizeFilter::OptimizeAll(
-  vtkDataObject* input, vtkPolyData* geometry, vtkDataObject* output, vtkTable* history,
-  bridge::Outcome& outcome)
+std::string vtkMeshOptimizeFilter::OptimizeAll(vtkDataObject* input, vtkPolyData* geometry,
+  vtkDataObject* output, vtkTable* history, bridge::Outcome& outcome)
 {
   const std::vector<Task> tasks = ListTasks(input, output);
   const bool isComposite = vtkDataObjectTree::SafeDownCast(input) != nullptr;
@@ -383,7 +382,8 @@ std::string vtkMeshOptimizeFilter::CheckPieces(vtkInformationVector* outputVecto
   vtkInformation* info = outputVector->GetInformationObject(0);
   const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
   return this->BoundaryMode == Slide && info->Has(pieces) && info->Get(pieces) > 1
-    ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed data."
+    ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed "
+      "data."
     : "";
 }
 

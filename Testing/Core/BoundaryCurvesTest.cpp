@@ -83,7 +83,8 @@ TEST(BoundaryCurves, SquareAndBracket)
   EXPECT_EQ(two.curves.numberOfPieces(), 4u);
   const auto side = two.curves.span(two.mesh, 0, 1); // corner to corner
   ASSERT_TRUE(side);
-  EXPECT_LT((two.curves.at(side->piece, 0.5 * (side->from + side->to)) - Vec<2>(0.5, 0)).norm(), 1e-15);
+  EXPECT_LT(
+    (two.curves.at(side->piece, 0.5 * (side->from + side->to)) - Vec<2>(0.5, 0)).norm(), 1e-15);
   EXPECT_FALSE(two.curves.span(two.mesh, 0, 3)); // the diagonal is no piece
   const Made l = make(bracket(4));
   EXPECT_EQ(l.curves.numberOfPieces(), 6u);
@@ -101,7 +102,7 @@ TEST(BoundaryCurves, SlitsHaveTwoSidesAndTheirTipsAreCorners)
     EXPECT_TRUE(contains(corners(inside.mesh), Vec<2>(0.75, 0.5)));
   }
   const Made edge = make(slitSquare(8, 0.0, 0.5));
-  EXPECT_EQ(edge.curves.numberOfPieces(), 5u + 2u); // the left side is in two
+  EXPECT_EQ(edge.curves.numberOfPieces(), 5u + 2u);   // the left side is in two
   EXPECT_EQ(corners(edge.mesh).size(), 4u + 2u + 1u); // and the mouth has two lips
 }
 
@@ -118,8 +119,9 @@ TEST(BoundaryCurves, InterfacesAndHoles)
   // the last point of a closed curve and the first are neighbours, too
   const auto span = hole.curves.span(hole.mesh, 15, 0);
   ASSERT_TRUE(span);
-  EXPECT_NEAR((hole.curves.at(span->piece, 0.5 * (span->from + span->to)) -
-                onCircle(15.5 / 16, 0.3)).norm(), 0.0, 1e-4);
+  EXPECT_NEAR(
+    (hole.curves.at(span->piece, 0.5 * (span->from + span->to)) - onCircle(15.5 / 16, 0.3)).norm(),
+    0.0, 1e-4);
   EXPECT_TRUE(hole.curves.mayBeNeighbours(*span));
   EXPECT_FALSE(hole.curves.mayBeNeighbours({ span->piece, 0.0, 0.3 * Pi }));
 }

@@ -18,10 +18,7 @@ inline Vec<2> onCircle(double turns, double radius = 1.0)
   return Vec<2>(radius * std::cos(2.0 * Pi * turns), radius * std::sin(2.0 * Pi * turns));
 }
 
-inline MeshInput<2> twoTriangles()
-{
-  return jitteredGrid<2>(1, 0.0);
-}
+inline MeshInput<2> twoTriangles() { return jitteredGrid<2>(1, 0.0); }
 
 /// A polygon around its last point, of which every corner is seen.
 inline MeshInput<2> fan(std::vector<Vec<2>> polygon, const Vec<2>& centre)
@@ -184,7 +181,8 @@ inline std::vector<Index> slidingPoints(const SimplexMesh<2>& mesh)
 
 /// Each sliding point lies where its place says, and every kept facet but those between two corners
 /// that several pieces join is on a piece.
-inline void expectOnCurves(const SimplexMesh<2>& mesh, const BoundaryCurves& curves, double tolerance)
+inline void expectOnCurves(
+  const SimplexMesh<2>& mesh, const BoundaryCurves& curves, double tolerance)
 {
   for (Index p : slidingPoints(mesh))
   {

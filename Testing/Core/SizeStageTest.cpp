@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes that get the size they are asked for, their boundary sliding or not: what comes out, what stays.
+#include "Optimize/SizeStage.h"
 #include "Optimize/EdgeLengths.h"
 #include "Optimize/Optimizer.h"
-#include "Optimize/SizeStage.h"
 #include "Optimize/Statistics.h"
 #include "PlaneMeshes.h"
 #include "TestThreads.h"
@@ -160,7 +160,8 @@ TEST(SizeStage, FineMeshesGetCoarse)
 {
   for (double h : { 0.1, 0.3 })
   {
-    const Result<2> run = optimized<2>(jitteredGrid<2>(40, 0.2), NodalMetric<2>(h), options(), true);
+    const Result<2> run = optimized<2>(
+      jitteredGrid<2>(40, 0.2), NodalMetric<2>(h), options(), true);
     EXPECT_NEAR(run.cells / run.predicted, 1.0, h < 0.2 ? 0.1 : 0.3);
     EXPECT_GE(run.report.worstAfter, 0.6);
     EXPECT_GE(run.lengths.share, h < 0.2 ? 0.9 : 0.75);
@@ -196,8 +197,7 @@ TEST(SizeStage, ConstantMetricIsAMap)
     x = map * x;
   }
   const double h = 0.08;
-  const Result<2> inMetric =
-    optimized<2>(in, constantMetric<2>(map * map, h), options(), true);
+  const Result<2> inMetric = optimized<2>(in, constantMetric<2>(map * map, h), options(), true);
   const Result<2> plain = optimized<2>(mapped, NodalMetric<2>(h), options(), true);
   EXPECT_NEAR(inMetric.predicted / plain.predicted, 1.0, 1e-12);
   EXPECT_NEAR(double(inMetric.cells) / plain.cells, 1.0, 0.05);
@@ -206,8 +206,8 @@ TEST(SizeStage, ConstantMetricIsAMap)
   EXPECT_NEAR(inMetric.report.meanAfter, plain.report.meanAfter, 0.01);
   EXPECT_GE(inMetric.report.worstAfter, 0.6);
   // a multiple of the identity is a size
-  const Result<2> scaled =
-    optimized<2>(in, constantMetric<2>(Tensor<2>(4.0 * Tensor<2>::Identity()), h), options(), true);
+  const Result<2> scaled = optimized<2>(
+    in, constantMetric<2>(Tensor<2>(4.0 * Tensor<2>::Identity()), h), options(), true);
   const Result<2> half = optimized<2>(in, NodalMetric<2>(0.5 * h), options(), true);
   EXPECT_NEAR(double(scaled.cells) / half.cells, 1.0, 0.03);
 }
@@ -249,8 +249,8 @@ TEST(SizeStage, FixedBoundaryKeepsWhatItHas)
   const Result<2> undone = optimized<2>(in, NodalMetric<2>(0.02), options(0.3, 0.6), false);
   EXPECT_LT(undone.cells, 50);
   const auto& rows = undone.report.history;
-  EXPECT_TRUE(std::any_of(rows.begin(), rows.end(),
-    [](const PassRecord& row) { return row.stage == "sizes given up"; }));
+  EXPECT_TRUE(std::any_of(
+    rows.begin(), rows.end(), [](const PassRecord& row) { return row.stage == "sizes given up"; }));
   const Result<2> huge = optimized<2>(in, NodalMetric<2>(10.0), options(0.3), false);
   EXPECT_LT(huge.cells, 32);
 }
@@ -373,6 +373,23 @@ TEST(SizeStage, SameBitsForAnyNumberOfThreadsAndRuns)
     EXPECT_EQ(
       bitsOf(optimized<3>(box, finer, options(0.3, 0.3), false, threads(n, n)).mesh), inSpace);
   }
+}
+
+// From untangling over sizes to the worst elements; large enough for calls in the midst of a stage.
+TEST(SizeStage, ProgressNeverFalls)
+{
+  double last = 0.0;
+  std::vector<double> seen;
+  Control control;
+  control.progress = [&](double fraction, const std::string&)
+  {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+    seen.push_back(fraction);
+    return true;
+  };
+  optimized<2>(jitteredGrid<2>(60, 0.6, 3), NodalMetric<2>(0.01), options(1.0), false, control);
+  EXPECT_GE(seen.size(), 3u); // one of each stage at least
 }
 
 TEST(SizeStage, AbortLeavesASoundMesh)

@@ -547,6 +547,7 @@ TYPED_TEST(WorstFirst, SizesAndMetrics)
     }
     SimplexMesh<D> mesh = buildMesh(in);
     const Report report = run<D>(mesh, options, metric); // copies share the background only
-    EXPECT_GT(report.worstAfter, std::min(report.worstBefore + 0.02, options.targetQuality)) << kind;
+    EXPECT_GT(report.worstAfter, std::min(report.worstBefore + 0.02, options.targetQuality))
+      << kind;
   }
 }

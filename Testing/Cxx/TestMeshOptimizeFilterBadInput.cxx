@@ -408,7 +408,8 @@ void TestSlide()
   ExpectError(square, { "geometry", "corner", "point 0" }, along(Lines(larger, around)));
   ExpectError(square, { "does not lie on the geometry", "point " },
     along(Lines(corners, { { 0, 1, 2, 3 } }))); // open
-  ExpectError(square, { "does not lie on the geometry", "point " }, along(Lines(corners, { { 0, 1 } })));
+  ExpectError(
+    square, { "does not lie on the geometry", "point " }, along(Lines(corners, { { 0, 1 } })));
 }
 
 /**

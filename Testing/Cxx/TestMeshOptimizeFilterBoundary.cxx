@@ -14,10 +14,7 @@ namespace
 
 const double Pi = std::acos(-1.0);
 
-Point Flat(double u, double v)
-{
-  return { { u, v, 0 } };
-}
+Point Flat(double u, double v) { return { { u, v, 0 } }; }
 
 /**
  * A disc of n triangles around its centre, radius 1, put into space by `map`.
@@ -69,10 +66,7 @@ std::set<vtkIdType> BoundaryPoints(vtkUnstructuredGrid* grid)
   return points;
 }
 
-double Norm(const Point& x)
-{
-  return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-}
+double Norm(const Point& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
 double OutOfRound(vtkUnstructuredGrid* grid)
 {
@@ -187,7 +181,8 @@ void TestObliquePlane()
     {
       // the normal of the disc is more(1, 0) x more(0, 1)
       const Point a = more(1, 0), b = more(0, 1);
-      fine->SetNormal(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+      fine->SetNormal(
+        a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
       filter->SetGeometryConnection(fine->GetOutputPort());
     }
     filter->Update();
@@ -382,8 +377,7 @@ void TestData()
     else
     {
       const Point a = GetPoint(out, ids[0]), b = GetPoint(out, ids[1]), d = GetPoint(out, ids[2]);
-      const double twice =
-        (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
+      const double twice = (b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]);
       const double middle = (a[0] + b[0] + d[0]) / 3;
       CHECK(twice > 0.0);
       area += regions->GetComponent(c, 0) == 7 ? 0.5 * twice : 0.0;

@@ -8,6 +8,7 @@ cylinder under a radial temperature): with T = T0 - T1 r^2 and k = alpha E T1 / 
 
 Lengths are in cm, stresses in Pa.
 """
+import argparse
 import csv
 import pathlib
 import time
@@ -36,6 +37,7 @@ CHOICES = """\
   as preconditioner, as in the paper.
 """
 
+GENERATED = "as generated"
 # The paper ended near quality .4; the default target is .6; Best goes on until nothing helps.
 WAYS = {
     "target .4": {"target": 0.4, "effort": "Default"},
@@ -233,3 +235,25 @@ def write(folder, name, rows, text):
     write_csv(folder / f"{name}.csv", rows)
     (folder / f"{name}.md").write_text(text, encoding="utf-8")
     print(text)
+
+
+def make_table(name, description, meshes, measure, markdown, add_claims, text):
+    """What a table's script does: optimizes, measures, writes; the exit status is 1 if a claim does not hold with the last of --ways."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("--meshes", nargs="+", choices=meshes, default=list(meshes))
+    parser.add_argument("--ways", nargs="+", choices=WAYS, default=list(WAYS))
+    options = parser.parse_args()
+    rows = {}
+    for mesh in options.meshes:
+        grid = pellet.mesh(mesh)
+        rows[mesh, GENERATED] = measure(mesh, GENERATED, Optimized(grid))
+        for way in options.ways:
+            rows[mesh, way] = measure(mesh, way, optimize(grid, way))
+            print(mesh, way, "done", flush=True)
+    text = text.format(choices=CHOICES) + "\n" + markdown(rows, options.meshes, options.ways)
+    for way in options.ways:
+        claims = add_claims(rows, options.meshes, way)
+        text += f"\n## Claims, optimized: {way}\n\n{claims.markdown()}"
+    write(options.folder, name, list(rows.values()), text)
+    return 0 if claims.all_hold() else 1

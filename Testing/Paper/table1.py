@@ -6,14 +6,13 @@
 Writes FOLDER/table1.csv and FOLDER/table1.md. The exit status is 1 if a claim does not hold with the last of --ways. Needs the package
 meshoptimize (./bootstrap.sh env); takes three to five minutes.
 """
-import argparse
 import sys
 
 import numpy as np
 from meshoptimize import vtkThermoelasticFilter
 
-import pellet
 import study
+from study import GENERATED
 
 # Elements; then quality, error of s_rr, error of s_tt (in percent), steps: as generated, and optimized.
 PAPER = {
@@ -22,7 +21,6 @@ PAPER = {
     "C": (68868, (0.004, 10.1, 13.9, 518), (0.363, 7.2, 5.5, 369)),
     "D": (165769, (3e-6, 5.9, 7.5, 1593), (0.404, 4.6, 4.1, 477)),
 }
-GENERATED = "as generated"
 RECOVERIES = {
     "patch": vtkThermoelasticFilter.Patch,
     "local patch": vtkThermoelasticFilter.LocalPatch,
@@ -124,28 +122,5 @@ def markdown(rows, names, ways):
          "s_tt patch", "s_tt local patch", "s_tt average", "steps 1e-6", "steps 1e-8"), table)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("--meshes", nargs="+", choices=PAPER, default=list(PAPER))
-    parser.add_argument("--ways", nargs="+", choices=study.WAYS, default=list(study.WAYS))
-    options = parser.parse_args()
-    rows = {}
-    for name in options.meshes:
-        grid = pellet.mesh(name)
-        rows[name, GENERATED] = measure(name, GENERATED, study.Optimized(grid))
-        for way in options.ways:
-            rows[name, way] = measure(name, way, study.optimize(grid, way))
-            print(name, way, "done", flush=True)
-    text = TEXT.format(choices=study.CHOICES) + "\n" + markdown(rows, options.meshes, options.ways)
-    good = True
-    for way in options.ways:
-        claims = add_claims(rows, options.meshes, way)
-        text += f"\n## Claims, optimized: {way}\n\n{claims.markdown()}"
-        good = good and (claims.all_hold() or way != options.ways[-1])
-    study.write(options.folder, "table1", list(rows.values()), text)
-    return 0 if good else 1
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(study.make_table("table1", __doc__, PAPER, measure, markdown, add_claims, TEXT))

@@ -3,14 +3,13 @@
 
     /usr/bin/python3 table2.py FOLDER [--meshes crack20 crack40 crack60] [--ways "target .4" default best]
 
-Writes FOLDER/table2.csv and FOLDER/table2.md. The exit status is 1 if a claim does not hold with the default effort. Needs the package
+Writes FOLDER/table2.csv and FOLDER/table2.md. The exit status is 1 if a claim does not hold with the last of --ways. Needs the package
 meshoptimize (./bootstrap.sh env); takes one to two minutes.
 """
-import argparse
 import sys
 
-import pellet
 import study
+from study import GENERATED
 
 # Elements; then quality, mean quality, steps: as generated, and optimized.
 PAPER = {
@@ -18,7 +17,6 @@ PAPER = {
     "crack40": (74380, (0.002, 0.742, 966), (0.393, 0.743, 711)),
     "crack60": (93260, (0.004, 0.744, 1062), (0.433, 0.748, 781)),
 }
-GENERATED = "as generated"
 TEXT = """\
 # Table 2: cracked pellets
 
@@ -80,28 +78,5 @@ def markdown(rows, names, ways):
                                 table)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
-    parser.add_argument("--meshes", nargs="+", choices=PAPER, default=list(PAPER))
-    parser.add_argument("--ways", nargs="+", choices=study.WAYS, default=list(study.WAYS))
-    options = parser.parse_args()
-    rows = {}
-    for name in options.meshes:
-        grid = pellet.mesh(name)
-        rows[name, GENERATED] = measure(name, GENERATED, study.Optimized(grid))
-        for way in options.ways:
-            rows[name, way] = measure(name, way, study.optimize(grid, way))
-            print(name, way, "done", flush=True)
-    text = TEXT.format(choices=study.CHOICES) + "\n" + markdown(rows, options.meshes, options.ways)
-    good = True
-    for way in options.ways:
-        claims = add_claims(rows, options.meshes, way)
-        text += f"\n## Claims, optimized: {way}\n\n{claims.markdown()}"
-        good = good and (claims.all_hold() or way != "default")
-    study.write(options.folder, "table2", list(rows.values()), text)
-    return 0 if good else 1
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(study.make_table("table2", __doc__, PAPER, measure, markdown, add_claims, TEXT))

@@ -9,38 +9,8 @@ namespace meshopt
 {
 namespace
 {
-constexpr double Tolerance = 1e-3; ///< of the diagonal of the mesh
+constexpr double Tolerance = 1e-3;         ///< of the diagonal of the mesh
 constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
-/// A line that is so much shorter than the next one has no direction: its ends are corners.
-constexpr double NoLength = 1e-9;
-/// Degrees. Where a line turns by more it goes back, as at the tip of a slit: always a corner.
-constexpr double TurnsBack = 179.0;
-
-/// Radians: what turns less is taken for smooth. And how much of the turn of a point a neighbour of it
-/// must turn, at least, if both are to be on a curve.
-constexpr double LeastKink = 0.17, KinkShare = 0.25;
-
-using Lines = std::vector<std::vector<Index>>;
-
-/// The lines at each point.
-Lines linesOfPoints(const LineNetwork& network)
-{
-  Lines lines(network.points.size());
-  for (std::size_t l = 0; l < network.lines.size(); ++l)
-  {
-    for (Index p : network.lines[l])
-    {
-      lines[p].push_back(static_cast<Index>(l));
-    }
-  }
-  return lines;
-}
-
-Index otherEnd(const LineNetwork& network, Index line, Index p)
-{
-  const std::array<Index, 2>& l = network.lines[line];
-  return l[0] == p ? l[1] : l[0];
-}
 
 double diagonal(const SimplexMesh<2>& mesh)
 {
@@ -71,100 +41,8 @@ std::string nameOf(const char* what, Index p, const Vec<2>& x)
 }
 }
 
-/// All kept facets, each once.
-LineNetwork BoundaryCurves::network(const SimplexMesh<2>& mesh)
-{
-  LineNetwork result;
-  result.points.resize(mesh.numberOfPointSlots());
-  result.corners.assign(mesh.numberOfPointSlots(), 0);
-  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
-  {
-    result.points[p] = mesh.point(p);
-    result.corners[p] = (mesh.pointData(p).flags & SimplexMesh<2>::PointFixedByUser) != 0;
-  }
-  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
-  {
-    for (int i = 0; i < 3 && mesh.isAlive(c); ++i)
-    {
-      const Index h = mesh.adjacent(c, i);
-      if (mesh.isConstrained(c, i) && (h == None || mesh.cellOf(h) > c))
-      {
-        result.lines.push_back(mesh.facet(c, i));
-      }
-    }
-  }
-  return result;
-}
-
-void BoundaryCurves::markCorners(LineNetwork& network, double cornerAngle)
-{
-  const Lines lines = linesOfPoints(network);
-  network.corners.resize(network.points.size(), 0);
-  const double limit = std::cos(std::min(cornerAngle, TurnsBack) * std::acos(-1.0) / 180.0);
-  for (std::size_t p = 0; p < lines.size(); ++p)
-  {
-    if (lines[p].empty())
-    {
-      continue;
-    }
-    bool isCorner = lines[p].size() != 2;
-    if (!isCorner)
-    {
-      const Index id = static_cast<Index>(p);
-      const Vec<2> in = network.points[p] - network.points[otherEnd(network, lines[p][0], id)];
-      const Vec<2> out = network.points[otherEnd(network, lines[p][1], id)] - network.points[p];
-      const double a = in.norm(), b = out.norm();
-      isCorner = !(in.dot(out) >= limit * a * b) || std::min(a, b) <= NoLength * std::max(a, b);
-    }
-    network.corners[p] = network.corners[p] || isCorner;
-  }
-}
-
-std::vector<BoundaryCurves::Chain> BoundaryCurves::chains(const LineNetwork& network)
-{
-  const Lines lines = linesOfPoints(network);
-  std::vector<char> seen(network.lines.size(), 0);
-  std::vector<Chain> result;
-  const auto follow = [&](Index start, Index line)
-  {
-    Chain chain;
-    chain.points.push_back(start);
-    for (Index p = start; !seen[line];)
-    {
-      seen[line] = 1;
-      p = otherEnd(network, line, p);
-      chain.points.push_back(p);
-      if (network.corners[p] || p == start)
-      {
-        break;
-      }
-      line = lines[p][0] == line ? lines[p][1] : lines[p][0];
-    }
-    if (!network.corners[start]) // came back to where it began
-    {
-      chain.isClosed = true;
-      chain.points.pop_back();
-    }
-    result.push_back(std::move(chain));
-  };
-  for (const bool fromCorners : { true, false })
-  {
-    for (std::size_t p = 0; p < lines.size(); ++p)
-    {
-      for (Index line : lines[p])
-      {
-        if (!seen[line] && (network.corners[p] != 0) == fromCorners)
-        {
-          follow(static_cast<Index>(p), line);
-        }
-      }
-    }
-  }
-  return result;
-}
-
 PlaneCurve BoundaryCurves::curve(
-  const LineNetwork& network, const Chain& chain, bool splines) const
+  const LineNetwork& network, const LineChain& chain, bool splines) const
 {
   std::vector<Vec<2>> points;
   for (Index p : chain.points)
@@ -172,46 +50,6 @@ PlaneCurve BoundaryCurves::curve(
     points.push_back(network.points[p]);
   }
   return PlaneCurve(std::move(points), chain.isClosed, splines);
-}
-
-/// A point where the line turns while it does not at the neighbours is no sample of a curve, but a
-/// corner that is not very sharp.
-void BoundaryCurves::markKinks(LineNetwork& network)
-{
-  const Lines lines = linesOfPoints(network);
-  const std::vector<std::uint8_t> corners = network.corners;
-  const auto next = [&](Index from, Index p) // None beyond a corner
-  {
-    if (corners[p])
-    {
-      return None;
-    }
-    const Index a = otherEnd(network, lines[p][0], p);
-    return a == from ? otherEnd(network, lines[p][1], p) : a;
-  };
-  const auto turn = [&](Index from, Index p, Index to)
-  {
-    if (to == None)
-    {
-      return 0.0;
-    }
-    const Vec<2> in = network.points[p] - network.points[from];
-    const Vec<2> out = network.points[to] - network.points[p];
-    return std::atan2(in[0] * out[1] - in[1] * out[0], in.dot(out));
-  };
-  for (std::size_t k = 0; k < lines.size(); ++k)
-  {
-    const Index p = static_cast<Index>(k);
-    if (lines[k].size() != 2 || corners[k])
-    {
-      continue;
-    }
-    const Index a = otherEnd(network, lines[k][0], p), b = otherEnd(network, lines[k][1], p);
-    const double here = turn(a, p, b);
-    const double before = -turn(p, a, next(p, a)), after = turn(p, b, next(p, b));
-    network.corners[k] = std::fabs(here) > LeastKink && !(before / here > KinkShare) &&
-      !(after / here > KinkShare);
-  }
 }
 
 /// A spline through a long straight side and the short ones of an arc would swing far out on the
@@ -222,7 +60,7 @@ void BoundaryCurves::markWhereSplinesOvershoot(
   for (bool again = true; again;)
   {
     again = false;
-    for (const Chain& chain : chains(network))
+    for (const LineChain& chain : chains(network))
     {
       const PlaneCurve curve = this->curve(network, chain, true);
       double share = 0.0;
@@ -239,12 +77,12 @@ void BoundaryCurves::markWhereSplinesOvershoot(
   }
 }
 
-void BoundaryCurves::build(MeshEditor<2>& editor, const CurveOptions& options,
-  const std::vector<std::uint8_t>& corners)
+void BoundaryCurves::build(
+  MeshEditor<2>& editor, const CurveOptions& options, const std::vector<std::uint8_t>& corners)
 {
   this->curves_.clear();
   this->pieces_.clear();
-  LineNetwork boundary = network(editor.mesh());
+  LineNetwork boundary = keptLines(editor.mesh());
   for (std::size_t p = 0; p < corners.size(); ++p)
   {
     boundary.corners[p] |= corners[p];
@@ -255,29 +93,16 @@ void BoundaryCurves::build(MeshEditor<2>& editor, const CurveOptions& options,
     markKinks(boundary);
     this->markWhereSplinesOvershoot(boundary, options);
   }
-  for (const Chain& chain : chains(boundary))
+  for (const LineChain& chain : chains(boundary))
   {
     const PlaneCurve curve = this->curve(boundary, chain, options.splines);
-    Piece piece;
-    piece.curve = static_cast<Index>(this->curves_.size());
-    const bool isClosed = chain.isClosed;
-    if (!isClosed)
-    {
-      piece.ends = { chain.points.front(), chain.points.back() };
-      piece.range = { 0.0, curve.length() };
-    }
+    std::vector<double> parameters; // of a line that ends in a corner: also that of its end
     for (std::size_t k = 0; k < chain.points.size(); ++k)
     {
-      if (isClosed || (k > 0 && k + 1 < chain.points.size()))
-      {
-        CurvePlace<2> place;
-        place.curve = static_cast<Index>(this->pieces_.size());
-        place.parameter = curve.parameter(k);
-        editor.setCurvePlace(chain.points[k], place);
-      }
+      parameters.push_back(curve.parameter(k));
     }
+    this->addPiece(editor, chain, static_cast<Index>(this->curves_.size()), parameters);
     this->curves_.push_back(curve);
-    this->pieces_.push_back(piece);
   }
   this->join();
 }
@@ -308,8 +133,8 @@ std::string BoundaryCurves::matchCorners(const SimplexMesh<2>& mesh, const LineN
     }
     for (Index p : ends) // all of them: at the mouth of a crack there are several
     {
-      boundary.corners[p] |= std::uint8_t(geometry.corners[g] &&
-        (mesh.point(p) - geometry.points[g]).norm() <= tolerance);
+      boundary.corners[p] |= std::uint8_t(
+        geometry.corners[g] && (mesh.point(p) - geometry.points[g]).norm() <= tolerance);
     }
   }
   return {};
@@ -333,9 +158,10 @@ void tellEndsApart(const SimplexMesh<2>& mesh, const std::vector<Index>& points,
     return;
   }
   const std::size_t last = points.size() - 1;
-  for (const auto& [end, next] : { std::pair<std::size_t, std::size_t>{ 0, 1 }, { last, last - 1 } })
+  for (const auto& [end, next] :
+    { std::pair<std::size_t, std::size_t>{ 0, 1 }, { last, last - 1 } })
   {
-    const Vec<2> &x = mesh.point(points[end]), &y = mesh.point(points[next]);
+    const Vec<2>&x = mesh.point(points[end]), &y = mesh.point(points[next]);
     if ((x - curve.at(0.0)).norm() <= tolerance)
     {
       double d = 0.0;
@@ -345,26 +171,43 @@ void tellEndsApart(const SimplexMesh<2>& mesh, const std::vector<Index>& points,
 }
 }
 
-/// Puts a chain of the mesh's boundary on the curve that is nearest to it.
-std::string BoundaryCurves::place(MeshEditor<2>& editor, const Chain& chain, double tolerance)
+/// Adds the chain as a piece of the curve, and gives its points their places.
+void BoundaryCurves::addPiece(
+  MeshEditor<2>& editor, const LineChain& chain, Index curve, const std::vector<double>& parameters)
 {
-  const SimplexMesh<2>& mesh = editor.mesh();
   Piece piece;
+  piece.curve = curve;
+  if (!chain.isClosed)
+  {
+    piece.ends = { chain.points.front(), chain.points.back() };
+    piece.range = { parameters.front(), parameters.back() };
+  }
+  const std::size_t first = chain.isClosed ? 0 : 1;
+  for (std::size_t k = first; k + first < chain.points.size(); ++k)
+  {
+    editor.setCurvePlace(
+      chain.points[k], { static_cast<Index>(this->pieces_.size()), parameters[k] });
+  }
+  this->pieces_.push_back(piece);
+}
+
+/// The curve that a chain of the mesh's boundary is nearest to; `distance` is that of its farthest point,
+/// which is `farthest`. None if there are no curves.
+Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& chain,
+  double tolerance, Index& farthest, double& distance) const
+{
+  Index nearest = None;
   double best = std::numeric_limits<double>::infinity();
-  Index farthest = None;
   for (std::size_t g = 0; g < this->curves_.size(); ++g)
   {
-    double worst = 0.0;
+    double worst = -1.0;
     Index at = None;
     for (Index p : chain.points)
     {
       double d = 0.0;
       this->curves_[g].closest(mesh.point(p), d);
-      if (at == None || d > worst)
-      {
-        worst = d;
-        at = p;
-      }
+      at = d > worst ? p : at;
+      worst = std::max(worst, d);
       if (worst > best)
       {
         break;
@@ -374,28 +217,35 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const Chain& chain, dou
     double middle = 0.0;
     this->curves_[g].closest(
       Vec<2>(0.5 * (mesh.point(chain.points[0]) + mesh.point(chain.points[1]))), middle);
-    if (std::max(worst, tolerance) + 1e-3 * middle < best)
+    const double rank = std::max(worst, tolerance) + 1e-3 * middle;
+    if (rank < best)
     {
-      best = std::max(worst, tolerance) + 1e-3 * middle;
-      piece.curve = static_cast<Index>(g);
-      farthest = worst > tolerance ? at : None;
+      best = rank;
+      nearest = static_cast<Index>(g);
+      farthest = at;
+      distance = worst;
     }
   }
-  if (piece.curve == None || farthest != None)
+  return nearest;
+}
+
+/// Puts a chain of the mesh's boundary on the curve that is nearest to it.
+std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain, double tolerance)
+{
+  const SimplexMesh<2>& mesh = editor.mesh();
+  Index farthest = chain.points[0];
+  double distance = std::numeric_limits<double>::infinity();
+  const Index nearest = this->nearestCurve(mesh, chain, tolerance, farthest, distance);
+  if (distance > tolerance)
   {
     std::ostringstream text;
-    const Index p = farthest == None ? chain.points[0] : farthest;
-    double d = 0.0;
-    if (piece.curve != None)
-    {
-      this->curves_[piece.curve].closest(mesh.point(p), d);
-    }
     text << "The boundary of the mesh does not lie on the geometry: "
-         << nameOf("point", p, mesh.point(p)) << " is " << d << " away from it.";
+         << nameOf("point", farthest, mesh.point(farthest)) << " is " << distance
+         << " away from it.";
     return text.str();
   }
-  const PlaneCurve& curve = this->curves_[piece.curve];
-  const double period = this->period(piece);
+  const PlaneCurve& curve = this->curves_[nearest];
+  const double period = curve.isClosed() ? curve.length() : 0.0;
   std::vector<double> s;
   for (Index p : chain.points)
   {
@@ -419,22 +269,7 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const Chain& chain, dou
         nameOf("point", chain.points[k], mesh.point(chain.points[k])) + ".";
     }
   }
-  if (!chain.isClosed)
-  {
-    piece.ends = { chain.points.front(), chain.points.back() };
-    piece.range = { s.front(), s.back() };
-  }
-  for (std::size_t k = 0; k < chain.points.size(); ++k)
-  {
-    if (chain.isClosed || (k > 0 && k + 1 < chain.points.size()))
-    {
-      CurvePlace<2> place;
-      place.curve = static_cast<Index>(this->pieces_.size());
-      place.parameter = s[k];
-      editor.setCurvePlace(chain.points[k], place);
-    }
-  }
-  this->pieces_.push_back(piece);
+  this->addPiece(editor, chain, nearest, s);
   return {};
 }
 
@@ -449,7 +284,7 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   {
     markKinks(geometry);
   }
-  for (const Chain& chain : chains(geometry))
+  for (const LineChain& chain : chains(geometry))
   {
     const PlaneCurve curve = this->curve(geometry, chain, options.splines);
     double share = 0.0;
@@ -457,15 +292,15 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
     const bool overshoots = share > greatestShare(options.cornerAngle);
     this->curves_.push_back(overshoots ? this->curve(geometry, chain, false) : curve);
   }
-  LineNetwork boundary = network(editor.mesh());
+  LineNetwork boundary = keptLines(editor.mesh());
   for (std::size_t p = 0; p < corners.size(); ++p)
   {
     boundary.corners[p] |= corners[p];
   }
   const double tolerance = Tolerance * diagonal(editor.mesh());
   std::string error = this->matchCorners(editor.mesh(), geometry, tolerance, boundary);
-  markCorners(boundary, TurnsBack); // else only where not exactly two lines meet
-  for (const Chain& chain : chains(boundary))
+  markCorners(boundary, 180.0); // not by angle: the geometry knows
+  for (const LineChain& chain : chains(boundary))
   {
     error = error.empty() ? this->place(editor, chain, tolerance) : error;
   }
@@ -526,8 +361,8 @@ std::optional<BoundaryCurves::Span> BoundaryCurves::span(
     {
       return std::nullopt;
     }
-    const bool first =
-      isFirst && (!isLast || std::fabs(s - piece.range[0]) < std::fabs(s - piece.range[1]));
+    const bool first = isFirst &&
+      (!isLast || std::fabs(s - piece.range[0]) < std::fabs(s - piece.range[1]));
     return piece.range[first ? 0 : 1];
   };
   const std::optional<double> from = parameter(a, pa, pb.parameter);
@@ -552,8 +387,8 @@ bool BoundaryCurves::mayBeNeighbours(const Span& s) const
   {
     return true;
   }
-  const double all =
-    piece.ends[0] == None ? this->period(piece) : std::fabs(piece.range[1] - piece.range[0]);
+  const double all = piece.ends[0] == None ? this->period(piece)
+                                           : std::fabs(piece.range[1] - piece.range[0]);
   return std::fabs(s.to - s.from) <= FarthestNeighbours * all;
 }
 }

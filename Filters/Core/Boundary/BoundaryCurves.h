@@ -4,6 +4,7 @@
 #ifndef meshopt_Boundary_BoundaryCurves_h
 #define meshopt_Boundary_BoundaryCurves_h
 
+#include "Boundary/LineNetwork.h"
 #include "Boundary/PlaneCurve.h"
 #include "Mesh/MeshEditor.h"
 
@@ -13,14 +14,6 @@
 
 namespace meshopt
 {
-/// Lines in the plane: the geometry that a boundary is to follow.
-struct LineNetwork
-{
-  std::vector<Vec<2>> points;
-  std::vector<std::array<Index, 2>> lines;
-  std::vector<std::uint8_t> corners; ///< nonzero: the point is a corner; one per point, or empty
-};
-
 struct CurveOptions
 {
   /// Degrees. Where lines turn by more than this there is a corner; in any case where they turn back
@@ -57,18 +50,15 @@ public:
   /// Makes them from `geometry`. Returns a sentence that says where mesh and geometry do not match:
   /// a boundary point farther than 1e-3 of the diagonal from every curve, or a corner of the geometry
   /// without a point of the mesh; the mesh then has no places.
-  std::string build(MeshEditor<2>& editor, const LineNetwork& geometry,
-    const CurveOptions& options, const std::vector<std::uint8_t>& corners = {});
+  std::string build(MeshEditor<2>& editor, const LineNetwork& geometry, const CurveOptions& options,
+    const std::vector<std::uint8_t>& corners = {});
 
   std::size_t numberOfPieces() const { return this->pieces_.size(); }
 
   /// The span of the kept facet from a to b. Empty if it is on no piece.
   std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const;
 
-  Vec<2> at(Index piece, double s) const
-  {
-    return this->curves_[this->pieces_[piece].curve].at(s);
-  }
+  Vec<2> at(Index piece, double s) const { return this->curves_[this->pieces_[piece].curve].at(s); }
   double sagitta(const Span& s) const
   {
     return this->curves_[this->pieces_[s.piece].curve].sagitta(s.from, s.to);
@@ -84,22 +74,15 @@ private:
     std::array<Index, 2> ends{ None, None }; ///< points of the mesh; None: closed
     std::array<double, 2> range{ 0.0, 0.0 }; ///< parameters of the ends
   };
-  /// A corner to the next one, or a closed line; points by their ids.
-  struct Chain
-  {
-    std::vector<Index> points;
-    bool isClosed = false;
-  };
-
-  static LineNetwork network(const SimplexMesh<2>& mesh);
-  static void markCorners(LineNetwork& network, double cornerAngle);
-  static void markKinks(LineNetwork& network);
   void markWhereSplinesOvershoot(LineNetwork& network, const CurveOptions& options) const;
-  static std::vector<Chain> chains(const LineNetwork& network);
-  PlaneCurve curve(const LineNetwork& network, const Chain& chain, bool splines) const;
+  PlaneCurve curve(const LineNetwork& network, const LineChain& chain, bool splines) const;
   std::string matchCorners(const SimplexMesh<2>& mesh, const LineNetwork& geometry,
     double tolerance, LineNetwork& boundary) const;
-  std::string place(MeshEditor<2>& editor, const Chain& chain, double tolerance);
+  void addPiece(MeshEditor<2>& editor, const LineChain& chain, Index curve,
+    const std::vector<double>& parameters);
+  Index nearestCurve(const SimplexMesh<2>& mesh, const LineChain& chain, double tolerance,
+    Index& farthest, double& distance) const;
+  std::string place(MeshEditor<2>& editor, const LineChain& chain, double tolerance);
   double period(const Piece& piece) const;
   void join();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/PlaneCurve.h"
 
+#include "Reposition/GoldenSection.h"
+
 #include <Eigen/SparseLU>
 
 #include <algorithm>
@@ -14,6 +16,7 @@ namespace
 /// the spline fades by 3.7 from point to point.
 constexpr int Wrap = 16;
 constexpr int Samples = 8;
+constexpr int SearchSteps = 48; ///< to 1e-10 of a segment
 
 /// Points closer to a straight line than this part of its length are on it.
 constexpr double Straight = 1e-10;
@@ -56,8 +59,7 @@ PlaneCurve::PlaneCurve(std::vector<Vec<2>> points, bool isClosed, bool isSpline)
   this->knots_.assign(1, 0.0);
   for (std::size_t k = 1; k < this->points_.size(); ++k)
   {
-    this->knots_.push_back(
-      this->knots_.back() + (this->points_[k] - this->points_[k - 1]).norm());
+    this->knots_.push_back(this->knots_.back() + (this->points_[k] - this->points_[k - 1]).norm());
   }
   if (this->isSpline_)
   {
@@ -77,7 +79,8 @@ void PlaneCurve::fit()
   for (int i = 0; i < total; ++i)
   {
     const int k = i - wrap;
-    const int turns = this->isClosed_ ? static_cast<int>(std::floor(k / static_cast<double>(n))) : 0;
+    const int turns = this->isClosed_ ? static_cast<int>(std::floor(k / static_cast<double>(n)))
+                                      : 0;
     const int j = k - turns * n;
     u[i] = this->knots_[j] + turns * this->length();
     values.row(i) = this->points_[j].transpose();
@@ -129,36 +132,15 @@ double PlaneCurve::refine(std::size_t segment, const Vec<2>& x, double& distance
   const double s0 = this->knots_[segment], s1 = this->knots_[segment + 1];
   if (!this->isSpline_)
   {
-    const double s =
-      s0 + (s1 - s0) * alongSegment(this->points_[segment], this->points_[segment + 1], x);
+    const double s = s0 +
+      (s1 - s0) * alongSegment(this->points_[segment], this->points_[segment + 1], x);
     distance = this->distanceAt(s, x);
     return s;
   }
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-  double a = s0, b = s1;
-  double l = b - ratio * (b - a), r = a + ratio * (b - a);
-  double fl = this->distanceAt(l, x), fr = this->distanceAt(r, x);
-  while (b - a > 1e-11 * this->length())
-  {
-    if (fl < fr)
-    {
-      b = r;
-      r = l;
-      fr = fl;
-      l = b - ratio * (b - a);
-      fl = this->distanceAt(l, x);
-    }
-    else
-    {
-      a = l;
-      l = r;
-      fl = fr;
-      r = a + ratio * (b - a);
-      fr = this->distanceAt(r, x);
-    }
-  }
-  double best = 0.5 * (a + b);
-  distance = this->distanceAt(best, x);
+  double nearest = 0.0;
+  double best = goldenSection(
+    s0, s1, SearchSteps, [&](double s) { return -this->distanceAt(s, x); }, nearest);
+  distance = -nearest;
   for (double end : { s0, s1 }) // so that a point of the polygon gets its own parameter
   {
     const double d = this->distanceAt(end, x);

@@ -9,6 +9,8 @@
 
 #include "Mesh/Types.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -145,6 +147,16 @@ public:
     return (this->cellData_[c].flags >> (FirstEdgeBit + e)) & 1;
   }
   double quality(Index c) const { return this->cellData_[c].quality; }
+  /// The least of the stored qualities; infinity if there are no cells.
+  double worstQuality(const std::vector<Index>& cells) const
+  {
+    double worst = std::numeric_limits<double>::infinity();
+    for (Index c : cells)
+    {
+      worst = std::min(worst, this->cellData_[c].quality);
+    }
+    return worst;
+  }
   Index region(Index c) const { return this->cellData_[c].region; }
   Index parent(Index c) const { return this->cellData_[c].parent; }
   const CellData& cellData(Index c) const { return this->cellData_[c]; }

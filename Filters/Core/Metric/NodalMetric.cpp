@@ -129,9 +129,9 @@ void NodalMetric<D>::resample(Index p, const Vec<D>& x, Index near)
 template <int D>
 double NodalMetric<D>::logSize(Index p) const
 {
-  return this->hasSizes_    ? this->values_[p].logSize
+  return this->hasSizes_      ? this->values_[p].logSize
     : this->constantSize_ > 0 ? std::log(this->constantSize_)
-                            : 0.0;
+                              : 0.0;
 }
 
 template <int D>

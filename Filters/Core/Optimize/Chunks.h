@@ -56,8 +56,8 @@ private:
       axis = high[i] - low[i] > high[axis] - low[axis] ? i : axis;
     }
     const int left = n / 2;
-    const Index middle =
-      begin + static_cast<Index>(static_cast<double>(end - begin) * (left + this->shift_) / n);
+    const Index middle = begin +
+      static_cast<Index>(static_cast<double>(end - begin) * (left + this->shift_) / n);
     std::nth_element(this->ids_.begin() + begin, this->ids_.begin() + middle,
       this->ids_.begin() + end,
       [&](Index a, Index b)

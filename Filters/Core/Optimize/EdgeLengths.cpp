@@ -41,8 +41,7 @@ template <int D>
 double edgeLength(const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, Index a, Index b)
 {
   const Vec<D> e = mesh.point(b) - mesh.point(a);
-  return logMeanLength(std::sqrt(e.dot(metric.unitTensor(a) * e)),
-    std::sqrt(e.dot(metric.unitTensor(b) * e)));
+  return logMeanLength(lengthIn<D>(metric.unitTensor(a), e), lengthIn<D>(metric.unitTensor(b), e));
 }
 
 template <int D>
@@ -74,8 +73,8 @@ EdgeLengths measureEdges(const SimplexMesh<D>& mesh, const NodalMetric<D>& metri
     ++result.histogram[static_cast<std::size_t>(
       std::clamp(bin, 0.0, static_cast<double>(result.histogram.size() - 1)))];
   }
-  result.share =
-    edges.empty() ? 0.0 : static_cast<double>(inRange) / static_cast<double>(edges.size());
+  result.share = edges.empty() ? 0.0
+                               : static_cast<double>(inRange) / static_cast<double>(edges.size());
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "Metric/NodalMetric.h"
 
 #include <array>
+#include <cmath>
 
 namespace meshopt
 {
@@ -14,6 +15,13 @@ namespace meshopt
 /// (l_a - l_b) / ln(l_a / l_b), which is right where ln l is linear in between.
 template <int D>
 double edgeLength(const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, Index a, Index b);
+
+/// sqrt(e' m e).
+template <int D>
+double lengthIn(const Tensor<D>& m, const Vec<D>& e)
+{
+  return std::sqrt(e.dot(m * e));
+}
 
 /// Mean length of an edge that is la long by what one end wants, lb by the other.
 double logMeanLength(double la, double lb);

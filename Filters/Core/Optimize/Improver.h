@@ -14,6 +14,7 @@
 #include "Reconnect/EdgeRemoval.h"
 #include "Reconnect/FaceRemoval.h"
 #include "Reconnect/SmallPolyhedron.h"
+#include "Reposition/GoldenSection.h"
 #include "Reposition/StarProblem.h"
 
 namespace meshopt
@@ -66,14 +67,11 @@ public:
   /// Guards against inputs whose cells overlap, where the usual geometric reasons do not hold.
   void setTangled(bool tangled) { this->tangled_ = tangled; }
 
-  /// Whether `cells`, in place of the cavity, would have an edge or a facet that is there already
-  /// outside of it. Where no cells overlap that cannot be.
-  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
-
   std::array<long, NumberOfOperations> tried{}, done{};
 
 private:
   static constexpr double Never = -std::numeric_limits<double>::infinity();
+  static constexpr int SearchSteps = 14; ///< along a curve: to a thousandth of the range
 
   double gain(double q) const
   {
@@ -111,10 +109,10 @@ private:
   double tryInsertion(Index t, Index p, Vec<D>& x, bool needGain);
   void seeds(Index t, std::vector<Vec<D>>& x) const;
   long badBalance() const;
-  double worstOf(const std::vector<Index>& cells) const;
   bool insertHere(Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
     const KeptChange<D>* kept = nullptr);
+  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }
   bool isBad(double q) const { return q < this->guard_; }

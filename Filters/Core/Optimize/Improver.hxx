@@ -95,8 +95,8 @@ void Improver<D, Shape>::place(Index p, const Vec<D>& x, Index near)
 }
 
 template <int D, class Shape>
-bool Improver<D, Shape>::replace(const std::vector<Index>& cavity,
-  const std::vector<Simplex<D>>& cells, const KeptChange<D>* kept)
+bool Improver<D, Shape>::replace(
+  const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells, const KeptChange<D>* kept)
 {
   // With `kept` the cells need not fill the cavity as it was.
   if (this->tangled_ &&
@@ -260,11 +260,7 @@ bool Improver<D, Shape>::moveNode(Index v)
   {
     return false;
   }
-  double old = std::numeric_limits<double>::infinity();
-  for (Index c : this->star_)
-  {
-    old = std::min(old, mesh.quality(c));
-  }
+  const double old = mesh.worstQuality(this->star_);
   this->loadStar(v);
   Vec<D> x = mesh.point(v);
   const double now = this->problem_.maximize(
@@ -332,12 +328,11 @@ bool Improver<D, Shape>::removeNode(Index v)
   {
     return false;
   }
-  double old = std::numeric_limits<double>::infinity();
+  const double old = mesh.worstQuality(this->star_);
   std::vector<Index> ring;
   std::vector<Facet<D>> link;
   for (Index c : this->star_)
   {
-    old = std::min(old, mesh.quality(c));
     link.push_back(mesh.facet(c, mesh.localIndex(c, v)));
     ring.insert(ring.end(), link.back().begin(), link.back().end());
   }

@@ -7,39 +7,6 @@
 
 namespace meshopt
 {
-namespace boundary
-{
-/// Greatest value of a function of one variable that rises, then falls: golden section.
-template <class F>
-double maximizeBetween(double a, double b, F&& f, double& best)
-{
-  constexpr double ratio = 0.6180339887498949;
-  double l = b - ratio * (b - a), r = a + ratio * (b - a);
-  double fl = f(l), fr = f(r);
-  for (int k = 0; k < 14; ++k)
-  {
-    if (fl < fr)
-    {
-      a = l;
-      l = r;
-      fl = fr;
-      r = a + ratio * (b - a);
-      fr = f(r);
-    }
-    else
-    {
-      b = r;
-      r = l;
-      fr = fl;
-      l = b - ratio * (b - a);
-      fl = f(l);
-    }
-  }
-  best = fl < fr ? fr : fl;
-  return fl < fr ? r : l;
-}
-}
-
 template <int D, class Shape>
 bool Improver<D, Shape>::changeBoundary([[maybe_unused]] Index t, [[maybe_unused]] int level)
 {
@@ -77,24 +44,18 @@ bool Improver<D, Shape>::slideNode([[maybe_unused]] Index v)
     {
       return false;
     }
-    const std::vector<Index> ends = neighboursOnPiece(mesh, this->star_, v);
-    const auto low = ends.size() == 2 ? this->curves_->span(mesh, v, ends[0]) : std::nullopt;
-    const auto high = ends.size() == 2 ? this->curves_->span(mesh, v, ends[1]) : std::nullopt;
-    if (!low || !high)
+    const auto range = slidingRange(*this->curves_, mesh, this->star_, v);
+    if (!range)
     {
       return false;
     }
-    double old = std::numeric_limits<double>::infinity();
-    for (Index c : this->star_)
-    {
-      old = std::min(old, mesh.quality(c));
-    }
+    const double old = mesh.worstQuality(this->star_);
     this->loadStar(v);
-    const Index piece = low->piece;
-    const double s = low->from, part = 0.8;
+    const Index piece = mesh.pointData(v).curve;
+    const double s = mesh.pointData(v).parameter, part = 0.8;
     double now = Never;
-    const double there = boundary::maximizeBetween(s + part * (low->to - s),
-      s + part * (high->to - s),
+    const double there = goldenSection(
+      s + part * (range->low - s), s + part * (range->high - s), SearchSteps,
       [&](double u) { return this->problem_.evaluate(this->curves_->at(piece, u)); }, now);
     const bool better = now > old + gain(old);
     this->count(Operation::NodeMotion, better);
@@ -126,12 +87,11 @@ bool Improver<D, Shape>::removeSlidingNode([[maybe_unused]] Index v)
     {
       return false;
     }
-    const std::vector<Index> ends = neighboursOnPiece(mesh, this->star_, v);
+    const auto range = slidingRange(*this->curves_, mesh, this->star_, v);
     bool done = false;
-    for (std::size_t k = 0; k < 2 && ends.size() == 2 && !done; ++k)
+    for (std::size_t k = 0; k < 2 && range && !done; ++k)
     {
-      done = this->edgeChange_.contract(*this->editor_, this->curves_, v, ends[k]) &&
-        keepsShape(*this->curves_, mesh, v, ends[k], ends[1 - k]) &&
+      done = this->edgeChange_.contract(*this->editor_, this->curves_, v, range->ends[k]) &&
         this->replaceKept(this->edgeChange_);
     }
     this->count(Operation::EdgeContraction, done);
@@ -160,11 +120,11 @@ bool Improver<D, Shape>::splitBoundary([[maybe_unused]] Index t, [[maybe_unused]
       const Vec<2> x = this->curves_->at(span->piece, s);
       const Corners<2> first{ mesh.point(f[0]), x, mesh.point(apex) };
       const Corners<2> second{ x, mesh.point(f[1]), mesh.point(apex) };
-      return std::min(this->model_->quality.value(first, metric),
-        this->model_->quality.value(second, metric));
+      return std::min(
+        this->model_->quality.value(first, metric), this->model_->quality.value(second, metric));
     };
     double best = Never;
-    const double s = boundary::maximizeBetween(span->from, span->to, quality, best);
+    const double s = goldenSection(span->from, span->to, SearchSteps, quality, best);
     const Vec<2> x = this->curves_->at(span->piece, s);
     const Place start = this->begin();
     const Index p = this->editor_->addPoint(x);
@@ -187,11 +147,7 @@ bool Improver<D, Shape>::splitBoundary([[maybe_unused]] Index t, [[maybe_unused]
 template <int D, class Shape>
 bool Improver<D, Shape>::replaceKept(const EdgeChange<D>& change)
 {
-  double old = std::numeric_limits<double>::infinity();
-  for (Index c : change.cavity)
-  {
-    old = std::min(old, this->editor_->mesh().quality(c));
-  }
+  const double old = this->editor_->mesh().worstQuality(change.cavity);
   for (const Simplex<D>& cell : change.cells)
   {
     if (!((*this->model_)(cell) > old + gain(old)))

@@ -111,17 +111,6 @@ bool Improver<D, Shape>::insertHere(Index p, const Vec<D>& x)
   return this->replace(this->cavity_.cells(), this->cells_);
 }
 
-template <int D, class Shape>
-double Improver<D, Shape>::worstOf(const std::vector<Index>& cells) const
-{
-  double worst = std::numeric_limits<double>::infinity();
-  for (Index c : cells)
-  {
-    worst = std::min(worst, this->editor_->mesh().quality(c));
-  }
-  return worst;
-}
-
 /// Bad cells of the insertion last tried, less those of its cavity.
 template <int D, class Shape>
 long Improver<D, Shape>::badBalance() const
@@ -156,7 +145,8 @@ bool Improver<D, Shape>::insert(Index t)
       const Place before = this->begin();
       done = this->insertHere(p, x[k]) &&
         (this->model_->plain ||
-          (this->worstOf(this->editor_->created()) > old + gain(old) && this->bad_ <= start.bad));
+          (this->editor_->mesh().worstQuality(this->editor_->created()) > old + gain(old) &&
+            this->bad_ <= start.bad));
       done ? this->commit(before) : this->rollback(before);
       if (!done)
       {

@@ -16,12 +16,25 @@ namespace
 {
 /// What may be added once the number of elements is what the sizes ask for.
 constexpr double GrowthAfterSizes = 0.05;
+/// Progress when the mesh is untangled, and when it has its sizes.
+constexpr double Untangled = 0.2, Sized = 0.6;
 
 template <int D>
-bool wantsSizes(
-  const NodalMetric<D>& metric, const Options& options, const BoundaryCurves* curves)
+bool wantsSizes(const NodalMetric<D>& metric, const Options& options, const BoundaryCurves* curves)
 {
   return (options.beta > 0.0 || curves) && (options.desiredSize > 0.0 || metric.hasSizes());
+}
+
+/// A control whose progress goes from `first` to `last` of the whole.
+Control partOf(const Control& control, double first, double last)
+{
+  Control part = control;
+  if (control.progress)
+  {
+    part.progress = [&control, first, last](double fraction, const std::string& text)
+    { return control.progress(first + fraction * (last - first), text); };
+  }
+  return part;
 }
 
 /// Sizes first, then the worst elements. Should the worst be lower in the end than it was and than is
@@ -35,13 +48,14 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   {
     Options left = options;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    left.timeLimit =
-      options.timeLimit > 0.0 ? std::max(options.timeLimit - spent.count(), 1e-9) : 0.0;
+    left.timeLimit = options.timeLimit > 0.0 ? std::max(options.timeLimit - spent.count(), 1e-9)
+                                             : 0.0;
     return left;
   };
   if (report.invertedBefore > 0) // where cells overlap, lengths say little: untangle first
   {
-    optimizeWorstFirst<D>(editor, metric, timeLeft(), control, report, curves);
+    const Control untangling = partOf(control, 0.0, Untangled);
+    optimizeWorstFirst<D>(editor, metric, timeLeft(), untangling, report, curves);
     long inverted = 0;
     summarize(editor.mesh(), options.targetQuality, &inverted);
     if (inverted > 0 || report.stopReason == StopReason::Aborted ||
@@ -52,13 +66,15 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   }
   const SimplexMesh<D> meshBefore = editor.mesh();
   const NodalMetric<D> metricBefore = metric;
-  const bool more = followSizes<D>(editor, metric, options, control, curves, report);
+  const double worstBefore = report.history.back().worst;
+  const Control sizing = partOf(control, Untangled, Sized), improving = partOf(control, Sized, 1.0);
+  const bool more = followSizes<D>(editor, metric, timeLeft(), sizing, curves, report);
   computeQualities<D>(editor, metric, options.measure, options.beta);
   if (more)
   {
     Options rest = timeLeft();
     rest.growthBudget = std::min(rest.growthBudget, GrowthAfterSizes);
-    optimizeWorstFirst<D>(editor, metric, rest, control, report, curves);
+    optimizeWorstFirst<D>(editor, metric, rest, improving, report, curves);
   }
   else
   {
@@ -66,7 +82,7 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
     report.stopReason = isLate ? StopReason::TimeLimit : StopReason::Aborted;
   }
   const double worst = summarize(editor.mesh(), options.targetQuality).worst;
-  if (worst < std::min(report.worstBefore, options.targetQuality))
+  if (worst < std::min(worstBefore, options.targetQuality))
   {
     editor.mesh() = meshBefore;
     metric = metricBefore;
@@ -77,16 +93,15 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
     report.history.push_back(row);
     if (report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit)
     {
-      optimizeWorstFirst<D>(editor, metric, timeLeft(), control, report, curves);
+      optimizeWorstFirst<D>(editor, metric, timeLeft(), partOf(control, 1.0, 1.0), report, curves);
     }
   }
 }
 }
 
 template <int D>
-Report optimize(
-  SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options, const Control& control,
-  const BoundaryCurves* curves)
+Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options,
+  const Control& control, const BoundaryCurves* curves)
 {
   const auto begin = std::chrono::steady_clock::now();
   Report report;
@@ -122,6 +137,8 @@ Report optimize(
   return report;
 }
 
-template Report optimize<2>(SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*);
-template Report optimize<3>(SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*);
+template Report optimize<2>(
+  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*);
+template Report optimize<3>(
+  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*);
 }

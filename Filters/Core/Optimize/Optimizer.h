@@ -19,9 +19,8 @@ namespace meshopt
 /// edges as long as is wanted (SizeStage.h); then the worst quality may fall, but not below targetQuality.
 /// Preconditions: options.check(...) is empty; the mesh was built without error.
 template <int D>
-Report optimize(
-  SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options, const Control& control,
-  const BoundaryCurves* curves = nullptr);
+Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options,
+  const Control& control, const BoundaryCurves* curves = nullptr);
 
 extern template Report optimize<2>(
   SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*);

@@ -20,11 +20,6 @@ SizeStage<D>::SizeStage(MeshEditor<D>& editor, NodalMetric<D>& metric, const Opt
   , improver_(editor, this->model_, this->caps_, options)
 {
   this->improver_.setGrowth(std::numeric_limits<long>::max() / 2);
-  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
-  {
-    this->tangled_ |= this->mesh().isAlive(c) && !(this->mesh().quality(c) > 0.0);
-  }
-  this->improver_.setTangled(this->tangled_);
   for (Index p = 0; p < this->mesh().numberOfPointSlots(); ++p)
   {
     if (this->mesh().isPointAlive(p))
@@ -35,30 +30,29 @@ SizeStage<D>::SizeStage(MeshEditor<D>& editor, NodalMetric<D>& metric, const Opt
 }
 
 template <int D>
-bool SizeStage<D>::keepGoing(int round)
+bool SizeStage<D>::keepGoing()
 {
   const bool inTime = this->options_.timeLimit <= 0.0 ||
     std::chrono::duration<double>(std::chrono::steady_clock::now() - this->begin_).count() <
       this->options_.timeLimit;
   return inTime &&
-    this->progress_.report(0.5 * round / MaximumRounds,
+    this->progress_.report(static_cast<double>(this->round_) / MaximumRounds,
       [] { return std::string("making edges as long as wanted"); });
 }
 
 template <int D>
-void SizeStage<D>::record(int round)
+void SizeStage<D>::record()
 {
   // The history is about the quality that the caller wants.
   computeQualities<D>(this->editor_, this->metric_, this->options_.measure, this->options_.beta);
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality);
   computeQualities<D>(this->editor_, this->metric_, Measure::Shape, 0.0);
-  row.stage = "sizes, round " + std::to_string(round + 1);
+  row.stage = "sizes, round " + std::to_string(this->round_ + 1);
   row.done = this->improver_.done;
   row.tried = this->improver_.tried;
-  for (const auto& [op, count] :
-    { std::pair{ Operation::NodeInsertion, this->splits_ },
-      std::pair{ Operation::EdgeContraction, this->contractions_ },
-      std::pair{ Operation::NodeMotion, this->motions_ } })
+  for (const auto& [op, count] : { std::pair{ Operation::NodeInsertion, this->splits_ },
+         std::pair{ Operation::EdgeContraction, this->contractions_ },
+         std::pair{ Operation::NodeMotion, this->motions_ } })
   {
     row.done[static_cast<int>(op)] += count;
     row.tried[static_cast<int>(op)] += count;
@@ -78,14 +72,15 @@ bool SizeStage<D>::run()
   const double predicted = this->metric_.predictedNumberOfElements(this->mesh());
   this->longest_ = std::max(Longest, 0.5 * this->longestEdge());
   int corrections = 0;
-  for (int round = 0, last = MaximumRounds; round < last; ++round)
+  int last = MaximumRounds;
+  for (this->round_ = 0; this->round_ < last; ++this->round_)
   {
     long changes = this->contract(); // first: what is too fine in one direction is split in another
     changes += this->split();
     changes += this->contract();
     this->smooth();
-    this->record(round);
-    if (!this->keepGoing(round))
+    this->record();
+    if (!this->keepGoing())
     {
       return false;
     }
@@ -121,8 +116,8 @@ bool followSizes(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& o
   return sizes::SizeStage<D>(editor, metric, options, control, curves, report).run();
 }
 
-template bool followSizes<2>(MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&,
-  const BoundaryCurves*, Report&);
-template bool followSizes<3>(MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&,
-  const BoundaryCurves*, Report&);
+template bool followSizes<2>(
+  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*, Report&);
+template bool followSizes<3>(
+  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*, Report&);
 }

@@ -16,18 +16,19 @@ namespace meshopt
 /// raises the worse quality, and nodes move to where their edges have the wanted length. Once nothing
 /// is left to do, h* is scaled a little such that the number of elements is the predicted one (5.3).
 ///
-/// The surface is kept but for what may slide along `curves` (null: nothing). No cell is inverted,
-/// and no quality falls under both a tenth of what it was and .3. Qualities are in the end those of the
+/// Precondition: no cell is inverted or flat. The surface is kept but for what may slide along `curves`
+/// (null: nothing). No cell gets inverted,
+/// and a quality falls under .3 only where an edge of a bad cell is split. Qualities are in the end those of the
 /// shape in the metric (Measure::Shape, beta = 0): the caller computes his own anew. Appends rows to
 /// report.history. Returns false if the caller asked to stop.
 template <int D>
 bool followSizes(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
   const Control& control, const BoundaryCurves* curves, Report& report);
 
-extern template bool followSizes<2>(MeshEditor<2>&, NodalMetric<2>&, const Options&,
-  const Control&, const BoundaryCurves*, Report&);
-extern template bool followSizes<3>(MeshEditor<3>&, NodalMetric<3>&, const Options&,
-  const Control&, const BoundaryCurves*, Report&);
+extern template bool followSizes<2>(
+  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*, Report&);
+extern template bool followSizes<3>(
+  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*, Report&);
 }
 
 #endif

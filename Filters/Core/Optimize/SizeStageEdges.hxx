@@ -28,18 +28,8 @@ template <int D>
 double SizeStage<D>::length(Index a, Index b) const
 {
   const Vec<D> e = this->mesh().point(b) - this->mesh().point(a);
-  return logMeanLength(lengthIn<D>(this->units_[a], e), lengthIn<D>(this->units_[b], e)) / this->scale_;
-}
-
-template <int D>
-double SizeStage<D>::worstOf(const std::vector<Index>& cells) const
-{
-  double worst = std::numeric_limits<double>::infinity();
-  for (Index c : cells)
-  {
-    worst = std::min(worst, this->mesh().quality(c));
-  }
-  return worst;
+  return logMeanLength(lengthIn<D>(this->units_[a], e), lengthIn<D>(this->units_[b], e)) /
+    this->scale_;
 }
 
 /// Whether all these cells are better than `least`; their qualities go to qualities_.
@@ -102,8 +92,8 @@ void SizeStage<D>::swapAround(Push&& push)
     }
     if (this->options_.reconnect && this->improver_.swap(c))
     {
-      this->stack_.insert(this->stack_.end(), this->improver_.changed().begin(),
-        this->improver_.changed().end());
+      this->stack_.insert(
+        this->stack_.end(), this->improver_.changed().begin(), this->improver_.changed().end());
     }
     else
     {
@@ -165,7 +155,7 @@ long SizeStage<D>::split()
     }
     ++done;
     this->swapAround([this](Index c) { this->push(c, true); });
-    if (done % 256 == 0 && !this->keepGoing(0))
+    if (done % 256 == 0 && !this->keepGoing())
     {
       break;
     }
@@ -187,11 +177,10 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
   CurvePlace<D> place;
   if constexpr (D == 2)
   {
-    const int i =
-      3 - this->mesh().localIndex(edge.cell, a) - this->mesh().localIndex(edge.cell, b);
+    const int i = 3 - this->mesh().localIndex(edge.cell, a) - this->mesh().localIndex(edge.cell, b);
     const bool kept = this->mesh().isConstrained(edge.cell, i);
-    const auto span =
-      kept && this->curves_ ? this->curves_->span(this->mesh(), a, b) : std::nullopt;
+    const auto span = kept && this->curves_ ? this->curves_->span(this->mesh(), a, b)
+                                            : std::nullopt;
     if (kept && !span)
     {
       return false;
@@ -208,12 +197,12 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
   if (this->change_.split(this->editor_, this->curves_, edge.cell, a, b, p) &&
     this->isAboutLongest(this->change_.cavity, edge.length))
   {
-    const double worst = this->worstOf(this->change_.cavity);
-    if (this->measure(this->change_.cells, std::min(0.3 * worst, GoodEnough)))
+    const double worst = this->mesh().worstQuality(this->change_.cavity);
+    if (this->measure(this->change_.cells, std::min(WorstSplit * worst, GoodEnough)))
     {
       this->editor_.setCurvePlace(p, place);
-      this->editor_.replace(this->change_.cavity, this->change_.cells, this->qualities_,
-        this->change_.keptChange());
+      this->editor_.replace(
+        this->change_.cavity, this->change_.cells, this->qualities_, this->change_.keptChange());
       return true;
     }
   }
@@ -245,11 +234,10 @@ long SizeStage<D>::contract()
     {
       continue;
     }
-    this->measure(best.cells, -std::numeric_limits<double>::infinity());
-    this->editor_.replace(best.cavity, best.cells, this->qualities_, best.keptChange());
+    this->editor_.replace(best.cavity, best.cells, this->bestQualities_, best.keptChange());
     ++done;
     this->swapAround([this](Index c) { this->push(c, false); });
-    if (done % 256 == 0 && !this->keepGoing(0))
+    if (done % 256 == 0 && !this->keepGoing())
     {
       break;
     }
@@ -266,24 +254,9 @@ bool SizeStage<D>::contractEdge(Index v, Index u, double& above, EdgeChange<D>& 
   {
     return false;
   }
-  if constexpr (D == 2)
-  {
-    if (this->change_.changesKept)
-    {
-      const std::array<Index, 2>& came = this->change_.kept.come[0];
-      if (!keepsShape(*this->curves_, this->mesh(), v, came[0], came[1]))
-      {
-        return false;
-      }
-    }
-  }
-  const double least =
-    std::max(above, std::max(0.0, std::min(this->worstOf(this->change_.cavity), GoodEnough)));
-  if (!this->measure(this->change_.cells, least) ||
-    (this->tangled_ &&
-      ((!this->change_.changesKept &&
-         !fillsCavity<D>(this->mesh(), this->change_.cavity, this->change_.cells)) ||
-        this->improver_.conflicts(this->change_.cavity, this->change_.cells))))
+  const double least = std::max(
+    above, std::max(0.0, std::min(this->mesh().worstQuality(this->change_.cavity), GoodEnough)));
+  if (!this->measure(this->change_.cells, least))
   {
     return false;
   }
@@ -307,6 +280,7 @@ bool SizeStage<D>::contractEdge(Index v, Index u, double& above, EdgeChange<D>& 
   }
   above = *std::min_element(this->qualities_.begin(), this->qualities_.end());
   best = this->change_;
+  this->bestQualities_ = this->qualities_;
   return true;
 }
 }

@@ -85,41 +85,44 @@ bool SizeStage<D>::moveNode(Index v)
     return false; // nothing has changed since it failed
   }
   this->failedAt_[v] = this->editor_.clock();
-  const double worst = this->worstOf(this->star_), energy = this->energyAround(v);
-  const Vec<D> x = point.x;
-  CurvePlace<D> place = point;
+  const double worst = this->mesh().worstQuality(this->star_), energy = this->energyAround(v);
+  return this->mesh().isFixed(v) ? this->moveSlidingNode(v, worst, energy)
+                                 : this->moveFreeNode(v, worst, energy);
+}
+
+/// Towards that neighbour on its piece which is farther away.
+template <int D>
+bool SizeStage<D>::moveSlidingNode(
+  [[maybe_unused]] Index v, [[maybe_unused]] double worst, [[maybe_unused]] double energy)
+{
   if constexpr (D == 2)
   {
-    if (this->mesh().isFixed(v))
+    const auto range = slidingRange(*this->curves_, this->mesh(), this->star_, v);
+    if (!range)
     {
-      const std::vector<Index> ends = neighboursOnPiece(this->mesh(), this->star_, v);
-      if (ends.size() != 2)
-      {
-        return false;
-      }
-      const auto low = this->curves_->span(this->mesh(), v, ends[0]);
-      const auto high = this->curves_->span(this->mesh(), v, ends[1]);
-      if (!low || !high)
-      {
-        return false;
-      }
-      // towards the end that is farther away
-      const double l0 = this->length(v, ends[0]), l1 = this->length(v, ends[1]);
-      const double to = l0 > l1 ? low->to : high->to;
-      const double s = place.parameter;
-      for (double part : { 0.5, 0.25 })
-      {
-        place.parameter = s + part * std::fabs(l0 - l1) / std::max(l0, l1) * (to - s);
-        if (this->tryPlace(
-              v, this->curves_->at(place.curve, place.parameter), place, worst, energy))
-        {
-          return true;
-        }
-      }
       return false;
     }
+    const double l0 = this->length(v, range->ends[0]), l1 = this->length(v, range->ends[1]);
+    const double to = l0 > l1 ? range->low : range->high;
+    CurvePlace<2> place = this->mesh().pointData(v);
+    const double s = place.parameter;
+    for (double part : { 0.5, 0.25 })
+    {
+      place.parameter = s + part * std::fabs(l0 - l1) / std::max(l0, l1) * (to - s);
+      if (this->tryPlace(v, this->curves_->at(place.curve, place.parameter), place, worst, energy))
+      {
+        return true;
+      }
+    }
   }
-  // the mean of where each edge would put v to be of the wanted length
+  return false;
+}
+
+/// To the mean of where each edge would put v to be of the wanted length, or part of the way.
+template <int D>
+bool SizeStage<D>::moveFreeNode(Index v, double worst, double energy)
+{
+  const Vec<D> x = this->mesh().point(v);
   Vec<D> target = Vec<D>::Zero();
   for (Index w : this->neighbours_)
   {
@@ -129,7 +132,7 @@ bool SizeStage<D>::moveNode(Index v)
   target /= static_cast<double>(this->neighbours_.size());
   for (double part : { 1.0, 0.5, 0.25 })
   {
-    if (this->tryPlace(v, Vec<D>(x + part * (target - x)), place, worst, energy))
+    if (this->tryPlace(v, Vec<D>(x + part * (target - x)), CurvePlace<D>(), worst, energy))
     {
       return true;
     }

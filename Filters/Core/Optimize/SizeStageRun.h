@@ -33,8 +33,9 @@ constexpr double GreatestScale = 1.25;
 constexpr double Jitter = 0.1;
 /// An edge is split if no cell at it has one that is longer than it by more than this factor.
 constexpr double LongestFirst = 0.7;
-/// No change may make a quality lower than both this and what was there.
-constexpr double GoodEnough = 0.3;
+/// A contraction or a motion makes no quality lower than both this (a motion: twice this) and the worst
+/// that was there; a split may make it lower by a factor, since what it splits comes out worse at first.
+constexpr double GoodEnough = 0.3, WorstSplit = 0.3;
 
 /// Where an edge with the lengths la and lb by its ends is halved, from a on, as a part of the way; not too near to an end.
 inline double metricMiddle(double la, double lb)
@@ -54,12 +55,6 @@ inline double noise(Index a, Index b)
 }
 
 template <int D>
-double lengthIn(const Tensor<D>& m, const Vec<D>& e)
-{
-  return std::sqrt(e.dot(m * e));
-}
-
-template <int D>
 class SizeStage
 {
 public:
@@ -73,7 +68,7 @@ private:
   struct Edge
   {
     double length;
-    Index a, b, cell; // a < b
+    Index a, b, cell;                       // a < b
     bool operator<(const Edge& other) const // the greatest comes first
     {
       return std::tie(this->length, other.a, other.b, other.cell) <
@@ -92,18 +87,19 @@ private:
   bool splitEdge(const Edge& edge);
   bool contractEdge(Index v, Index u, double& above, EdgeChange<D>& best);
   bool moveNode(Index v);
+  bool moveFreeNode(Index v, double worst, double energy);
+  bool moveSlidingNode(Index v, double worst, double energy);
   bool tryPlace(Index v, const Vec<D>& x, const CurvePlace<D>& place, double worst, double energy);
   template <class Push>
   void swapAround(Push&& push);
   void collectQueue(bool isLong);
   void push(Index c, bool isLong);
   bool measure(const std::vector<Simplex<D>>& cells, double least);
-  double worstOf(const std::vector<Index>& cells) const;
   double energyAround(Index v);
   void sample(Index p, Index near);
   double length(Index a, Index b) const;
-  void record(int round);
-  bool keepGoing(int round);
+  void record();
+  bool keepGoing();
 
   const SimplexMesh<D>& mesh() const { return this->editor_.mesh(); }
 
@@ -119,14 +115,14 @@ private:
   EdgeChange<D> change_;
 
   std::vector<Tensor<D>> units_; // M / h*^2 at the points
-  bool tangled_ = false;                        // there are inverted cells
-  double scale_ = 1.0;                          // of h*
-  double longest_ = Longest;                    // longer edges are split
+  int round_ = 0;
+  double scale_ = 1.0;       // of h*
+  double longest_ = Longest; // longer edges are split
   std::uint32_t swappedAt_ = 0;
   std::vector<std::uint32_t> failedAt_; // when a node could not be moved to advantage
   Queue queue_;
   std::vector<Index> star_, neighbours_, stack_;
-  std::vector<double> qualities_;
+  std::vector<double> qualities_, bestQualities_;
   long splits_ = 0, contractions_ = 0, motions_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

@@ -187,8 +187,8 @@ void WorstFirst<D, Shape>::run()
   const double highest = this->options_.effort == Effort::Best
     ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
     : this->options_.targetQuality;
-  this->caps_.build(this->mesh(), this->options_.measure, highest,
-    this->metric_.isTrivial() && !this->curves_);
+  this->caps_.build(
+    this->mesh(), this->options_.measure, highest, this->metric_.isTrivial() && !this->curves_);
   this->report_.bound = this->caps_.bound();
   const std::vector<double> stages = this->stages();
   bool more = true;
@@ -279,168 +279,6 @@ void WorstFirst<D, Shape>::collect(double target, int level, std::vector<Index>&
   }
 }
 
-/// Chunks, their queues and slots: a function of the mesh and of the bad cells only.
-template <int D, class Shape>
-void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& bad)
-{
-  const Index cells = this->mesh().numberOfCellSlots();
-  const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
-  int n = static_cast<int>(
-    std::min<long>(cells / CellsPerChunk, static_cast<long>(bad.size()) / each));
-  n = this->tangled_ ? 1 : std::min(std::max(n, 1), MaximumChunks); // tangled: checks look anywhere
-  this->numberOfChunks_ = n;
-  if (n > 1)
-  {
-    this->chunks_.assign(this->editor_, n, Shifts[this->variant_++ % 3]);
-  }
-  while (static_cast<int>(this->workers_.size()) < n)
-  {
-    this->workers_.push_back(
-      std::make_unique<Worker>(
-        this->editor_, this->model_, this->caps_, this->options_, this->curves_));
-  }
-  // All slots that are free go round, then the mesh grows, if several are to work at once.
-  std::vector<Index>& freeCells = this->editor_.freeCells();
-  std::vector<Index>& freePoints = this->editor_.freePoints();
-  const Index cellRoom = n > 1 ? 256 + cells / n / 8 : 0;
-  const Index pointRoom = n > 1 ? 64 + this->mesh().numberOfPointSlots() / n / 8 : 0;
-  this->editor_.growCells(std::max<Index>(0, n * cellRoom - static_cast<Index>(freeCells.size())));
-  this->editor_.growPoints(
-    std::max<Index>(0, n * pointRoom - static_cast<Index>(freePoints.size())));
-  const auto take = [](std::vector<Index>& from, std::size_t count, std::vector<Index>& to)
-  {
-    to.assign(from.end() - count, from.end());
-    from.resize(from.size() - count);
-  };
-  for (int k = 0; k < n; ++k)
-  {
-    Worker& w = *this->workers_[k];
-    w.editor.setOwner(n > 1 ? k : None);
-    w.editor.setClock(this->editor_.clock());
-    w.editor.setLastMark(this->editor_.lastMark());
-    take(freeCells, n > 1 ? cellRoom : freeCells.size(), w.editor.freeCells());
-    take(freePoints, n > 1 ? pointRoom : freePoints.size(), w.editor.freePoints());
-    w.improver.setGrowth((this->growth_ - (this->guard_ ? this->reserve_ : 0)) / n);
-    w.improver.setTangled(this->tangled_);
-    w.improver.setGain(this->gain_);
-    w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
-    w.kept = w.tries = 0;
-    w.isPatient = true;
-  }
-  if (!this->metric_.isTrivial())
-  {
-    this->metric_.reserve(this->mesh().numberOfPointSlots() + (n > 1 ? 0 : 1));
-  }
-  for (Index c : bad)
-  {
-    const int k = n > 1 ? this->mesh().pointData(this->mesh().nodes(c)[0]).owner : 0;
-    if (this->workers_[k]->editor.owns(c))
-    {
-      this->workers_[k]->queue.emplace(this->mesh().quality(c), c);
-    }
-  }
-}
-
-/// Takes back what the workers hold.
-template <int D, class Shape>
-void WorstFirst<D, Shape>::gather()
-{
-  long left = 0;
-  for (int k = 0; k < this->numberOfChunks_; ++k)
-  {
-    Worker& w = *this->workers_[k];
-    const auto give = [](std::vector<Index>& from, std::vector<Index>& to)
-    {
-      to.insert(to.end(), from.begin(), from.end());
-      from.clear();
-    };
-    give(w.editor.freeCells(), this->editor_.freeCells());
-    give(w.editor.freePoints(), this->editor_.freePoints());
-    this->editor_.setClock(std::max(this->editor_.clock(), w.editor.clock()));
-    this->editor_.setLastMark(std::max(this->editor_.lastMark(), w.editor.lastMark()));
-    left += w.improver.growth();
-    this->kept_ += w.kept;
-    for (int op = 0; op < NumberOfOperations; ++op)
-    {
-      this->tried_[op] += std::exchange(w.improver.tried[op], 0);
-      this->done_[op] += std::exchange(w.improver.done[op], 0);
-    }
-    w.queue = Queue();
-  }
-  this->growth_ = left + (this->guard_ ? this->reserve_ : 0);
-}
-
-template <int D, class Shape>
-void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Index>& bad)
-{
-  this->kept_ = 0;
-  this->tried_.fill(0);
-  this->done_.fill(0);
-  this->distribute(target, bad);
-  const auto body = [&](int k) { this->work(*this->workers_[k], target, level); };
-  bool more = true;
-  while (more && this->keepGoing(target))
-  {
-    if (this->numberOfChunks_ > 1 && this->control_.parallelFor)
-    {
-      this->control_.parallelFor(this->numberOfChunks_, body);
-    }
-    else
-    {
-      for (int k = 0; k < this->numberOfChunks_; ++k)
-      {
-        body(k);
-      }
-    }
-    more = false;
-    for (int k = 0; k < this->numberOfChunks_; ++k)
-    {
-      more |= !this->workers_[k]->queue.empty();
-    }
-  }
-  this->gather();
-}
-
-/// Drains the queue of one chunk, up to a number of tries.
-template <int D, class Shape>
-void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
-{
-  const SimplexMesh<D>& mesh = this->mesh();
-  for (long tries = Tries[level]; tries > 0 && !w.queue.empty() && !this->outOfTime();)
-  {
-    const auto [q, c] = w.queue.top();
-    w.queue.pop();
-    // Without patience cells are still tried cheaply: a border may have kept them from it before.
-    const long more = this->model_.plain ? 1 : Hurry;
-    w.isPatient = w.isPatient &&
-      (w.tries * more < PatientTries || w.kept * Patience[level] >= w.tries * more);
-    level = w.isPatient ? level : Improver<D, Shape>::Topology;
-    if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
-      this->caps_.isCapped(mesh, c))
-    {
-      continue;
-    }
-    --tries;
-    ++w.tries;
-    w.editor.resetBlocked();
-    if (w.improver.improve(c, level))
-    {
-      ++w.kept;
-      for (Index changed : w.improver.changed())
-      {
-        if (mesh.isAlive(changed) && mesh.quality(changed) < target)
-        {
-          w.queue.emplace(mesh.quality(changed), changed);
-        }
-      }
-    }
-    else if (!w.editor.blocked())
-    {
-      w.editor.setFailed(c, w.editor.clock(), this->rank(level));
-    }
-  }
-}
-
 template <int D, class Shape>
 bool WorstFirst<D, Shape>::outOfTime() const
 {
@@ -527,13 +365,14 @@ void runWorstFirst(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options&
 }
 }
 
+#include "Optimize/WorstFirstChunks.hxx"
 #include "Optimize/WorstFirstPolish.hxx"
 
 /// Instantiates the engine for a measure in both dimensions.
-#define MESHOPT_INSTANTIATE_WORST_FIRST(Shape)                                 \
-  template void runWorstFirst<2, Shape<2>>(                                    \
-    MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, const BoundaryCurves*); \
-  template void runWorstFirst<3, Shape<3>>(                                    \
-    MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&, const BoundaryCurves*);
+#define MESHOPT_INSTANTIATE_WORST_FIRST(Shape)                                              \
+  template void runWorstFirst<2, Shape<2>>(MeshEditor<2>&, NodalMetric<2>&, const Options&, \
+    const Control&, Report&, const BoundaryCurves*);                                        \
+  template void runWorstFirst<3, Shape<3>>(MeshEditor<3>&, NodalMetric<3>&, const Options&, \
+    const Control&, Report&, const BoundaryCurves*);
 
 #endif

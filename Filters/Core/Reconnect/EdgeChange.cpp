@@ -7,6 +7,9 @@ namespace meshopt
 {
 namespace
 {
+/// How far the curve may go from a new edge of the boundary, in parts of the edge's length.
+constexpr double Sagitta = 0.1;
+
 template <int D>
 Simplex<D> exchanged(Simplex<D> cell, Index from, Index to)
 {
@@ -28,10 +31,10 @@ int localEdge(const SimplexMesh<3>& mesh, Index t, Index a, Index b)
 }
 }
 
-std::vector<Index> neighboursOnPiece(
-  const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v)
+std::optional<SlidingRange> slidingRange(
+  const BoundaryCurves& curves, const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v)
 {
-  std::vector<Index> result;
+  std::vector<Index> ends; // over kept facets
   for (Index c : star)
   {
     for (int i = 0; i < 3; ++i)
@@ -39,23 +42,19 @@ std::vector<Index> neighboursOnPiece(
       const Facet<2> f = mesh.facet(c, i);
       if (mesh.isConstrained(c, i) && (f[0] == v || f[1] == v))
       {
-        result.push_back(f[0] == v ? f[1] : f[0]);
+        ends.push_back(f[0] == v ? f[1] : f[0]);
       }
     }
   }
-  std::sort(result.begin(), result.end()); // the order of the star must not matter
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
-}
-
-bool keepsShape(
-  const BoundaryCurves& curves, const SimplexMesh<2>& mesh, Index v, Index u, Index w)
-{
-  constexpr double share = 0.1;
-  const auto toU = curves.span(mesh, v, u), toW = curves.span(mesh, v, w);
-  return toU && toW &&
-    curves.sagitta({ toU->piece, toU->to, toW->to }) <=
-    share * (mesh.point(u) - mesh.point(w)).norm();
+  std::sort(ends.begin(), ends.end()); // the order of the star must not matter
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  if (mesh.pointData(v).curve == None || ends.size() != 2)
+  {
+    return std::nullopt;
+  }
+  const auto low = curves.span(mesh, v, ends[0]), high = curves.span(mesh, v, ends[1]);
+  return low && high ? std::optional<SlidingRange>({ { ends[0], ends[1] }, low->to, high->to })
+                     : std::nullopt;
 }
 
 template <int D>
@@ -138,18 +137,17 @@ bool EdgeChange<D>::contract(
   {
     if constexpr (D == 2)
     {
-      const std::vector<Index> ends = neighboursOnPiece(mesh, this->cavity, v);
-      if (!curves || mesh.pointData(v).curve == None || ends.size() != 2 ||
-        (ends[0] != u && ends[1] != u))
+      const auto range = curves ? slidingRange(*curves, mesh, this->cavity, v) : std::nullopt;
+      if (!range || (range->ends[0] != u && range->ends[1] != u))
       {
         return false;
       }
-      const Index w = ends[0] == u ? ends[1] : ends[0];
+      const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
       const bool isEar = std::any_of(this->cavity.begin(), this->cavity.end(),
         [&](Index c) { return mesh.localIndex(c, u) >= 0 && mesh.localIndex(c, w) >= 0; });
-      const auto toU = curves->span(mesh, v, u), toW = curves->span(mesh, v, w);
-      if (isEar || !toU || !toW ||
-        !curves->mayBeNeighbours({ toU->piece, toU->to, toW->to }))
+      const BoundaryCurves::Span joined{ mesh.pointData(v).curve, range->low, range->high };
+      if (isEar || !curves->mayBeNeighbours(joined) ||
+        curves->sagitta(joined) > Sagitta * (mesh.point(u) - mesh.point(w)).norm())
       {
         return false;
       }

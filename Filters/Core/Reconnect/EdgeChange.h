@@ -25,22 +25,24 @@ struct EdgeChange
   bool split(
     MeshEditor<D>& editor, const BoundaryCurves* curves, Index t, Index a, Index b, Index m);
 
-  /// Point v goes, its neighbour u takes its place. False if v must stay, or if that would fold the
-  /// boundary. A point that slides can only go along its piece.
+  /// Point v goes, its neighbour u takes its place. False if v must stay. A point that slides can
+  /// only go along its piece, and not if that would fold the boundary, or leave the curve a tenth of the
+  /// new edge's length away from it.
   bool contract(MeshEditor<D>& editor, const BoundaryCurves* curves, Index v, Index u);
 
 private:
   void clear();
 };
 
-/// The neighbours of v over kept facets: two for a point that slides.
-std::vector<Index> neighboursOnPiece(
-  const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v);
-
-/// Whether the boundary stays near its curve if v goes from between its neighbours u and w: the
-/// curve goes from the new edge by a tenth of its length at most.
-bool keepsShape(
-  const BoundaryCurves& curves, const SimplexMesh<2>& mesh, Index v, Index u, Index w);
+/// Where v, which slides, has its neighbours on the piece: their ids, and their parameters as seen from v.
+/// Empty if v does not slide.
+struct SlidingRange
+{
+  std::array<Index, 2> ends;
+  double low, high; ///< of ends[0], ends[1]; low need not be the less
+};
+std::optional<SlidingRange> slidingRange(const BoundaryCurves& curves, const SimplexMesh<2>& mesh,
+  const std::vector<Index>& star, Index v);
 
 extern template struct EdgeChange<2>;
 extern template struct EdgeChange<3>;

@@ -77,8 +77,8 @@ std::string FindUsedPoints(vtkPolyData* geometry, std::vector<char>& used)
 /**
  * Points of `geometry`, those in use, must be finite and in the plane of the mesh; `box` is theirs.
  */
-std::string CheckPoints(vtkPolyData* geometry, const std::vector<char>& used,
-  const Frame<2>& frame, vtkBoundingBox& box)
+std::string CheckPoints(
+  vtkPolyData* geometry, const std::vector<char>& used, const Frame<2>& frame, vtkBoundingBox& box)
 {
   double x[3], back[3];
   for (std::size_t p = 0; p < used.size(); ++p)
@@ -100,8 +100,9 @@ std::string CheckPoints(vtkPolyData* geometry, const std::vector<char>& used,
     const double away = std::hypot(x[0] - back[0], x[1] - back[1], x[2] - back[2]);
     if (used[p] && away > 1e-6 * box.GetDiagonalLength())
     {
-      return "Point " + std::to_string(p) + " of the geometry is not in the plane of the mesh, but " +
-        std::to_string(away) + " away from it.";
+      return "Point " + std::to_string(p) +
+        " of the geometry is not in the plane of the mesh, but " + std::to_string(away) +
+        " away from it.";
     }
   }
   return {};
@@ -149,8 +150,8 @@ std::string ReadLines(
         network.corners.push_back(0);
       }
       ids[p] = static_cast<Index>(id);
-      network.corners[id] |=
-        std::uint8_t(corners && corners->GetComponent(static_cast<vtkIdType>(p), 0) != 0.0);
+      network.corners[id] |= std::uint8_t(
+        corners && corners->GetComponent(static_cast<vtkIdType>(p), 0) != 0.0);
     }
   }
   ForLines(geometry,
@@ -166,8 +167,7 @@ std::string ReadLines(
       }
     });
   std::sort(network.lines.begin(), network.lines.end());
-  network.lines.erase(
-    std::unique(network.lines.begin(), network.lines.end()), network.lines.end());
+  network.lines.erase(std::unique(network.lines.begin(), network.lines.end()), network.lines.end());
   return {};
 }
 
@@ -203,8 +203,8 @@ std::string BuildCurves(const Cells& cells, const InputArrays& arrays, const Fra
     return {};
   }
   LineNetwork network;
-  const std::string error =
-    ReadLines(request.Geometry, FindCorners(request.Filter, request.Geometry), frame, network);
+  const std::string error = ReadLines(
+    request.Geometry, FindCorners(request.Filter, request.Geometry), frame, network);
   return error.empty() ? curves.build(editor, network, request.Curves, corners) : error;
 }
 

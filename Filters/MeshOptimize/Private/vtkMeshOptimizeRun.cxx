@@ -57,9 +57,10 @@ std::string CheckCount(const Request& request, const meshopt::SimplexMesh<D>& me
     return {};
   }
   std::ostringstream text;
-  text << "The wanted sizes stand for some " << count
-       << " elements, more than can be made (1e8). Is the size in the units of the coordinates, or, "
-          "with a metric, of the metric?";
+  text
+    << "The wanted sizes stand for some " << count
+    << " elements, more than can be made (1e8). Is the size in the units of the coordinates, or, "
+       "with a metric, of the metric?";
   return text.str();
 }
 

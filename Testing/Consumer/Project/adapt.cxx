@@ -21,7 +21,7 @@
 
 namespace
 {
-constexpr double Side = 4.0; // the radius of the hole is 1
+constexpr double Side = 4.0;  // the radius of the hole is 1
 constexpr double Near = 1e-9; // nodes that have slid along a side are on it to rounding
 constexpr double Young = 1.0, Poisson = 0.3;
 constexpr int Wanted = 2000, MaximumSteps = 8;
@@ -44,7 +44,8 @@ vtkSmartPointer<vtkUnstructuredGrid> firstMesh()
 
   auto mesh = vtkSmartPointer<vtkUnstructuredGrid>::New();
   mesh->SetPoints(points);
-  const auto triangle = [&mesh](vtkIdType a, vtkIdType b, vtkIdType c) {
+  const auto triangle = [&mesh](vtkIdType a, vtkIdType b, vtkIdType c)
+  {
     const vtkIdType ids[3] = { a, b, c };
     mesh->InsertNextCell(VTK_TRIANGLE, 3, ids);
   };
@@ -62,10 +63,10 @@ void exactDisplacement(const double x[3], double u[3])
 {
   const double kappa = 3.0 - 4.0 * Poisson, mu = Young / (2.0 * (1.0 + Poisson));
   const double r = std::hypot(x[0], x[1]), t = std::atan2(x[1], x[0]), cube = 2.0 / (r * r * r);
-  u[0] = r * (kappa + 1.0) * std::cos(t) + 2.0 / r * ((1.0 + kappa) * std::cos(t) + std::cos(3.0 * t)) -
-    cube * std::cos(3.0 * t);
-  u[1] = r * (kappa - 3.0) * std::sin(t) + 2.0 / r * ((1.0 - kappa) * std::sin(t) + std::sin(3.0 * t)) -
-    cube * std::sin(3.0 * t);
+  u[0] = r * (kappa + 1.0) * std::cos(t) +
+    2.0 / r * ((1.0 + kappa) * std::cos(t) + std::cos(3.0 * t)) - cube * std::cos(3.0 * t);
+  u[1] = r * (kappa - 3.0) * std::sin(t) +
+    2.0 / r * ((1.0 - kappa) * std::sin(t) + std::sin(3.0 * t)) - cube * std::sin(3.0 * t);
   u[0] /= 8.0 * mu;
   u[1] /= 8.0 * mu;
   u[2] = 0.0;
@@ -114,7 +115,8 @@ int main()
   optimize->SetInputData(firstMesh());
   optimize->SetBoundaryModeToSlide();
   optimize->SetBeta(2.0); // the size counts
-  optimize->SetDesiredSize(std::sqrt(4.0 / std::sqrt(3.0) * (Side * Side - vtkMath::Pi() / 4.0) / Wanted));
+  optimize->SetDesiredSize(
+    std::sqrt(4.0 / std::sqrt(3.0) * (Side * Side - vtkMath::Pi() / 4.0) / Wanted));
 
   vtkNew<vtkThermoelasticFilter> solve;
   solve->SetTemperatureModeToUniform(); // and 0, as by default: no thermal load
@@ -125,7 +127,8 @@ int main()
   metric->SetSolutionArray("Displacement");
   metric->SetDesiredNumberOfElements(Wanted);
 
-  std::printf("step  nodes  elements  worst quality  right edges  estimated error  stress at the hole\n");
+  std::printf(
+    "step  nodes  elements  worst quality  right edges  estimated error  stress at the hole\n");
   double energy = 0.0, count = 0.0, uniformError = 0.0;
   for (int step = 0; step <= MaximumSteps; ++step)
   {
@@ -139,10 +142,12 @@ int main()
     {
       return EXIT_FAILURE;
     }
-    const double stress = stressAtHole(solve->GetOutput()), error = solve->GetRelativeErrorEstimate();
+    const double stress = stressAtHole(solve->GetOutput()),
+                 error = solve->GetRelativeErrorEstimate();
     std::printf("%4d  %5lld  %8lld  %13.3f  %10.1f%%  %14.2f%%  %18.4f\n", step,
-      static_cast<long long>(mesh->GetNumberOfPoints()), static_cast<long long>(mesh->GetNumberOfCells()),
-      optimize->GetWorstQualityAfter(), 100.0 * optimize->GetEdgeLengthShare(), 100.0 * error, stress);
+      static_cast<long long>(mesh->GetNumberOfPoints()),
+      static_cast<long long>(mesh->GetNumberOfCells()), optimize->GetWorstQualityAfter(),
+      100.0 * optimize->GetEdgeLengthShare(), 100.0 * error, stress);
 
     const double cells = static_cast<double>(mesh->GetNumberOfCells());
     const bool close = std::fabs(solve->GetStrainEnergy() / energy - 1.0) < CloseEnergy &&

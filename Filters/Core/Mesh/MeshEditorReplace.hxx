@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file MeshEditorReplace.hxx
+/// MeshEditor::replace(): a cavity's boundary goes into a hash of facets, by which the new cells are linked.
+#ifndef meshopt_Mesh_MeshEditorReplace_hxx
+#define meshopt_Mesh_MeshEditorReplace_hxx
+
+#include <algorithm>
+#include <cassert>
+
+namespace meshopt
+{
+namespace replacing
+{
+template <int D>
+Facet<D> sorted(Facet<D> f)
+{
+  if (f[0] > f[1])
+  {
+    std::swap(f[0], f[1]);
+  }
+  if constexpr (D == 3)
+  {
+    if (f[1] > f[2])
+    {
+      std::swap(f[1], f[2]);
+    }
+    if (f[0] > f[1])
+    {
+      std::swap(f[0], f[1]);
+    }
+  }
+  return f;
+}
+
+template <int D>
+std::size_t hash(const Facet<D>& f)
+{
+  std::uint32_t h = std::uint32_t(f[0]) * 2654435761u;
+  h = (h ^ std::uint32_t(f[1])) * 2246822519u;
+  if constexpr (D == 3)
+  {
+    h = (h ^ std::uint32_t(f[2])) * 3266489917u;
+  }
+  return h ^ (h >> 15);
+}
+}
+
+template <int D>
+void MeshEditor<D>::collectOpenFacets(
+  const std::vector<Index>& cavity, std::uint32_t inCavity, const KeptChange<D>* change)
+{
+  this->facets_.clear();
+  const auto isGone = [&](const Facet<D>& key)
+  {
+    return change &&
+      std::any_of(change->gone.begin(), change->gone.end(),
+        [&](const Facet<D>& f) { return replacing::sorted<D>(f) == key; });
+  };
+  for (Index c : cavity)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index h = this->mesh_->cells_[c].adjacent[i];
+      const bool kept = this->mesh_->isConstrained(c, i);
+      if (kept && isGone(replacing::sorted<D>(this->mesh_->facet(c, i))))
+      {
+        continue;
+      }
+      if (h == None || !this->owns(Mesh::cellOf(h)) || !this->isMarked(Mesh::cellOf(h), inCavity))
+      {
+        this->facets_.push_back({ replacing::sorted<D>(this->mesh_->facet(c, i)), h,
+          this->mesh_->parent(c), kept, false });
+      }
+      else
+      {
+        assert(!kept && "a kept facet inside of a cavity");
+      }
+    }
+  }
+}
+
+template <int D>
+void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity)
+{
+  this->keptEdges_.clear();
+  if (!this->mesh_->hasConstrainedEdges_)
+  {
+    return;
+  }
+  for (Index c : cavity)
+  {
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      if (this->mesh_->isEdgeConstrained(c, e))
+      {
+        const Simplex<D>& t = this->mesh_->nodes(c);
+        const Index a = t[Local<D>::edges[e][0]], b = t[Local<D>::edges[e][1]];
+        this->keptEdges_.push_back({ std::min(a, b), std::max(a, b) });
+      }
+    }
+  }
+}
+
+/// Copies the marks of kept edges to a new cell that has them.
+template <int D>
+void MeshEditor<D>::keepEdges(Index c)
+{
+  const Simplex<D>& t = this->mesh_->nodes(c);
+  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+  {
+    const Index a = t[Local<D>::edges[e][0]], b = t[Local<D>::edges[e][1]];
+    const std::array<Index, 2> edge{ std::min(a, b), std::max(a, b) };
+    if (std::find(this->keptEdges_.begin(), this->keptEdges_.end(), edge) != this->keptEdges_.end())
+    {
+      this->mesh_->cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + e));
+    }
+  }
+}
+
+/// Marks facets of the new cells as kept, and their points as fixed.
+template <int D>
+void MeshEditor<D>::keepFacets(const std::vector<Facet<D>>& facets)
+{
+  for (Index c : this->created_)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      const Facet<D> key = replacing::sorted<D>(this->mesh_->facet(c, i));
+      if (std::any_of(facets.begin(), facets.end(),
+            [&](const Facet<D>& f) { return replacing::sorted<D>(f) == key; }))
+      {
+        this->mesh_->cellData_[c].flags |= std::uint16_t(1u << i);
+        for (Index p : key) // saved already: they are of the cavity, or new
+        {
+          this->mesh_->points_[p].flags |= Mesh::PointFixed | Mesh::PointBoundary;
+        }
+      }
+    }
+  }
+}
+
+/// All points of the cavity are dead until a new cell uses them.
+template <int D>
+void MeshEditor<D>::killPoints(const std::vector<Index>& cavity)
+{
+  this->cavityPoints_.clear();
+  for (Index c : cavity)
+  {
+    for (Index p : this->mesh_->nodes(c))
+    {
+      Point& point = this->mesh_->points_[p];
+      if (point.flags & Mesh::PointAlive)
+      {
+        this->savePoint(p);
+        point.flags &= std::uint8_t(~Mesh::PointAlive);
+        point.stamp = this->clock_;
+        this->cavityPoints_.push_back(p);
+      }
+    }
+  }
+}
+
+template <int D>
+void MeshEditor<D>::buryPoints()
+{
+  for (Index p : this->cavityPoints_)
+  {
+    Point& point = this->mesh_->points_[p];
+    if (!(point.flags & Mesh::PointAlive))
+    {
+      point.cell = None;
+      if (p >= this->mesh_->inputPoints_) // slots of input points keep their meaning
+      {
+        this->freePoints_.push_back(p);
+        if (this->depth_ > 0)
+        {
+          this->journal_.push_back(Entry::PointFreed);
+        }
+      }
+    }
+  }
+}
+
+template <int D>
+void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
+{
+  std::size_t size = 64;
+  while (size < 2 * (this->facets_.size() + (D + 1) * numberOfNewCells))
+  {
+    size *= 2;
+  }
+  this->table_.assign(size, None);
+  for (std::size_t f = 0; f < this->facets_.size(); ++f)
+  {
+    std::size_t k = replacing::hash<D>(this->facets_[f].key) & (size - 1);
+    while (this->table_[k] != None)
+    {
+      k = (k + 1) & (size - 1);
+    }
+    this->table_[k] = static_cast<Index>(f);
+  }
+}
+
+template <int D>
+void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region)
+{
+  const Index c = this->takeCell();
+  this->created_.push_back(c);
+  this->mesh_->cells_[c].nodes = nodes;
+  this->mesh_->cells_[c].adjacent.fill(None);
+  CellData& data = this->mesh_->cellData_[c];
+  data.quality = quality;
+  data.region = region;
+  data.stamp = 0;
+  data.level = 0;
+  data.flags = Mesh::CellAlive;
+  for (Index p : nodes)
+  {
+    Point& point = this->mesh_->points_[p];
+    if (!(point.flags & Mesh::PointAlive) && point.cell == None)
+    {
+      this->savePoint(p); // comes from addPoint(); the points of the cavity are saved already
+    }
+    point.flags |= Mesh::PointAlive;
+    point.cell = c;
+    point.stamp = this->clock_;
+  }
+}
+
+/// Links facet i of the new cell c, or leaves it open for the cell to come on its other side.
+/// Returns the parent of the cavity cell behind it, or None for a facet inside of the cavity.
+template <int D>
+Index MeshEditor<D>::linkFacet(Index c, int i)
+{
+  const Facet<D> key = replacing::sorted<D>(this->mesh_->facet(c, i));
+  const std::size_t mask = this->table_.size() - 1;
+  std::size_t k = replacing::hash<D>(key) & mask;
+  while (this->table_[k] != None && this->facets_[this->table_[k]].key != key)
+  {
+    k = (k + 1) & mask;
+  }
+  if (this->table_[k] == None)
+  {
+    this->table_[k] = static_cast<Index>(this->facets_.size());
+    this->facets_.push_back({ key, Mesh::handle(c, i), None, false, false });
+    return None;
+  }
+  OpenFacet& f = this->facets_[this->table_[k]];
+  assert(!f.closed && "a facet with three cells");
+  f.closed = true;
+  this->mesh_->cells_[c].adjacent[i] = f.outside;
+  this->mesh_->cellData_[c].flags |= std::uint16_t(f.kept ? 1u << i : 0u);
+  if (f.outside != None)
+  {
+    Index& link = this->mesh_->cells_[Mesh::cellOf(f.outside)].adjacent[Mesh::facetOf(f.outside)];
+    if (f.parent != None && this->depth_ > 0) // outside of the cavity; new cells are saved already
+    {
+      this->journal_.push_back(Entry::LinkChanged);
+      this->linkRecords_.push_back({ f.outside, link });
+    }
+    link = Mesh::handle(c, i);
+  }
+  return f.parent;
+}
+
+/// For a new cell that has no facet of the cavity's boundary: the parent of a cell of its region.
+template <int D>
+Index MeshEditor<D>::parentIn(Index region) const
+{
+  for (const std::array<Index, 2>& r : this->parents_)
+  {
+    if (r[0] == region)
+    {
+      return r[1];
+    }
+  }
+  return this->parents_[0][1];
+}
+
+template <int D>
+bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
+  const std::vector<double>& qualities, const KeptChange<D>* change)
+{
+  assert(cells.size() == qualities.size());
+  assert(!change || change->regions.size() == cells.size());
+  if (cells.size() > cavity.size() && !this->reserveCells(cells.size() - cavity.size()))
+  {
+    return false;
+  }
+  ++this->clock_;
+  const std::uint32_t inCavity = this->newMark();
+  for (Index c : cavity)
+  {
+    this->setMark(c, inCavity);
+  }
+  this->collectOpenFacets(cavity, inCavity, change);
+  this->collectKeptEdges(cavity);
+  this->killPoints(cavity);
+  const Index region = this->mesh_->region(cavity[0]);
+  this->parents_.clear();
+  for (Index c : cavity)
+  {
+    this->parents_.push_back({ this->mesh_->region(c), this->mesh_->parent(c) });
+  }
+  for (std::size_t k = cavity.size(); k-- > 0;)
+  {
+    this->freeCell(cavity[k]);
+  }
+  this->hashOpenFacets(cells.size());
+  this->created_.clear();
+  for (std::size_t n = 0; n < cells.size(); ++n)
+  {
+    this->create(cells[n], qualities[n], change ? change->regions[n] : region);
+  }
+  for (Index c : this->created_)
+  {
+    Index behind = None;
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index facetParent = this->linkFacet(c, i);
+      behind = behind == None ? facetParent : behind;
+    }
+    this->mesh_->cellData_[c].parent = behind == None ? this->parentIn(this->mesh_->region(c))
+                                                      : behind;
+    if (!this->keptEdges_.empty())
+    {
+      this->keepEdges(c);
+    }
+  }
+  if (change)
+  {
+    this->keepFacets(change->come);
+  }
+#ifndef NDEBUG
+  for (const OpenFacet& f : this->facets_)
+  {
+    assert((f.closed || change) && "the new cells do not fill the cavity");
+  }
+#endif
+  this->buryPoints();
+  return true;
+}
+}
+
+#endif
