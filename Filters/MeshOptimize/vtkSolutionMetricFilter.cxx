@@ -129,8 +129,16 @@ void vtkSolutionMetricFilter::Warn(const vtkSolutionMetric::Outcome& outcome)
 int vtkSolutionMetricFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  output->ShallowCopy(vtkUnstructuredGrid::GetData(inputVector[0]));
+  if (!input) // a block of a composite data set: the executive does not look at its type
+  {
+    vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
+                    << " has been left out: it is no vtkUnstructuredGrid.");
+    output->Initialize();
+    return 1;
+  }
+  output->ShallowCopy(input);
   vtkSolutionMetric::Outcome outcome;
   std::string error;
   try

@@ -310,6 +310,13 @@ int vtkTetGenFilter::RequestData(
   vtkPointSet* interior = vtkPointSet::GetData(inputVector[1]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   this->SetErrorCode(vtkErrorCode::NoError);
+  if (!input) // a block of a composite data set: the executive does not look at its type
+  {
+    vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
+                    << " has been left out: it is no vtkPolyData.");
+    output->Initialize();
+    return 1;
+  }
   if (input->GetNumberOfPoints() == 0 && input->GetNumberOfCells() == 0)
   {
     return 1; // an empty piece of distributed data, for one

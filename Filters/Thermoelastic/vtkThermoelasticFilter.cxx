@@ -217,6 +217,14 @@ int vtkThermoelasticFilter::RequestData(
   vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
   vtkTable* history = vtkTable::GetData(outputVector, 1);
+  if (!input) // a block of a composite data set: the executive does not look at its type
+  {
+    vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
+                    << " has been left out: it is no vtkUnstructuredGrid.");
+    output->Initialize();
+    history->Initialize();
+    return 1;
+  }
   bridge::Request request;
   bridge::Outcome outcome;
   this->FillRequest(request);
