@@ -164,15 +164,14 @@ int vtkMeshOptimizeFilter::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  if (!input)
-  {
-    return 0;
-  }
   vtkDataObject* output = vtkDataObject::GetData(outputVector, 0);
-  if (!output || !output->IsA(input->GetClassName()))
+  // Without an input the executive says so later, in one error; a 0 from here would make it two.
+  const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
+  if (!output || !output->IsA(type))
   {
-    vtkSmartPointer<vtkDataObject> fresh = vtkSmartPointer<vtkDataObject>::Take(
-      input->NewInstance());
+    vtkSmartPointer<vtkDataObject> fresh = input
+      ? vtkSmartPointer<vtkDataObject>::Take(input->NewInstance())
+      : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New());
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
   }
   if (!vtkTable::GetData(outputVector, 1))
@@ -375,6 +374,32 @@ void vtkMeshOptimizeFilter::Warn(const bridge::Outcome& outcome)
 }
 
 /**
+ * Settings and input that have no effect: a newcomer wonders why nothing happens.
+ */
+void vtkMeshOptimizeFilter::WarnOfNoEffect(
+  vtkDataObject* input, vtkPolyData* geometry, const bridge::Outcome& outcome)
+{
+  const vtkIdType numberOfCells = input->GetNumberOfElements(vtkDataObject::CELL);
+  if (numberOfCells > 0 && outcome.NumberOfSimplices + outcome.NumberOfQuadraticSimplices == 0)
+  {
+    vtkWarningMacro(<< "Nothing to optimize: none of the " << numberOfCells
+                    << " cells is a triangle or a tetrahedron of an unstructured grid. They have "
+                       "passed through as they are. (In ParaView, Tetrahedralize splits other "
+                       "cells, and Append Datasets makes a grid of polygonal data.)");
+  }
+  const bool hasSizes = this->DesiredSize > 0.0 || bridge::IsWanted(this, bridge::SizeArray);
+  if (hasSizes && this->Beta == 0.0 && this->BoundaryMode == Fixed)
+  {
+    vtkWarningMacro(<< "Beta is 0, so only the shape counts: the wanted size has no effect.");
+  }
+  if (geometry && this->BoundaryMode == Fixed)
+  {
+    vtkWarningMacro(
+      << "The boundary mode is Fixed, so the geometry on input port 1 has no effect.");
+  }
+}
+
+/**
  * The border of a piece is no boundary.
  */
 std::string vtkMeshOptimizeFilter::CheckPieces(vtkInformationVector* outputVector)
@@ -419,5 +444,10 @@ int vtkMeshOptimizeFilter::RequestData(
   vtkMeshOptimizeCompat::KeepOutputAfterAbort(this);
   this->StoreResults(outcome);
   this->Warn(outcome);
+  if (error.empty())
+  {
+    this->WarnOfNoEffect(
+      vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]), outcome);
+  }
   return 1;
 }

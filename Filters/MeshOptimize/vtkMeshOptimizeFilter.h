@@ -494,6 +494,8 @@ private:
     vtkTable* history, vtkMeshOptimizeBridge::Outcome& outcome);
   void StoreResults(const vtkMeshOptimizeBridge::Outcome& outcome);
   void Warn(const vtkMeshOptimizeBridge::Outcome& outcome);
+  void WarnOfNoEffect(
+    vtkDataObject* input, vtkPolyData* geometry, const vtkMeshOptimizeBridge::Outcome& outcome);
 
   int Algorithm = WorstFirst;
   double TargetQuality = 0.6;

@@ -66,6 +66,25 @@ void vtkMeshQualityMinMax::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+void vtkMeshQualityMinMax::SetRegionArray(const char* name)
+{
+  this->SetInputArrayToProcess(vtkMeshOptimizeBridge::RegionArray, 0, 0,
+    vtkDataObject::FIELD_ASSOCIATION_CELLS, name ? name : "");
+}
+
+void vtkMeshQualityMinMax::SetSizeArray(const char* name)
+{
+  this->SetInputArrayToProcess(vtkMeshOptimizeBridge::SizeArray, 0, 0,
+    vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+}
+
+void vtkMeshQualityMinMax::SetMetricArray(const char* name)
+{
+  this->SetInputArrayToProcess(vtkMeshOptimizeBridge::MetricArray, 0, 0,
+    vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+}
+
+//------------------------------------------------------------------------------
 int vtkMeshQualityMinMax::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
@@ -99,12 +118,16 @@ int vtkMeshQualityMinMax::RequestDataObject(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  if (input && (!output || !output->IsA(input->GetClassName())))
+  // Without an input the executive says so later, in one error; a 0 from here would make it two.
+  const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
+  if (!output || !output->IsA(type))
   {
-    vtkSmartPointer<vtkDataObject> made = vtk::TakeSmartPointer(input->NewInstance());
+    vtkSmartPointer<vtkDataObject> made = input
+      ? vtk::TakeSmartPointer(input->NewInstance())
+      : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New());
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
   }
-  return input ? 1 : 0;
+  return 1;
 }
 
 //------------------------------------------------------------------------------
@@ -340,6 +363,11 @@ int vtkMeshQualityMinMax::RequestData(
   if (usable)
   {
     this->FillOutputs(run, outputVector);
+  }
+  if (usable && run.Rank == 0 && this->NumberOfMeasuredCells == 0 && this->NumberOfOtherCells > 0)
+  {
+    vtkWarningMacro(<< "Nothing to measure: none of the " << this->NumberOfOtherCells
+                    << " cells is a triangle or a tetrahedron of an unstructured grid.");
   }
   return 1;
 }

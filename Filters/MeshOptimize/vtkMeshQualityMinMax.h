@@ -27,7 +27,7 @@
  * measure Shape it is from facets and dihedral angles, with Mean Ratio and Volume Length from facets; otherwise, and with a
  * metric array, it is the value of the regular element.
  *
- * Input arrays, by SetInputArrayToProcess():
+ * Input arrays, by SetInputArrayToProcess() or the setters below:
  *  - 0, cells: region, integers, one component;
  *  - 2, points: desired size h*, one component, positive; used if Beta > 0;
  *  - 3, points: metric tensor, symmetric positive definite, 6 components (XX YY ZZ XY YZ XZ) or 9. For
@@ -143,6 +143,16 @@ public:
    */
   vtkSetClampMacro(TargetQuality, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TargetQuality, double);
+  ///@}
+
+  ///@{
+  /**
+   * The input arrays by name, the same as SetInputArrayToProcess() with index 0 (cells), 2 and 3
+   * (points); nullptr or "" for none, which is the default.
+   */
+  void SetRegionArray(const char* name);
+  void SetSizeArray(const char* name);
+  void SetMetricArray(const char* name);
   ///@}
 
   ///@{

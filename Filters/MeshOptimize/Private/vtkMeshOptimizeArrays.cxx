@@ -63,20 +63,6 @@ std::string CheckArray(const ArrayRole& role, vtkAbstractArray* found)
   return {};
 }
 
-/**
- * Did the caller of `filter` ask for this array? ParaView's "None" counts as no.
- */
-bool IsWanted(vtkAlgorithm* filter, int index)
-{
-  vtkInformation* wanted = filter->GetInputArrayInformation(index);
-  if (wanted->Has(vtkDataObject::FIELD_NAME()))
-  {
-    const char* name = wanted->Get(vtkDataObject::FIELD_NAME());
-    return name && *name && std::strcmp(name, "None") != 0;
-  }
-  return wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()) != 0;
-}
-
 vtkAbstractArray* FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index)
 {
   vtkDataSetAttributes* attributes = grid->GetPointData();
@@ -124,6 +110,17 @@ meshopt::Tensor<3> MakeTensor(const double* t, int numberOfComponents)
 }
 
 } // namespace
+
+bool IsWanted(vtkAlgorithm* filter, int index)
+{
+  vtkInformation* wanted = filter->GetInputArrayInformation(index);
+  if (wanted->Has(vtkDataObject::FIELD_NAME()))
+  {
+    const char* name = wanted->Get(vtkDataObject::FIELD_NAME());
+    return name && *name && std::strcmp(name, "None") != 0;
+  }
+  return wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()) != 0;
+}
 
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays)
 {

@@ -45,6 +45,11 @@ struct InputArrays
 };
 
 /**
+ * Did the caller of `filter` ask for this array? ParaView's "None" counts as no.
+ */
+bool IsWanted(vtkAlgorithm* filter, int index);
+
+/**
  * Finds the arrays that the caller of `filter` wants in `grid`, and checks types and numbers of
  * components. Returns a sentence about the first that cannot be used. One that is not there is no
  * error here: another block may have it.

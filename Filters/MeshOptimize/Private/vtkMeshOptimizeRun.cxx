@@ -211,6 +211,7 @@ void Outcome::Add(const Outcome& other)
   }
   this->NumberOfCells += other.NumberOfCells;
   this->NumberOfCellsBefore += other.NumberOfCellsBefore;
+  this->NumberOfSimplices += other.NumberOfSimplices;
   this->NumberOfReorientedCells += other.NumberOfReorientedCells;
   this->NumberOfQuadraticSimplices += other.NumberOfQuadraticSimplices;
   this->NumberOfOperations += other.NumberOfOperations;
@@ -234,6 +235,7 @@ std::string OptimizeGrid(
   {
     return error;
   }
+  outcome.NumberOfSimplices = static_cast<vtkIdType>(cells.Simplices.size());
   outcome.NumberOfQuadraticSimplices = cells.NumberOfQuadraticSimplices;
   if (cells.Simplices.empty())
   {

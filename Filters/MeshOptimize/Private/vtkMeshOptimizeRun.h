@@ -47,6 +47,7 @@ struct Outcome
   meshopt::Report Report;
   vtkIdType NumberOfCells = 0; ///< that were optimized, after it
   vtkIdType NumberOfCellsBefore = 0;
+  vtkIdType NumberOfSimplices = 0; ///< linear ones of the greatest dimension, in the input
   vtkIdType NumberOfReorientedCells = 0;
   vtkIdType NumberOfQuadraticSimplices = 0;
   vtkIdType NumberOfOperations = 0;
