@@ -4,6 +4,15 @@ from paraview import servermanager, simple
 from paraview_case import check, load_plugin, random_mesh, source_of
 
 load_plugin()
+
+# Without an input (a script's first line, before there is a source) a filter can be made, and no array is chosen.
+for name in ("MeshOptimize", "MeshQualityMinMax", "SolutionMetric", "Thermoelastic"):
+    proxy = getattr(simple, name)()
+    for array in (p for p in proxy.ListProperties() if p.endswith("Array") and p != "SolutionArray"):
+        check(proxy.GetPropertyValue(array)[1] == "None", name, array, "is", proxy.GetPropertyValue(array))
+    simple.Delete(proxy)
+    del proxy
+
 source = source_of(random_mesh())
 cells_before = source.GetDataInformation().GetNumberOfCells()
 
@@ -51,6 +60,19 @@ after = simple.MeshQualityMinMax(Input=optimize)
 after.UpdatePipeline()
 after.UpdatePropertyInformation()
 check(abs(after.MinimumQuality - optimize.WorstQualityAfter) < 1e-12, "both filters measure the same")
+
+# The window: the results stand in the panel without the gear; tables do not open by themselves, since the next filter's
+# mesh would go into the spreadsheet, which is the active view then.
+controller = servermanager.vtkSMParaViewPipelineControllerWithRendering()
+solver = simple.Thermoelastic(Input=source)
+for proxy, results, tables in ((optimize, ("WorstQualityBefore", "WorstQualityAfter", "QualityBound", "StopReason"), (1,)),
+                               (quality, ("MinimumQuality", "MaximumQuality", "QualityBound"), (1, 2)),
+                               (solver, ("StopReason", "RelativeErrorEstimate"), (1,))):
+    for result in results:
+        visibility = proxy.SMProxy.GetProperty(result).GetPanelVisibility()
+        check(visibility == "default", result, "is", visibility)
+    for port in tables:
+        check(controller.GetPreferredViewType(proxy.SMProxy, port) == "None", proxy.GetXMLName(), port, "opens a view")
 
 # Settings that a state file would carry come back.
 optimize.QualityMeasure = "Mean Ratio"
