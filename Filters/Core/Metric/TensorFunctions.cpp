@@ -4,36 +4,71 @@
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <utility>
 
 namespace meshopt
 {
 namespace
 {
-/// Taylor series of exp(a) for a symmetric tensor without trace, of norm at most 1/2. By Cayley and
-/// Hamilton a^3 = p a + q, p = tr(a^2) / 2, q = det(a): every power is x + y a + z a^2.
-Tensor<3> series(const Tensor<3>& a)
+/// (2^-k, k): so often a tensor of that norm is halved for the series, which wants one of at most 1/2.
+std::pair<double, int> halvings(double norm)
 {
-  const Tensor<3> square = a * a;
-  const double p = 0.5 * square.trace(), q = a.determinant();
-  double x = 1.0, y = 0.0, z = 0.0; // a^k / k!
-  double sx = 1.0, sy = 0.0, sz = 0.0;
-  for (int k = 1; k <= 14; ++k)
+  std::pair<double, int> result(1.0, 0);
+  while (norm * result.first > 0.5 && result.second < 60)
   {
-    const double next = q * z / k;
-    const double zNext = y / k;
-    y = (x + p * z) / k;
+    result.first *= 0.5;
+    ++result.second;
+  }
+  return result;
+}
+
+/// exp(a) of a symmetric tensor without trace, scaled down and squared again. By Cayley and Hamilton
+/// a^3 = p a + q, p = tr(a^2) / 2, q = det(a): every power is x + y a + z a^2, so that the series and
+/// the squarings are of three numbers. Asked for each cell that is tried: no eigenvalues, no division.
+Tensor<3> exponentialWithoutTrace(const Tensor<3>& symmetric)
+{
+  static constexpr double inverseFactorials[] = { 1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120,
+    1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800,
+    1.0 / 479001600, 1.0 / 6227020800.0, 1.0 / 87178291200.0 };
+  const auto [scale, squarings] = halvings(symmetric.norm());
+  const Tensor<3> a = scale * symmetric;
+  const double xx = a(0, 0), yy = a(1, 1), zz = a(2, 2), xy = a(1, 0), yz = a(2, 1), xz = a(2, 0);
+  const double xx2 = xx * xx + xy * xy + xz * xz, yy2 = xy * xy + yy * yy + yz * yz,
+               zz2 = xz * xz + yz * yz + zz * zz, xy2 = xx * xy + xy * yy + xz * yz,
+               yz2 = xy * xz + yy * yz + yz * zz, xz2 = xx * xz + xy * yz + xz * zz;
+  const double p = 0.5 * (xx2 + yy2 + zz2);
+  const double q = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  double x = 0.0, y = 0.0, z = 0.0;
+  for (int k = 14; k >= 0; --k) // Horner
+  {
+    const double next = q * z + inverseFactorials[k], zNext = y;
+    y = x + p * z;
     x = next;
     z = zNext;
-    sx += x;
-    sy += y;
-    sz += z;
   }
-  return sx * Tensor<3>::Identity() + sy * a + sz * square;
+  for (int k = 0; k < squarings; ++k)
+  {
+    const double cubic = 2.0 * y * z, quartic = z * z;
+    const double next = x * x + q * cubic, zNext = y * y + 2.0 * x * z + p * quartic;
+    y = 2.0 * x * y + p * cubic + q * quartic;
+    x = next;
+    z = zNext;
+  }
+  Tensor<3> e;
+  e(0, 0) = x + y * xx + z * xx2;
+  e(1, 1) = x + y * yy + z * yy2;
+  e(2, 2) = x + y * zz + z * zz2;
+  e(0, 1) = e(1, 0) = y * xy + z * xy2;
+  e(1, 2) = e(2, 1) = y * yz + z * yz2;
+  e(0, 2) = e(2, 0) = y * xz + z * xz2;
+  return e;
 }
 
 /// The same in 2D: a^2 = w^2, so that exp(a) = cosh(w) + a sinh(w) / w.
-Tensor<2> series(const Tensor<2>& a)
+Tensor<2> exponentialWithoutTrace(const Tensor<2>& symmetric)
 {
+  const auto [scale, squarings] = halvings(symmetric.norm());
+  const Tensor<2> a = scale * symmetric;
   const double w2 = a(0, 0) * a(0, 0) + a(0, 1) * a(1, 0);
   double even = 1.0, odd = 1.0, x = 1.0, y = 1.0;
   for (int k = 1; k <= 7; ++k)
@@ -43,7 +78,12 @@ Tensor<2> series(const Tensor<2>& a)
     even += x;
     odd += y;
   }
-  return even * Tensor<2>::Identity() + odd * a;
+  Tensor<2> e = even * Tensor<2>::Identity() + odd * a;
+  for (int k = 0; k < squarings; ++k)
+  {
+    e = (e * e).eval();
+  }
+  return 0.5 * (e + e.transpose());
 }
 }
 
@@ -52,20 +92,7 @@ Tensor<D> exponential(const Tensor<D>& l)
 {
   const double mean = l.trace() / D;
   const Tensor<D> a = l - mean * Tensor<D>::Identity();
-  const double norm = a.norm();
-  int squarings = 0;
-  double scale = 1.0;
-  while (norm * scale > 0.5 && squarings < 60)
-  {
-    scale *= 0.5;
-    ++squarings;
-  }
-  Tensor<D> e = series(Tensor<D>(scale * a));
-  for (int k = 0; k < squarings; ++k)
-  {
-    e = (e * e).eval();
-  }
-  return 0.5 * std::exp(mean) * (e + e.transpose());
+  return std::exp(mean) * exponentialWithoutTrace(a);
 }
 
 template <int D>
