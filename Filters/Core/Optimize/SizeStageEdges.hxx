@@ -90,7 +90,8 @@ void SizeStage<D>::swapAround(Push&& push)
     {
       continue;
     }
-    if (this->options_.reconnect && this->improver_.swap(c))
+    if (this->options_.reconnect && this->mesh().quality(c) < SwapBelow<D> &&
+      this->improver_.swap(c))
     {
       this->stack_.insert(
         this->stack_.end(), this->improver_.changed().begin(), this->improver_.changed().end());

@@ -170,7 +170,7 @@ void SizeStage<D>::swapWhatChanged()
   for (Index c = 0; c < this->mesh().numberOfCellSlots() && this->options_.reconnect; ++c)
   {
     const auto isNew = [&](Index p) { return this->mesh().pointData(p).stamp > since; };
-    while (this->mesh().isAlive(c) &&
+    while (this->mesh().isAlive(c) && this->mesh().quality(c) < SwapBelow<D> &&
       std::any_of(this->mesh().nodes(c).begin(), this->mesh().nodes(c).end(), isNew) &&
       this->improver_.swap(c))
     {

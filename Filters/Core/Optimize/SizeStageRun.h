@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 namespace meshopt
@@ -36,6 +37,10 @@ constexpr double LongestFirst = 0.7;
 /// A contraction or a motion makes no quality lower than both this (a motion: twice this) and the worst
 /// that was there; a split may make it lower by a factor, since what it splits comes out worse at first.
 constexpr double GoodEnough = 0.3, WorstSplit = 0.3;
+/// Cells as good as this are not reconnected: what raises the worst cell of an edge's ring is found
+/// from that one. In 2D swaps cost little.
+template <int D>
+constexpr double SwapBelow = D == 2 ? std::numeric_limits<double>::infinity() : 0.7;
 
 /// Where an edge with the lengths la and lb by its ends is halved, from a on, as a part of the way; not too near to an end.
 inline double metricMiddle(double la, double lb)
