@@ -14,6 +14,7 @@
 #include "Reconnect/EdgeRemoval.h"
 #include "Reconnect/FaceRemoval.h"
 #include "Reconnect/SmallPolyhedron.h"
+#include "Reposition/ClusterProblem.h"
 #include "Reposition/GoldenSection.h"
 #include "Reposition/StarProblem.h"
 
@@ -52,8 +53,9 @@ public:
   const std::vector<Index>& changed() const { return this->changed_; }
 
   /// Node motion stops a little above `quality`: what is more than enough is not paid for.
-  /// Insertion must not make more cells under `guard` than it removes: otherwise many cells that
-  /// are hardly better come for one that is worst. -1: no such guard.
+  /// Insertion must not make more bad cells than it removes: otherwise many cells that are hardly
+  /// better come for one that is worst. A cell under `guard` counts once, under two thirds of it
+  /// twice, under one third of it three times. -1: no such guard.
   void setTarget(double quality, double guard)
   {
     this->target_ = quality;
@@ -93,6 +95,8 @@ private:
   bool move(Index t);
   bool moveNode(Index v);
   bool settleStar(double old);
+  bool gatherCluster(Index t);
+  bool moveCluster(Index t);
   bool removeNodes(Index t);
   bool removeNode(Index v);
   bool changeBoundary(Index t, int level);
@@ -115,7 +119,12 @@ private:
   bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }
-  bool isBad(double q) const { return q < this->guard_; }
+  int badness(double q) const
+  {
+    return this->guard_ < 0.0
+      ? 0
+      : (q < this->guard_) + (q < this->guard_ * (2.0 / 3.0)) + (q < this->guard_ * (1.0 / 3.0));
+  }
   void count(Operation op, bool success)
   {
     ++this->tried[static_cast<int>(op)];
@@ -130,7 +139,8 @@ private:
   double target_ = 1.0;
   double guard_ = -1.0;
   double gain_ = 1e-3;
-  long bad_ = 0; ///< cells under guard_ made, less those removed, since the construction
+  long bad_ =
+    0; ///< sum of badness() of the cells made, less that of those removed, since the construction
   long growth_ = 0;
   bool tangled_ = false;
 
@@ -145,11 +155,15 @@ private:
   Cavity<D, Shape> cavity_;
   EdgeChange<D> edgeChange_;
   StarProblem<D, Shape> problem_;
+  ClusterProblem<D, Shape> clusterProblem_;
+  Cluster<D> moving_;
+  LocalNumbers numbers_;
 };
 }
 
 #include "Optimize/Improver.hxx"
 #include "Optimize/ImproverBoundary.hxx"
+#include "Optimize/ImproverCluster.hxx"
 #include "Optimize/ImproverInsert.hxx"
 
 #endif

@@ -35,6 +35,10 @@ bool Improver<D, Shape>::improve(Index t, int level)
   {
     return true;
   }
+  if (level >= LongLookAhead && this->moveCluster(t))
+  {
+    return true;
+  }
   if (level >= LongLookAhead && this->options_->reconnect && this->retriangulate(t))
   {
     return true;
@@ -118,11 +122,11 @@ bool Improver<D, Shape>::replace(
   long bad = 0;
   for (double q : this->qualities_)
   {
-    bad += this->isBad(q);
+    bad += this->badness(q);
   }
   for (Index c : cavity)
   {
-    bad -= this->isBad(this->editor_->mesh().quality(c));
+    bad -= this->badness(this->editor_->mesh().quality(c));
   }
   if (!this->editor_->replace(cavity, cells, this->qualities_, kept))
   {
@@ -294,7 +298,8 @@ bool Improver<D, Shape>::settleStar(double old)
     {
       return false;
     }
-    bad += this->isBad(q) - this->isBad(this->editor_->mesh().quality(c));
+    bad += this->badness(q);
+    bad -= this->badness(this->editor_->mesh().quality(c));
     this->editor_->setQuality(c, q);
   }
   this->bad_ += bad;

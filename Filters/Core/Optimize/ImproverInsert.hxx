@@ -118,11 +118,11 @@ long Improver<D, Shape>::badBalance() const
   long bad = 0;
   for (double q : this->problem_.values())
   {
-    bad += this->isBad(q);
+    bad += this->badness(q);
   }
   for (Index c : this->cavity_.cells())
   {
-    bad -= this->isBad(this->editor_->mesh().quality(c));
+    bad -= this->badness(this->editor_->mesh().quality(c));
   }
   return bad;
 }
@@ -282,7 +282,8 @@ bool Improver<D, Shape>::settle(std::vector<Index>& affected, double goal, int o
     {
       return true;
     }
-    if (--operations < 0 || !this->improve(worst, level))
+    if (--operations < 0 ||
+      (!this->improve(worst, level) && !(level >= Insertion && this->moveCluster(worst))))
     {
       return false;
     }

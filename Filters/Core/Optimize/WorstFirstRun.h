@@ -202,6 +202,12 @@ void WorstFirst<D, Shape>::run()
     if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
     {
       more = this->polish(stages[k], false);
+      // What the worst cells cost others is made good where it can be.
+      if (more && !past)
+      {
+        this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
+        more = this->stage(std::min(stages[k], Stages[0]));
+      }
     }
     // Past the target, two stages that did not lift the worst cell are the end.
     const bool stuck = this->report_.history.back().worst < before + Gain;

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file ClusterProblem.h
+/// Where to put several nodes at once: what StarProblem does for one node. The last resort for
+/// nodes each of which is where it should be as long as the others stay.
+///
+/// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2: (2.4)-(2.6) on the optimization
+/// cluster. Departure: as in ProximalStep the step maximizes the linearized minimum less
+/// |d|^2 / (2 tau). With w_k = (1 + q_k - q_min; sqrt(tau) grad q_k), and mu in the unit simplex,
+///     |sum mu_k w_k|^2 = 1 + 2 s + s^2 + |d|^2 / tau,  s = sum mu_k (q_k - q_min),
+/// is its dual up to s^2, which is small against 2 s: one problem of least norm, as the paper's.
+#ifndef meshopt_Reposition_ClusterProblem_h
+#define meshopt_Reposition_ClusterProblem_h
+
+#include "Mesh/Cluster.h"
+#include "Quality/ElementQuality.h"
+#include "Reposition/MinNormPoint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+template <int D, class Shape>
+class ClusterProblem
+{
+public:
+  /// Moves the moving nodes of the cluster to better places: changes cluster.x and cluster.quality.
+  /// Returns the worst quality, which never falls. Stops when it is at least `enough`, when a step
+  /// promises less than `gain`, or after so many steps. `metrics`: one per cell, or one for all.
+  double maximize(Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
+    const std::vector<ElementMetric<D>>& metrics, double enough, double gain, int maximumSteps = 40)
+  {
+    const auto metric = [&](std::size_t k) -> const ElementMetric<D>&
+    { return metrics[metrics.size() == 1 ? 0 : k]; };
+    double worst = *std::min_element(cluster.quality.begin(), cluster.quality.end());
+    const double length = cluster.meanEdge();
+    double tau = 0.1 * length * length;
+    for (int step = 0; step < maximumSteps && worst < enough;)
+    {
+      this->linearize(cluster, quality, metric, worst);
+      bool moved = false;
+      for (int trial = 0; trial < 5 && step < maximumSteps && !moved; ++trial, ++step)
+      {
+        const double predicted = this->solve(cluster.numberOfMoving, tau) - worst;
+        if (!(predicted > gain))
+        {
+          return worst;
+        }
+        const double there = this->evaluate(cluster, quality, metric, worst + 0.1 * predicted);
+        moved = there > worst + 0.1 * predicted;
+        tau *= there > worst + 0.7 * predicted ? 3.0 : moved ? 1.0 : 0.25;
+        if (moved)
+        {
+          cluster.x.swap(this->x_);
+          cluster.quality.swap(this->values_);
+          worst = there;
+        }
+      }
+      if (!moved)
+      {
+        break;
+      }
+    }
+    return worst;
+  }
+
+private:
+  static constexpr double Window = 0.15; ///< above the worst: what a step could make the worst
+
+  template <class Metric>
+  void linearize(const Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
+    const Metric& metric, double worst)
+  {
+    this->functions_.clear();
+    std::array<Vec<D>, D + 1> g;
+    for (std::size_t k = 0; k < cluster.cells.size(); ++k)
+    {
+      if (!(cluster.quality[k] < worst + Window))
+      {
+        continue;
+      }
+      quality.gradient(cluster.corners(static_cast<int>(k)), metric(k), g);
+      SparsePoint<D> f;
+      f.first = cluster.quality[k] - worst;
+      for (int i = 0; i <= D; ++i)
+      {
+        if (cluster.nodes[k][i] < cluster.numberOfMoving)
+        {
+          f.block[f.count] = cluster.nodes[k][i];
+          f.value[f.count++] = g[i];
+        }
+      }
+      this->functions_.push_back(f);
+    }
+    this->worst_ = worst;
+  }
+
+  /// The step, in step_; returns the linearized minimum there.
+  double solve(int numberOfMoving, double tau)
+  {
+    const double root = std::sqrt(tau);
+    this->points_ = this->functions_;
+    for (SparsePoint<D>& w : this->points_)
+    {
+      w.first += 1.0;
+      for (int i = 0; i < w.count; ++i)
+      {
+        w.value[i] *= root;
+      }
+    }
+    this->minNorm_.solve(this->points_, numberOfMoving);
+    this->step_ = this->minNorm_.blocks();
+    for (Vec<D>& d : this->step_)
+    {
+      d *= root;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const SparsePoint<D>& f : this->functions_)
+    {
+      double q = this->worst_ + f.first;
+      for (int i = 0; i < f.count; ++i)
+      {
+        q += f.value[i].dot(this->step_[f.block[i]]);
+      }
+      least = std::min(least, q);
+    }
+    return least;
+  }
+
+  /// Places and qualities after the step, in x_ and values_; given up, with less than `required`,
+  /// at the first cell that has not got it.
+  template <class Metric>
+  double evaluate(const Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
+    const Metric& metric, double required)
+  {
+    this->x_ = cluster.x;
+    for (int p = 0; p < cluster.numberOfMoving; ++p)
+    {
+      this->x_[p] += this->step_[p];
+    }
+    this->values_ = cluster.quality;
+    double worst = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < cluster.cells.size(); ++k)
+    {
+      Corners<D> c;
+      for (int i = 0; i <= D; ++i)
+      {
+        c[i] = this->x_[cluster.nodes[k][i]];
+      }
+      this->values_[k] = quality.value(c, metric(k));
+      worst = std::min(worst, this->values_[k]);
+      if (!(this->values_[k] > required))
+      {
+        return -std::numeric_limits<double>::infinity();
+      }
+    }
+    return worst;
+  }
+
+  double worst_ = 0.0;
+  std::vector<SparsePoint<D>> functions_, points_; ///< q_k - worst and gradients; the w_k
+  MinNormPoint<D> minNorm_;
+  std::vector<Vec<D>> step_, x_;
+  std::vector<double> values_;
+};
+}
+
+#endif

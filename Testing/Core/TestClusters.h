@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Clusters for tests of node motion.
+#ifndef meshopt_Testing_TestClusters_h
+#define meshopt_Testing_TestClusters_h
+
+#include "Mesh/Cluster.h"
+#include "Quality/ElementQuality.h"
+#include "TestMeshes.h"
+
+namespace meshopt
+{
+// One free node, joined to the edges of a regular hexagon or to the faces of a regular octahedron.
+template <int D>
+MeshInput<D> star();
+
+template <>
+inline MeshInput<2> star<2>()
+{
+  MeshInput<2> in;
+  in.points.emplace_back(0.0, 0.0);
+  for (int k = 0; k < 6; ++k)
+  {
+    in.points.emplace_back(std::cos(k * M_PI / 3.0), std::sin(k * M_PI / 3.0));
+    in.cells.push_back({ 0, 1 + k, 1 + (k + 1) % 6 });
+  }
+  return in;
+}
+
+template <>
+inline MeshInput<3> star<3>()
+{
+  MeshInput<3> in;
+  in.points = { { 0, 0, 0 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 },
+    { 0, 0, -1 } };
+  for (int x : { 1, 2 })
+  {
+    for (int y : { 3, 4 })
+    {
+      for (int z : { 5, 6 })
+      {
+        const bool even = (x == 1) == ((y == 3) == (z == 5));
+        in.cells.push_back(even ? Simplex<3>{ 0, x, y, z } : Simplex<3>{ 0, x, z, y });
+      }
+    }
+  }
+  return in;
+}
+
+template <int D>
+Cluster<D> clusterOf(SimplexMesh<D>& mesh, Index cell, int level)
+{
+  MeshEditor<D> editor(mesh);
+  const ElementQuality<D, MeanEdgeShape<D>> quality{ 0.0 };
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    editor.setQuality(c, quality.value(mesh.corners(c), ElementMetric<D>{}));
+  }
+  std::vector<std::uint8_t> movable;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    movable.push_back(!mesh.isFixed(p));
+  }
+  ClusterGatherer<D> gatherer(editor);
+  Cluster<D> cluster;
+  gatherer.gather(cell, level, movable, cluster);
+  return cluster;
+}
+}
+
+#endif
