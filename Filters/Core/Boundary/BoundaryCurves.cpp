@@ -181,6 +181,7 @@ void BoundaryCurves::addPiece(
   {
     piece.ends = { chain.points.front(), chain.points.back() };
     piece.range = { parameters.front(), parameters.back() };
+    piece.isEdge = chain.points.size() == 2;
   }
   const std::size_t first = chain.isClosed ? 0 : 1;
   for (std::size_t k = first; k + first < chain.points.size(); ++k)
@@ -326,7 +327,12 @@ void BoundaryCurves::join()
     if (ends[0] != None && ends[0] != ends[1])
     {
       const auto [entry, isNew] = this->betweenCorners_.emplace(ends, static_cast<Index>(k));
-      entry->second = isNew ? entry->second : None;
+      if (!isNew)
+      {
+        const Index other = entry->second;
+        const bool otherIsEdge = other != None && this->pieces_[other].isEdge;
+        entry->second = this->pieces_[k].isEdge ? static_cast<Index>(k) : otherIsEdge ? other : None;
+      }
     }
   }
 }

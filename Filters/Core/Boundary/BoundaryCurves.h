@@ -73,6 +73,7 @@ private:
     Index curve = None;
     std::array<Index, 2> ends{ None, None }; ///< points of the mesh; None: closed
     std::array<double, 2> range{ 0.0, 0.0 }; ///< parameters of the ends
+    bool isEdge = false;                     ///< one edge of the input, from end to end
   };
   void markWhereSplinesOvershoot(LineNetwork& network, const CurveOptions& options) const;
   PlaneCurve curve(const LineNetwork& network, const LineChain& chain, bool splines) const;
@@ -88,7 +89,8 @@ private:
 
   std::vector<PlaneCurve> curves_;
   std::vector<Piece> pieces_;
-  /// Piece between two corners that are neighbours, where there is only one such.
+  /// The piece by which two corners may be neighbours. Of several that join them it is the one that was
+  /// an edge of the input: there is at most one, and the others never become one.
   std::map<std::array<Index, 2>, Index> betweenCorners_;
 };
 }

@@ -151,10 +151,13 @@ bool EdgeChange<D>::contract(
       {
         return false;
       }
-      if (mesh.pointData(u).curve == None && mesh.pointData(w).curve == None &&
-        !curves->span(mesh, u, w))
+      if (mesh.pointData(u).curve == None && mesh.pointData(w).curve == None)
       {
-        return false; // two corners with several pieces between them
+        const auto between = curves->span(mesh, u, w);
+        if (!between || between->piece != joined.piece)
+        {
+          return false; // two corners with several pieces between them: this is not the one
+        }
       }
       this->changesKept = true;
       this->kept.gone.push_back({ v, u });
