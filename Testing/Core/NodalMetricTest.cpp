@@ -288,3 +288,45 @@ TEST_F(Metric2, ErrorsNameThePoint)
   EXPECT_EQ(metric.element(this->mesh_.nodes(0)).desiredSize, 0.5);
   EXPECT_TRUE(metric.element(this->mesh_.nodes(0)).euclidean);
 }
+
+/// What many edges ask for is found without looking at all of them; sizes are raised to it everywhere.
+TEST(NodalMetric, RaisedToAFloor)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<SizeFloor<2>::Edge> edges;
+  for (int k = 0; k < 300; ++k)
+  {
+    const Vec<2> a(uniform(random), uniform(random));
+    const double length = k % 100 == 0 ? 0.5 : 0.002 + 0.03 * uniform(random);
+    SizeFloor<2>::Edge e{ a, a + length * Vec<2>(uniform(random), uniform(random)),
+      Tensor<2>::Identity(), 0.0 };
+    e.metric.diagonal() << 1.0, k % 3 == 0 ? 4.0 : 1.0;
+    e.size = std::sqrt((e.b - e.a).dot(e.metric * (e.b - e.a)));
+    edges.push_back(e);
+  }
+  const double least = 0.01;
+  const auto floor = std::make_shared<const SizeFloor<2>>(edges, least);
+  SimplexMesh<2> mesh;
+  ASSERT_FALSE(SimplexMesh<2>::build(grid<2>(4), mesh));
+  NodalMetric<2> raised = NodalMetric<2>(least).raised(mesh, floor);
+  EXPECT_TRUE(raised.isRaised());
+  for (int k = 0; k < 500; ++k)
+  {
+    const Vec<2> x(uniform(random), uniform(random));
+    double best = least;
+    for (const SizeFloor<2>::Edge& e : edges)
+    {
+      double nearest = 1e9; // along the edge, step by step
+      for (int s = 0; s <= 1000; ++s)
+      {
+        const Vec<2> d = x - e.a - s / 1000.0 * (e.b - e.a);
+        nearest = std::min(nearest, d.dot(e.metric * d));
+      }
+      best = std::max(best, e.size - 0.7 * std::sqrt(nearest));
+    }
+    EXPECT_NEAR(std::max(least, floor->at(x)), best, 1e-3);
+    raised.resample(3, x);
+    EXPECT_NEAR(std::exp(raised.sample(3).logSize), best, 1e-3);
+  }
+}

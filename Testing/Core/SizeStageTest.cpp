@@ -5,6 +5,7 @@
 #include "Optimize/Optimizer.h"
 #include "Optimize/Statistics.h"
 #include "PlaneMeshes.h"
+#include "Quality/Shape.h"
 #include "TestThreads.h"
 
 using namespace meshopt;
@@ -142,6 +143,9 @@ TEST(SizeStage, FromTwoTriangles)
   EXPECT_GE(run.lengths.share, 0.9);
   EXPECT_NEAR(run.mesh.volume(), 1.0, 1e-12);
   EXPECT_EQ(run.report.stopReason, StopReason::TargetReached);
+  EXPECT_EQ(run.report.sizes.cellsAtBrake, 0);
+  EXPECT_FALSE(run.report.sizes.isGivenUp);
+  EXPECT_EQ(run.report.sizes.longestKept, 0.0);
   EXPECT_LT(run.report.seconds, 10.0); // takes .1; the machine may be busy
 }
 
@@ -243,16 +247,82 @@ TEST(SizeStage, VeryAnisotropicMetric)
 TEST(SizeStage, FixedBoundaryKeepsWhatItHas)
 {
   const MeshInput<2> in = jitteredGrid<2>(4, 0.1);
-  const Result<2> tiny = optimized<2>(in, NodalMetric<2>(0.02), options(0.3, 0.1), false);
-  EXPECT_GT(tiny.cells, 3000);
-  // between edges that stay as they are nothing this small can be good: all is undone
-  const Result<2> undone = optimized<2>(in, NodalMetric<2>(0.02), options(0.3, 0.6), false);
-  EXPECT_LT(undone.cells, 50);
+  const Result<2> tiny = optimized<2>(in, NodalMetric<2>(0.02), options(0.3, 0.6), false);
+  EXPECT_GT(tiny.cells, 900);
+  EXPECT_GT(tiny.report.worstAfter, tiny.report.worstBefore);
+  const Result<2> huge = optimized<2>(in, NodalMetric<2>(10.0), options(0.3), false);
+  EXPECT_LT(huge.cells, 32);
+}
+
+/// In this metric the corners of the square are sharp, and two triangles in them already have the best shape.
+TEST(SizeStage, SizesAreGivenUpWhereTheWorstWouldFall)
+{
+  const Tensor<2> m = (Tensor<2>() << 5.05, -4.95, -4.95, 5.05).finished(); // 45 degrees, 1 : 10
+  const MeshInput<2> in = jitteredGrid<2>(8, 0.0);
+  const double angle = std::acos(4.95 / 5.05), sine = std::sin(0.5 * angle);
+  const double best = 1.5 * std::sqrt(3.0) * std::sin(angle) / ((1.0 + sine) * (1.0 + sine));
+  const Result<2> undone = optimized<2>(in, constantMetric<2>(m, 0.015), options(), true);
+  EXPECT_NEAR(undone.report.worstBefore, best, 1e-3);
+  EXPECT_LT(undone.cells, 200);
+  EXPECT_EQ(undone.report.history[undone.report.history.size() - 1].worst, undone.report.worstAfter);
   const auto& rows = undone.report.history;
   EXPECT_TRUE(std::any_of(
     rows.begin(), rows.end(), [](const PassRecord& row) { return row.stage == "sizes given up"; }));
-  const Result<2> huge = optimized<2>(in, NodalMetric<2>(10.0), options(0.3), false);
-  EXPECT_LT(huge.cells, 32);
+  EXPECT_TRUE(undone.report.sizes.isGivenUp);
+  EXPECT_LT(undone.report.sizes.worstWithSizes, undone.report.worstBefore);
+  const Result<2> made = optimized<2>(in, constantMetric<2>(m, 0.015), options(0.0, 0.35), true);
+  EXPECT_NEAR(made.cells / made.predicted, 1.0, 0.1);
+  EXPECT_FALSE(made.report.sizes.isGivenUp);
+  EXPECT_LE(made.report.worstAfter, best + 1e-9); // no mesh has more
+}
+
+/// Edges of .39, and .01 is wanted: elements grow from the one to the other, and inside all is as wanted.
+TEST(SizeStage, SizesFallFromAFixedCoarseBoundary)
+{
+  const Result<2> run = optimized<2>(disc(16), NodalMetric<2>(0.01), options(1.0), false);
+  EXPECT_FALSE(run.report.sizes.isGivenUp);
+  EXPECT_EQ(run.report.sizes.cellsAtBrake, 0);
+  EXPECT_NEAR(run.report.sizes.longestKept, 39.0, 0.1); // 2 sin(pi / 16) / .01
+  EXPECT_NE(run.report.stopReason, StopReason::TargetReached);
+  EXPECT_LT(run.report.seconds, 20.0); // takes .2; the machine may be busy
+  EXPECT_GT(run.cells, 12000);
+  double worstShape = 1.0, worstInside = 1.0;
+  for (Index c = 0; c < run.mesh.numberOfCellSlots(); ++c)
+  {
+    if (run.mesh.isAlive(c))
+    {
+      const auto x = run.mesh.corners(c);
+      worstShape = std::min(worstShape, MeanEdgeShape<2>::value(x));
+      const bool isInside = (x[0] + x[1] + x[2]).norm() / 3.0 < 0.3;
+      worstInside = isInside ? std::min(worstInside, run.mesh.quality(c)) : worstInside;
+    }
+  }
+  EXPECT_GE(worstShape, 0.5);
+  EXPECT_GE(worstInside, 0.6);
+}
+
+/// A metric that turns by far more than its elements are short: what is made must not grow without end.
+TEST(SizeStage, SplittingHasABrake)
+{
+  const MeshInput<2> in = jitteredGrid<2>(32, 0.0);
+  std::vector<Tensor<2>> tensors;
+  for (const Vec<2>& x : in.points)
+  {
+    const double a = 8.0 * Pi * x[1], ratio = 100.0;
+    const Vec<2> n(std::cos(a), std::sin(a));
+    tensors.push_back(Tensor<2>(Tensor<2>::Identity() + (ratio * ratio - 1.0) * n * n.transpose()));
+  }
+  NodalMetric<2> metric(0.3);
+  EXPECT_EQ(metric.set(buildMesh(in), {}, tensors), "");
+  Options o = options(1.0, 0.1);
+  o.effort = Effort::Quick;
+  const Result<2> run = optimized<2>(in, metric, o, true);
+  const double most = 4.0 * run.predicted + 1000.0;
+  EXPECT_NEAR(run.predicted, 2566.0, 1.0);
+  EXPECT_NEAR(run.report.sizes.predictedCells, run.predicted, 1e-6);
+  EXPECT_GT(run.report.sizes.cellsAtBrake, most);
+  EXPECT_LT(run.report.sizes.cellsAtBrake, most + 10.0);
+  EXPECT_LT(run.cells, 1.1 * most);
 }
 
 TEST(SizeStage, CurvedInterfaceSlides)
@@ -306,6 +376,59 @@ TEST(SizeStage, SlitsStayOpen)
       });
     EXPECT_NEAR(length[0], 0.75 - from, 1e-12);
     EXPECT_NEAR(length[1], 0.75 - from, 1e-12);
+  }
+}
+
+/// Two pieces between the same two corners, one of them a single edge: a half disc, and a whole one
+/// with a diameter for an interface.
+TEST(SizeStage, EdgesBetweenTheSameTwoCornersAreSplit)
+{
+  MeshInput<2> half = fan(circle(16), Vec<2>(0.0, 0.4));
+  half.points.erase(half.points.begin() + 9, half.points.begin() + 16);
+  half.cells.clear();
+  for (Index k = 0; k < 9; ++k)
+  {
+    half.cells.push_back({ k, (k + 1) % 9, 9 });
+  }
+  MeshInput<2> whole = half;
+  for (Index k = 9; k < 16; ++k)
+  {
+    whole.points.push_back(onCircle(k / 16.0)); // ids 10 to 16
+  }
+  whole.points.emplace_back(0.0, -0.4);
+  const std::vector<Index> lower{ 8, 10, 11, 12, 13, 14, 15, 16, 0 };
+  for (std::size_t k = 0; k < lower.size(); ++k)
+  {
+    whole.cells.push_back({ lower[k], lower[(k + 1) % lower.size()], 17 });
+  }
+  whole.regions.assign(9, 0);
+  whole.regions.resize(18, 1);
+  for (const MeshInput<2>& in : { half, whole })
+  {
+    for (double h : { 0.05, 0.7 })
+    {
+      const Result<2> run = optimized<2>(in, NodalMetric<2>(h), options(), true);
+      EXPECT_GE(run.report.worstAfter, 0.6);
+      EXPECT_NEAR(run.cells / run.predicted, 1.0, h < 0.1 ? 0.1 : 0.6);
+      const double area = in.regions.empty() ? 0.5 * Pi : Pi;
+      EXPECT_NEAR(run.mesh.volume(), area, h < 0.1 ? 4e-3 * area : 0.2 * area);
+      double straight = 0.0;
+      long edges = 0;
+      forKeptFacets(run.mesh,
+        [&](Index c, int i)
+        {
+          const Facet<2> f = run.mesh.facet(c, i);
+          const Vec<2> a = run.mesh.point(f[0]), b = run.mesh.point(f[1]);
+          const bool isAbove = run.mesh.corners(c)[i][1] > 0.0;
+          if (std::fabs(a[1]) < 1e-12 && std::fabs(b[1]) < 1e-12 && isAbove)
+          {
+            straight += (b - a).norm();
+            edges += 1;
+          }
+        });
+      EXPECT_NEAR(straight, 2.0, 1e-12);
+      EXPECT_NEAR(edges, 2.0 / h, 0.2 * 2.0 / h + 1.0) << h;
+    }
   }
 }
 
@@ -472,7 +595,8 @@ TEST(SizeStage, QualitiesAreTheShapesInTheMetric)
   curves.build(editor, CurveOptions());
   NodalMetric<2> metric(0.07);
   Report report;
-  EXPECT_TRUE(followSizes<2>(editor, metric, options(0.5), {}, &curves, report));
+  const double predicted = metric.predictedNumberOfElements(mesh);
+  EXPECT_TRUE(followSizes<2>(editor, metric, predicted, options(0.5), {}, &curves, report));
   EXPECT_GE(report.history.size(), 2u);
   const std::vector<double> stored = sortedQualities(mesh);
   computeQualities<2>(editor, metric, Measure::Shape, 0.0);

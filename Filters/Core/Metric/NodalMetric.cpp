@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -90,6 +91,54 @@ std::string NodalMetric<D>::setConstant(const Tensor<D>& tensor)
 }
 
 template <int D>
+NodalMetric<D> NodalMetric<D>::raised(
+  const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const
+{
+  NodalMetric result = *this;
+  if (!result.background_) // one value for all points so far
+  {
+    result.background_ = std::make_shared<const Background<D>>(mesh);
+    result.values_.resize(mesh.numberOfPointSlots());
+    for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+    {
+      result.values_[p].logSize = this->logSize(p);
+      result.values_[p].hint = result.background_->cellOfPoint(p);
+    }
+    result.backgroundValues_ = result.values_;
+  }
+  else if (!this->hasSizes_)
+  {
+    for (std::vector<Sample>* values : { &result.values_, &result.backgroundValues_ })
+    {
+      for (Sample& value : *values)
+      {
+        value.logSize = std::log(this->constantSize_);
+      }
+    }
+  }
+  result.hasSizes_ = true;
+  result.floor_ = std::move(floor);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (mesh.isPointAlive(p))
+    {
+      result.raise(p, mesh.point(p));
+    }
+  }
+  return result;
+}
+
+template <int D>
+void NodalMetric<D>::raise(Index p, const Vec<D>& x)
+{
+  const double least = this->floor_->at(x);
+  if (least > 0.0)
+  {
+    this->values_[p].logSize = std::max(this->values_[p].logSize, std::log(least));
+  }
+}
+
+template <int D>
 void NodalMetric<D>::reserve(Index n)
 {
   if (!this->values_.empty() && static_cast<Index>(this->values_.size()) < n)
@@ -118,6 +167,10 @@ void NodalMetric<D>::resample(Index p, const Vec<D>& x, Index near)
   {
     value.logSize = Background<D>::interpolate(
       at, [this](Index q) { return this->backgroundValues_[q].logSize; });
+    if (this->floor_)
+    {
+      this->raise(p, x);
+    }
   }
   if (this->hasTensors_)
   {

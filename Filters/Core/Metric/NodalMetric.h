@@ -6,6 +6,7 @@
 
 #include "Mesh/SimplexMesh.h"
 #include "Metric/Background.h"
+#include "Metric/SizeFloor.h"
 #include "Quality/Measure.h"
 
 #include <memory>
@@ -87,6 +88,12 @@ public:
     return m;
   }
 
+  /// The same field with h* raised to what `floor` says, at the points of `mesh` and wherever it is sampled
+  /// from then on. There must be sizes.
+  NodalMetric raised(
+    const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const;
+  bool isRaised() const { return this->floor_ != nullptr; }
+
   /// M / h*^2 at point p as it was sampled: in it, edges of the wanted length have length 1. The
   /// identity where neither a size nor a metric is given.
   Tensor<D> unitTensor(Index p) const;
@@ -100,6 +107,7 @@ public:
 
 private:
   double logSize(Index p) const;
+  void raise(Index p, const Vec<D>& x);
   void fill(const Simplex<D>& nodes, ElementMetric<D>& m) const;
 
   double constantSize_ = 0.0;
@@ -110,6 +118,7 @@ private:
   std::vector<Sample> values_;                    ///< per point of the optimized mesh
   std::vector<Sample> backgroundValues_;          ///< per point of the background
   std::shared_ptr<const Background<D>> background_;
+  std::shared_ptr<const SizeFloor<D>> floor_; ///< null: none
 };
 
 extern template class NodalMetric<2>;

@@ -2,6 +2,7 @@
 #include "Optimize/Optimizer.h"
 
 #include "Mesh/MeshEditor.h"
+#include "Optimize/KeptSizes.h"
 #include "Optimize/Paper1996.h"
 #include "Optimize/SizeStage.h"
 #include "Optimize/Statistics.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 namespace meshopt
 {
@@ -35,6 +37,55 @@ Control partOf(const Control& control, double first, double last)
     { return control.progress(first + fraction * (last - first), text); };
   }
   return part;
+}
+
+template <int D>
+void appendRow(const char* stage, const SimplexMesh<D>& mesh, double target, Report& report)
+{
+  PassRecord row = summarize(mesh, target);
+  row.stage = stage;
+  row.pass = static_cast<int>(report.history.size());
+  report.history.push_back(row);
+}
+
+/// In the plane, where edges that must stay are much longer than wanted: the metric with the sizes that
+/// can be had beside them. In the wanted ones no quality can be high there, and to raise the worst of
+/// them by a little would cost the sizes all around. Else nothing.
+template <int D>
+std::optional<NodalMetric<D>> attainable([[maybe_unused]] const SimplexMesh<D>& mesh,
+  [[maybe_unused]] const NodalMetric<D>& metric, [[maybe_unused]] const Options& options,
+  [[maybe_unused]] const BoundaryCurves* curves, [[maybe_unused]] Report& report)
+{
+  if constexpr (D == 2)
+  {
+    auto floor = keptSizeFloor(mesh, metric, curves, report.sizes.longestKept);
+    if (floor && options.beta > 0.0)
+    {
+      return metric.raised(mesh, std::move(floor));
+    }
+  }
+  return std::nullopt;
+}
+
+/// From the attainable sizes back to the wanted ones.
+template <int D>
+void judgeByWantedSizes(
+  MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options, Report& report)
+{
+  for (Index p = 0; p < editor.mesh().numberOfPointSlots(); ++p)
+  {
+    if (editor.mesh().isPointAlive(p))
+    {
+      metric.resample(p, editor.mesh().point(p));
+    }
+  }
+  computeQualities<D>(editor, metric, options.measure, options.beta);
+  appendRow<D>("sizes as wanted", editor.mesh(), options.targetQuality, report);
+  if (report.stopReason == StopReason::TargetReached &&
+    report.history.back().worst < options.targetQuality)
+  {
+    report.stopReason = StopReason::NoFurtherGain;
+  }
 }
 
 /// Sizes first, then the worst elements. Should the worst be lower in the end than it was and than is
@@ -68,18 +119,27 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   const NodalMetric<D> metricBefore = metric;
   const double worstBefore = report.history.back().worst;
   const Control sizing = partOf(control, Untangled, Sized), improving = partOf(control, Sized, 1.0);
-  const bool more = followSizes<D>(editor, metric, timeLeft(), sizing, curves, report);
-  computeQualities<D>(editor, metric, options.measure, options.beta);
+  report.sizes.predictedCells = metric.predictedNumberOfElements(editor.mesh());
+  std::optional<NodalMetric<D>> raised = attainable<D>(
+    editor.mesh(), metric, options, curves, report);
+  NodalMetric<D>& followed = raised ? *raised : metric;
+  const bool more = followSizes<D>(
+    editor, followed, report.sizes.predictedCells, timeLeft(), sizing, curves, report);
+  computeQualities<D>(editor, followed, options.measure, options.beta);
   if (more)
   {
     Options rest = timeLeft();
     rest.growthBudget = std::min(rest.growthBudget, GrowthAfterSizes);
-    optimizeWorstFirst<D>(editor, metric, rest, improving, report, curves);
+    optimizeWorstFirst<D>(editor, followed, rest, improving, report, curves);
   }
   else
   {
     const bool isLate = options.timeLimit > 0.0 && timeLeft().timeLimit <= 1e-9;
     report.stopReason = isLate ? StopReason::TimeLimit : StopReason::Aborted;
+  }
+  if (raised)
+  {
+    judgeByWantedSizes<D>(editor, metric, options, report);
   }
   const double worst = summarize(editor.mesh(), options.targetQuality).worst;
   if (worst < std::min(worstBefore, options.targetQuality))
@@ -87,10 +147,9 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
     editor.mesh() = meshBefore;
     metric = metricBefore;
     editor = MeshEditor<D>(editor.mesh());
-    PassRecord row = summarize(editor.mesh(), options.targetQuality);
-    row.stage = "sizes given up";
-    row.pass = static_cast<int>(report.history.size());
-    report.history.push_back(row);
+    appendRow<D>("sizes given up", editor.mesh(), options.targetQuality, report);
+    report.sizes.isGivenUp = true;
+    report.sizes.worstWithSizes = worst;
     if (report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit)
     {
       optimizeWorstFirst<D>(editor, metric, timeLeft(), partOf(control, 1.0, 1.0), report, curves);

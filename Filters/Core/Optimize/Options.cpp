@@ -118,7 +118,7 @@ const char* toString(StopReason reason)
     case StopReason::Aborted:
       return "aborted";
     case StopReason::NothingToDo:
-      return "nothing to do: no cells";
+      return "nothing to do: no triangles or tetrahedra";
     case StopReason::NotRun:
       break;
   }

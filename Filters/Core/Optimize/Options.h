@@ -71,7 +71,7 @@ enum class StopReason
   IterationLimit,
   TimeLimit,
   Aborted,    ///< by the caller; the mesh is valid, and as good as it was by then
-  NothingToDo ///< no cells
+  NothingToDo ///< no triangles or tetrahedra
 };
 
 /// A sentence for the user.
@@ -105,6 +105,19 @@ struct PassRecord
   double seconds = 0.0;           ///< not part of any output array
 };
 
+/// What became of the wanted sizes; all 0 where they were not followed.
+struct SizeReport
+{
+  double predictedCells = 0.0; ///< as many elements as the sizes ask for (5.3)
+  /// Cells when splitting was stopped: several times as many as predicted, as where the wanted lengths
+  /// change faster than edges can follow. 0: it was not.
+  long cellsAtBrake = 0;
+  /// In the plane: the longest of the edges that had to stay, in the length that is wanted there.
+  double longestKept = 0.0;
+  bool isGivenUp = false;     ///< all has been undone: the worst would have been lower than before
+  double worstWithSizes = 0.0; ///< the worst quality that it would have been; where given up
+};
+
 struct Report
 {
   StopReason stopReason = StopReason::NotRun;
@@ -114,6 +127,7 @@ struct Report
   double bound = 1.0;
   long cappedCells = 0; ///< cells under the target at the end that their own cap keeps there
   long invertedBefore = 0, invertedAfter = 0;
+  SizeReport sizes;
   std::vector<PassRecord> history; ///< first row: the input
   double seconds = 0.0;
 };

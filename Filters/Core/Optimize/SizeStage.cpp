@@ -67,9 +67,12 @@ void SizeStage<D>::record()
 /// Edges are halved round by round: to split a long edge to the end at once would make its
 /// neighbourhood fine in all directions, also where it is to be so in one only.
 template <int D>
-bool SizeStage<D>::run()
+bool SizeStage<D>::run(double predicted)
 {
-  const double predicted = this->metric_.predictedNumberOfElements(this->mesh());
+  this->report_.sizes.predictedCells = predicted;
+  this->mostCells_ = BrakeSlack +
+    static_cast<long>(BrakeFactor *
+      std::clamp(predicted, static_cast<double>(this->mesh().countCells()), MostPredicted));
   this->longest_ = std::max(Longest, 0.5 * this->longestEdge());
   int corrections = 0;
   int last = MaximumRounds;
@@ -96,7 +99,8 @@ bool SizeStage<D>::run()
       continue;
     }
     const double ratio = cells / predicted;
-    if (std::fabs(ratio - 1.0) < CountTolerance || corrections++ == MaximumCorrections)
+    if (std::fabs(ratio - 1.0) < CountTolerance || corrections++ == MaximumCorrections ||
+      this->metric_.isRaised())
     {
       break;
     }
@@ -109,15 +113,15 @@ bool SizeStage<D>::run()
 }
 
 template <int D>
-bool followSizes(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, const BoundaryCurves* curves, Report& report)
+bool followSizes(MeshEditor<D>& editor, NodalMetric<D>& metric, double predicted,
+  const Options& options, const Control& control, const BoundaryCurves* curves, Report& report)
 {
   computeQualities<D>(editor, metric, Measure::Shape, 0.0);
-  return sizes::SizeStage<D>(editor, metric, options, control, curves, report).run();
+  return sizes::SizeStage<D>(editor, metric, options, control, curves, report).run(predicted);
 }
 
-template bool followSizes<2>(
-  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*, Report&);
-template bool followSizes<3>(
-  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*, Report&);
+template bool followSizes<2>(MeshEditor<2>&, NodalMetric<2>&, double, const Options&,
+  const Control&, const BoundaryCurves*, Report&);
+template bool followSizes<3>(MeshEditor<3>&, NodalMetric<3>&, double, const Options&,
+  const Control&, const BoundaryCurves*, Report&);
 }

@@ -14,7 +14,9 @@ namespace meshopt
 /// Splits edges longer than sqrt(2) h*, the longest first, and contracts those shorter than
 /// h* / sqrt(2), the shortest first; lengths are those of EdgeLengths.h. In between, edges are swapped where that
 /// raises the worse quality, and nodes move to where their edges have the wanted length. Once nothing
-/// is left to do, h* is scaled a little such that the number of elements is the predicted one (5.3).
+/// is left to do, h* is scaled a little such that the number of elements is the `predicted` one (5.3): not
+/// if the metric is raised, which then fills fewer. Where there are several times as many, as where
+/// lengths change faster than edges can follow, splitting ends (report.sizes.cellsAtBrake).
 ///
 /// Precondition: no cell is inverted or flat. The surface is kept but for what may slide along `curves`
 /// (null: nothing). No cell gets inverted,
@@ -22,13 +24,13 @@ namespace meshopt
 /// shape in the metric (Measure::Shape, beta = 0): the caller computes his own anew. Appends rows to
 /// report.history. Returns false if the caller asked to stop.
 template <int D>
-bool followSizes(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, const BoundaryCurves* curves, Report& report);
+bool followSizes(MeshEditor<D>& editor, NodalMetric<D>& metric, double predicted,
+  const Options& options, const Control& control, const BoundaryCurves* curves, Report& report);
 
-extern template bool followSizes<2>(
-  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*, Report&);
-extern template bool followSizes<3>(
-  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*, Report&);
+extern template bool followSizes<2>(MeshEditor<2>&, NodalMetric<2>&, double, const Options&,
+  const Control&, const BoundaryCurves*, Report&);
+extern template bool followSizes<3>(MeshEditor<3>&, NodalMetric<3>&, double, const Options&,
+  const Control&, const BoundaryCurves*, Report&);
 }
 
 #endif

@@ -143,9 +143,10 @@ bool SizeStage<D>::isAboutLongest(const std::vector<Index>& cells, double length
 template <int D>
 long SizeStage<D>::split()
 {
-  long done = 0;
+  long done = 0, cells = this->mesh().countCells();
+  long& cellsAtBrake = this->report_.sizes.cellsAtBrake;
   this->collectQueue(true);
-  while (!this->queue_.empty() && this->options_.insertNodes)
+  while (!this->queue_.empty() && this->options_.insertNodes && cellsAtBrake == 0)
   {
     const Edge edge = this->queue_.top();
     this->queue_.pop();
@@ -155,6 +156,8 @@ long SizeStage<D>::split()
       continue;
     }
     ++done;
+    cells += static_cast<long>(this->change_.cells.size() - this->change_.cavity.size());
+    cellsAtBrake = cells > this->mostCells_ ? cells : 0;
     this->swapAround([this](Index c) { this->push(c, true); });
     if (done % 256 == 0 && !this->keepGoing())
     {

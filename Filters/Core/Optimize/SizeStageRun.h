@@ -30,6 +30,11 @@ constexpr double FewChanges = 0.005;
 constexpr double CountTolerance = 0.03;
 constexpr int MaximumCorrections = 3;
 constexpr double GreatestScale = 1.25;
+/// Splitting ends for good when there are so many times as many cells as predicted, or as in the
+/// beginning, and BrakeSlack more. Where lengths vary in a way that edges can follow, it never gets near it.
+constexpr double BrakeFactor = 4.0;
+constexpr long BrakeSlack = 1000;
+constexpr double MostPredicted = 1e9; // more than ids can number
 /// Edges are split so far from their middle, at random.
 constexpr double Jitter = 0.1;
 /// An edge is split if no cell at it has one that is longer than it by more than this factor.
@@ -65,7 +70,7 @@ class SizeStage
 public:
   SizeStage(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
     const Control& control, const BoundaryCurves* curves, Report& report);
-  bool run();
+  bool run(double predicted);
 
 private:
   using Shape = MeanEdgeShape<D>;
@@ -121,6 +126,7 @@ private:
 
   std::vector<Tensor<D>> units_; // M / h*^2 at the points
   int round_ = 0;
+  long mostCells_ = 0; // brake
   double scale_ = 1.0;       // of h*
   double longest_ = Longest; // longer edges are split
   std::uint32_t swappedAt_ = 0;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Metric/SizeFloor.h"
+
+#include "Metric/SymmetricEigen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+/// Sizes fall by this part of the distance: to about half from one layer of triangles to the next. Their
+/// shape then still is over .6.
+constexpr double Fall = 0.7;
+constexpr double MostBins = 50.0; // per edge
+}
+
+template <int D>
+SizeFloor<D>::SizeFloor(std::vector<Edge> edges, double least)
+  : edges_(std::move(edges))
+{
+  std::vector<Vec<D>> low, high; // of the boxes beyond which the edges ask for less than `least`
+  double sum = 0.0;
+  for (const Edge& e : this->edges_)
+  {
+    const double weakest = std::max(SymmetricEigen<D>::of(e.metric).values[0], 1e-300);
+    const double reach = std::max(e.size - least, 0.0) / (Fall * std::sqrt(weakest));
+    low.push_back(e.a.cwiseMin(e.b) - Vec<D>::Constant(reach));
+    high.push_back(e.a.cwiseMax(e.b) + Vec<D>::Constant(reach));
+    sum += (high.back() - low.back()).maxCoeff();
+  }
+  const double n = static_cast<double>(this->edges_.size());
+  this->width_ = sum > 0.0 ? 0.5 * sum / n : 1.0;
+  while (this->countBins(low, high) > MostBins * (n + 1.0)) // edges of very different lengths
+  {
+    this->width_ *= 2.0;
+  }
+  for (std::size_t k = 0; k < this->edges_.size(); ++k)
+  {
+    const Bin first = this->binOf(low[k]), last = this->binOf(high[k]);
+    for (Bin bin = first; bin[D - 1] <= last[D - 1];)
+    {
+      this->bins_[bin].push_back(static_cast<Index>(k));
+      for (int d = 0; d < D; ++d) // the next one
+      {
+        if (++bin[d] <= last[d] || d == D - 1)
+        {
+          break;
+        }
+        bin[d] = first[d];
+      }
+    }
+  }
+}
+
+template <int D>
+double SizeFloor<D>::countBins(
+  const std::vector<Vec<D>>& low, const std::vector<Vec<D>>& high) const
+{
+  double count = 0.0;
+  for (std::size_t k = 0; k < low.size(); ++k)
+  {
+    count += ((high[k] - low[k]) / this->width_ + Vec<D>::Constant(2.0)).prod();
+  }
+  return count;
+}
+
+template <int D>
+typename SizeFloor<D>::Bin SizeFloor<D>::binOf(const Vec<D>& x) const
+{
+  Bin bin;
+  for (int d = 0; d < D; ++d)
+  {
+    bin[d] = static_cast<long>(std::floor(x[d] / this->width_));
+  }
+  return bin;
+}
+
+template <int D>
+double SizeFloor<D>::at(const Vec<D>& x) const
+{
+  double floor = 0.0;
+  const auto found = this->bins_.find(this->binOf(x));
+  for (std::size_t k = 0; found != this->bins_.end() && k < found->second.size(); ++k)
+  {
+    const Edge& e = this->edges_[found->second[k]];
+    const Vec<D> along = e.b - e.a, mapped = e.metric * along;
+    const double part = std::clamp(mapped.dot(x - e.a) / (e.size * e.size), 0.0, 1.0);
+    const Vec<D> away = x - e.a - part * along;
+    floor = std::max(floor, e.size - Fall * std::sqrt(away.dot(e.metric * away)));
+  }
+  return floor;
+}
+
+template class SizeFloor<2>;
+template class SizeFloor<3>;
+}

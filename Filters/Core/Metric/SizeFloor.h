@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SizeFloor.h
+/// The least size that can be had around edges that stay as they are.
+#ifndef meshopt_Metric_SizeFloor_h
+#define meshopt_Metric_SizeFloor_h
+
+#include "Mesh/Types.h"
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace meshopt
+{
+/// Beside an edge nothing much smaller than itself is any good; away from it sizes fall by a part of
+/// the distance, as fast as good triangles can follow. Immutable.
+template <int D>
+class SizeFloor
+{
+public:
+  struct Edge
+  {
+    Vec<D> a, b;
+    Tensor<D> metric; ///< in which its length, and distances from it, are measured
+    double size;      ///< its length in it
+  };
+
+  /// `least`: sizes from which on a floor does not matter.
+  SizeFloor(std::vector<Edge> edges, double least);
+
+  /// The greatest that any of the edges asks for at x; at most 0 far from all.
+  double at(const Vec<D>& x) const;
+
+private:
+  using Bin = std::array<long, D>;
+  Bin binOf(const Vec<D>& x) const;
+  double countBins(const std::vector<Vec<D>>& low, const std::vector<Vec<D>>& high) const;
+
+  std::vector<Edge> edges_;
+  double width_ = 1.0; // of a bin
+  std::map<Bin, std::vector<Index>> bins_;
+};
+
+extern template class SizeFloor<2>;
+extern template class SizeFloor<3>;
+}
+
+#endif
