@@ -327,9 +327,12 @@ std::string vtkMeshOptimizeFilter::OptimizeAll(vtkDataObject* input, vtkPolyData
       return isComposite ? "Block " + std::to_string(tasks[i].Block) + ": " + error : error;
     }
     bridge::AppendHistory(one.Report, tasks[i].Block, history);
-    if (isComposite && !one.Tangle.empty())
+    for (std::string* text : { &one.Tangle, &one.Sizes })
     {
-      one.Tangle = "Block " + std::to_string(tasks[i].Block) + ": " + one.Tangle;
+      if (isComposite && !text->empty())
+      {
+        *text = "Block " + std::to_string(tasks[i].Block) + ": " + *text;
+      }
     }
     outcome.Add(one);
   }
@@ -367,9 +370,12 @@ void vtkMeshOptimizeFilter::Warn(const bridge::Outcome& outcome)
                     << " cells were numbered the wrong way round (negative volume); they have been "
                        "renumbered.");
   }
-  if (!outcome.Tangle.empty())
+  for (const std::string& text : { outcome.Tangle, outcome.Sizes })
   {
-    vtkWarningMacro(<< outcome.Tangle);
+    if (!text.empty())
+    {
+      vtkWarningMacro(<< text);
+    }
   }
 }
 

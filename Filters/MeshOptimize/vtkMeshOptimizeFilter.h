@@ -62,7 +62,15 @@
  *
  * <b>Abort.</b> Progress is reported and AbortExecute looked at all the time. After an abort the
  * output is a valid mesh, as good as it was by then, and GetStopReason() is Aborted. (Filters of
- * VTK usually leave an empty output then.)
+ * VTK usually leave an empty output then.) VTK from 9.2 on leaves AbortExecute set afterwards, for
+ * this filter as for its own: call SetAbortExecute(0) before the next run, which else stops at once.
+ *
+ * <b>Sizes.</b> A warning tells if the wanted sizes were given up because the worst quality would have
+ * become lower than it was (and than TargetQuality); if splitting stopped because there were many
+ * times the elements that the sizes stand for; how long kept edges are where they are more than twice
+ * as long as wanted (in the plane); and if splines changed the area by more than a tenth. In a metric,
+ * angles are those of the metric: a right-angled corner of the domain can be very acute in it, and the
+ * cell in it then has no high quality in any mesh.
  *
  * The same input gives the same output, bit for bit, for any number of threads, unless TimeLimit or
  * abort is used.
@@ -416,7 +424,7 @@ public:
     IterationLimit = 4,
     TimeLimitReached = 5,
     Aborted = 6,
-    NothingToDo = 7 ///< no cells to optimize, or none under OptimizeBelow
+    NothingToDo = 7 ///< no triangles or tetrahedra, or none under OptimizeBelow
   };
 
   ///@{

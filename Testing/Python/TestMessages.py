@@ -101,6 +101,10 @@ if f.GetOutputDataObject(0).GetBlock(0).GetPointData().GetArray("Displacement") 
 for title, data in (("hexahedra", hexahedron()), ("a surface as block", blocks(surface()))):
     expect(title, optimize(), [], [["Nothing to optimize", "none of the", "triangle"]], data)
     expect(title, quality(), [], [["Nothing to measure", "none of the", "triangle"]], data)
+f = optimize()
+expect("hexahedra", f, [], [["Nothing to optimize"]], hexahedron())
+if f.GetStopReasonAsString() != "nothing to do: no triangles or tetrahedra":
+    failures.append(f"hexahedra: {f.GetStopReasonAsString()}")
 expect("hexahedra beside a mesh", optimize(), [], [], blocks(hexahedron(), tetrahedron()))
 expect("hexahedra beside a mesh", quality(), [], [], blocks(hexahedron(), tetrahedron()))
 expect("no cells", optimize(), [], [], vtkUnstructuredGrid())
@@ -114,6 +118,79 @@ expect("ParaView's None", make(optimize, SizeArray="None"), [], [], tetrahedron(
 expect("a size to slide by", make(optimize, DesiredSize=0.5, BoundaryMode=1), [], [], triangles())
 expect("a size with Beta", make(optimize, DesiredSize=1.0, Beta=1.0), [], [], tetrahedron())
 expect("a geometry, fixed", optimize(), [], [["Fixed", "geometry", "port 1"]], triangles(), vtkPolyData())
+
+# Sizes that cannot be had: what comes out, and why.
+def disc(n):
+    grid, points = vtkUnstructuredGrid(), vtkPoints()
+    points.SetDataTypeToDouble()
+    for k in range(n):
+        points.InsertNextPoint(np.cos(2 * np.pi * k / n), np.sin(2 * np.pi * k / n), 0)
+    points.InsertNextPoint(0, 0, 0)
+    grid.SetPoints(points)
+    for k in range(n):
+        grid.InsertNextCell(VTK_TRIANGLE, 3, [k, (k + 1) % n, n])
+    return grid
+
+
+def square(n, **arrays):
+    """n x n x 2 triangles; arrays as functions of x and y."""
+    grid, points = vtkUnstructuredGrid(), vtkPoints()
+    y, x = (a.ravel() for a in np.mgrid[0:n + 1, 0:n + 1] / n)
+    points.SetData(numpy_to_vtk(np.column_stack([x, y, 0 * x]), deep=1))
+    grid.SetPoints(points)
+    for p in (i + j * (n + 1) for j in range(n) for i in range(n)):
+        grid.InsertNextCell(VTK_TRIANGLE, 3, [p, p + 1, p + n + 2])
+        grid.InsertNextCell(VTK_TRIANGLE, 3, [p, p + n + 2, p + n + 1])
+    for name, function in arrays.items():
+        array = numpy_to_vtk(np.ascontiguousarray(function(x, y)), deep=1)
+        array.SetName(name)
+        grid.GetPointData().AddArray(array)
+    return grid
+
+
+def turning(x, y):
+    a = 8 * np.pi * y
+    return np.column_stack([1 + 9999 * np.cos(a) ** 2, 1 + 9999 * np.sin(a) ** 2, 0 * a + 1,
+                            9999 * np.cos(a) * np.sin(a), 0 * a, 0 * a])
+
+
+f = make(optimize, DesiredSize=0.03, Beta=1.0)
+expect("a fixed boundary that is coarse", f, [], [["up to 13 times as long as wanted", "Slide"]], disc(16))
+if f.GetOutput().GetNumberOfCells() < 1000:
+    failures.append(f"a fixed boundary that is coarse: {f.GetOutput().GetNumberOfCells()} cells")
+f = make(optimize, DesiredSize=0.015, BoundaryMode=1, MetricArray="m")  # two corners are sharp in this metric
+expect("sizes given up", f, [], [["given up", "lower than before", "target"]],
+       square(8, m=lambda x, y: np.tile([5.05, 5.05, 1, -4.95, 0, 0], (len(x), 1))))
+f = make(optimize, DesiredSize=0.3, Beta=1.0, MetricArray="turning", BoundaryMode=1, Effort=0, TargetQuality=0.1)
+expect("a metric that turns", f, [], [["No more edges were split", "2566", "faster"]], square(32, turning=turning))
+for count, angle, boundary, warnings in ((8, 50.0, 1, ["area", "10.8 %", "greater", "Corner Angle"]), (8, 50.0, 0, None),
+                                         (16, 50.0, 1, None)):
+    for data, prefix in ((disc(count), ""), (blocks(disc(count)), "Block 1: ")):
+        f = make(optimize, DesiredSize=0.1, BoundaryMode=1, CornerAngle=angle, BoundaryCurve=boundary)
+        expect("another area", f, [], [[prefix + "The area", *warnings]] if warnings else [], data)
+expect("a size that is none", make(optimize, SizeArray="h", Beta=1.0), [["'h'", "point 4", "-1"]], [],
+       square(2, h=lambda x, y: np.where((x == 0.5) & (y == 0.5), -1.0, 0.1)))
+expect("a metric that is none", make(optimize, SizeArray="h", MetricArray="m", Beta=1.0),
+       [["'m'", "point 0", "positive definite"]], [],
+       square(2, h=lambda x, y: 0.1 + 0 * x, m=lambda x, y: 0 * turning(x, y)))
+
+
+# Lengths whose squares and cubes double precision does not hold.
+def scaled(grid, factor):
+    points = vtkPoints()
+    points.SetDataTypeToDouble()
+    for p in range(grid.GetNumberOfPoints()):
+        points.InsertNextPoint(*(factor * x for x in grid.GetPoint(p)))
+    grid.SetPoints(points)
+    return grid
+
+
+for make_grid in (tetrahedron, triangles):
+    for filter_class in (optimize, quality):
+        for factor, word in ((1e160, "large"), (1e-160, "small")):
+            expect(f"times {factor}", filter_class(), [["too " + word, "Scale"]], [], scaled(make_grid(), factor))
+        expect("times 1e90", filter_class(), [], [], scaled(make_grid(), 1e90))
+        expect("times 1e-90", filter_class(), [], [], scaled(make_grid(), 1e-90))
 
 # The arrays by name.
 for filter_class in (optimize, quality):

@@ -55,7 +55,24 @@ Tensor<2> Frame<2>::ToCore(const Tensor<3>& m) const
   return inPlane;
 }
 
-std::string FindFrame(vtkUnstructuredGrid*, const Cells&, Frame<3>&) { return {}; }
+std::string CheckExtent(const Vec<3>& low, const Vec<3>& high)
+{
+  constexpr double least = 1e-100, most = 1e100;
+  const double extent = (high - low).maxCoeff();
+  const double magnitude = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  const bool isLarge = magnitude > most, isSmall = extent > 0.0 && extent < least;
+  if (!std::isfinite(magnitude) || !std::isfinite(extent) || (!isLarge && !isSmall))
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
+       << (isLarge ? magnitude : extent)
+       << "): lengths squared and cubed leave the range of double precision. Scale the mesh; between "
+          "1e-100 and 1e100 all is well.";
+  return text.str();
+}
+
 
 namespace
 {
@@ -189,9 +206,20 @@ std::string CheckPlane(vtkUnstructuredGrid* grid, const Cells& cells, const Vec<
 
 } // namespace
 
+std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>&)
+{
+  const Box box = FindBox(grid, cells);
+  return CheckExtent(box.Low, box.High);
+}
+
 std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<2>& frame)
 {
   const Box box = FindBox(grid, cells);
+  const std::string error = CheckExtent(box.Low, box.High);
+  if (!error.empty())
+  {
+    return error;
+  }
   Vec<3> normal = FindNormal(grid, cells);
   const int constant = FindConstantCoordinate(box);
   if (constant >= 0)

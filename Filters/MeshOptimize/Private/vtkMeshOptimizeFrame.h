@@ -48,7 +48,13 @@ struct Frame<2>
 };
 
 /**
- * Nothing to find in space.
+ * A sentence if a mesh from `low` to `high` is so large or so small that its cubed lengths leave the
+ * range of double precision; else, and where a bound is not finite, an empty string.
+ */
+std::string CheckExtent(const meshopt::Vec<3>& low, const meshopt::Vec<3>& high);
+
+/**
+ * Nothing to find in space; the extent is checked.
  */
 std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>& frame);
 

@@ -8,6 +8,7 @@
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeImport.h"
 #include "vtkMeshOptimizeQuality.h"
+#include "vtkMeshOptimizeSizes.h"
 #include "vtkMeshOptimizeTangle.h"
 #include "vtkMeshOptimizeTransfer.h"
 #include "vtkMeshOptimizeZone.h"
@@ -21,47 +22,15 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
-#include <sstream>
 
 namespace vtkMeshOptimizeBridge
 {
 namespace
 {
 
-template <int D>
-std::string SetMetric(const Cells& cells, const InputArrays& arrays, const Frame<D>& frame,
-  const Request& request, const meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric)
+std::string Joined(const std::string& a, const std::string& b)
 {
-  vtkDataArray* sizes = request.UsesSizes() ? arrays.Size : nullptr;
-  if (!sizes && !arrays.Metric)
-  {
-    return {};
-  }
-  return metric.set(mesh, ReadSizes(sizes, cells), ReadMetric(arrays.Metric, cells, frame));
-}
-
-template <int D>
-std::string CheckCount(const Request& request, const meshopt::SimplexMesh<D>& mesh,
-  const meshopt::NodalMetric<D>& metric)
-{
-  constexpr double most = 1e8; // memory, and the core's 32-bit ids
-  const bool hasSizes = request.Options.desiredSize > 0.0 || metric.hasSizes();
-  if (!request.UsesSizes() || !hasSizes ||
-    request.Options.algorithm != meshopt::Algorithm::WorstFirst)
-  {
-    return {};
-  }
-  const double count = metric.predictedNumberOfElements(mesh);
-  if (count <= most)
-  {
-    return {};
-  }
-  std::ostringstream text;
-  text
-    << "The wanted sizes stand for some " << count
-    << " elements, more than can be made (1e8). Is the size in the units of the coordinates, or, "
-       "with a metric, of the metric?";
-  return text.str();
+  return a + (a.empty() || b.empty() ? "" : " ") + b;
 }
 
 template <int D>
@@ -69,6 +38,7 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
   const Request& request, const meshopt::BoundaryCurves& curves, Outcome& outcome)
 {
   const auto start = std::chrono::steady_clock::now();
+  const double areaBefore = D == 2 ? mesh.volume() : 0.0;
   outcome.NumberOfCellsBefore = mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(
     mesh, metric, request.Options, request.Control, request.Slide ? &curves : nullptr);
@@ -77,6 +47,8 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
     outcome.Report.stopReason = meshopt::StopReason::TimeLimit;
   }
   outcome.NumberOfCells = mesh.countCells();
+  outcome.Sizes = Joined(DescribeSizes(outcome.Report, request),
+    D == 2 ? DescribeArea(areaBefore, mesh.volume(), request) : "");
   for (const meshopt::PassRecord& row : outcome.Report.history)
   {
     outcome.NumberOfOperations += std::accumulate(row.done.begin(), row.done.end(), 0L);
@@ -217,7 +189,8 @@ void Outcome::Add(const Outcome& other)
   this->NumberOfOperations += other.NumberOfOperations;
   this->Seconds += other.Seconds;
   this->Lengths.add(other.Lengths);
-  this->Tangle += (this->Tangle.empty() || other.Tangle.empty() ? "" : " ") + other.Tangle;
+  this->Tangle = Joined(this->Tangle, other.Tangle);
+  this->Sizes = Joined(this->Sizes, other.Sizes);
 }
 
 std::string OptimizeGrid(

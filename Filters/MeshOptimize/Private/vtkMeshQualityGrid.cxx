@@ -1,5 +1,7 @@
 #include "vtkMeshQualityGrid.h"
 
+#include "vtkMeshOptimizeFrame.h"
+
 #include "Metric/TensorFunctions.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace vtkMeshQuality
@@ -116,11 +119,22 @@ std::string Grid::Read(
       return text.str();
     }
   }
+  meshopt::Vec<3> low = meshopt::Vec<3>::Constant(std::numeric_limits<double>::infinity());
+  meshopt::Vec<3> high = -low;
+  for (vtkIdType p = 0; p < this->NumberOfPoints; ++p)
+  {
+    low = low.cwiseMin(this->GetPoint(p));
+    high = high.cwiseMax(this->GetPoint(p));
+  }
+  std::string error = vtkMeshOptimizeBridge::CheckExtent(low, high);
+  if (!error.empty())
+  {
+    return error;
+  }
   if (arrays.Region)
   {
     this->ReadRegions(arrays.Region);
   }
-  std::string error;
   if (arrays.Size && useSizes)
   {
     error = this->ReadSizes(arrays.Size);

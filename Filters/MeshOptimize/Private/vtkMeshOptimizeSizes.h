@@ -1,0 +1,49 @@
+/**
+ * The wanted sizes: what cannot be asked for, and what became of them, in sentences.
+ */
+#ifndef vtkMeshOptimizeSizes_h
+#define vtkMeshOptimizeSizes_h
+
+#include "vtkMeshOptimizeFrame.h"
+
+#include "Metric/NodalMetric.h"
+#include "Optimize/Options.h"
+
+#include <string>
+
+namespace vtkMeshOptimizeBridge
+{
+
+struct Cells;
+struct InputArrays;
+struct Request;
+
+/**
+ * Hands sizes and metric at the points over to the core. Returns a sentence about the first value
+ * that cannot be used, with the name of its array, or an empty string.
+ */
+template <int D>
+std::string SetMetric(const Cells& cells, const InputArrays& arrays, const Frame<D>& frame,
+  const Request& request, const meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric);
+
+/**
+ * A sentence if the sizes stand for more elements than can be made.
+ */
+template <int D>
+std::string CheckCount(const Request& request, const meshopt::SimplexMesh<D>& mesh,
+  const meshopt::NodalMetric<D>& metric);
+
+/**
+ * What the user should know: sizes given up, splitting stopped, kept edges that are far too long.
+ */
+std::string DescribeSizes(const meshopt::Report& report, const Request& request);
+
+/**
+ * A sentence if a plane mesh whose boundary follows splines has another area than before, by a
+ * tenth or more.
+ */
+std::string DescribeArea(double before, double after, const Request& request);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif
