@@ -1,121 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes that get the size they are asked for, their boundary sliding or not: what comes out, what stays.
 #include "Optimize/SizeStage.h"
-#include "Optimize/EdgeLengths.h"
-#include "Optimize/Optimizer.h"
 #include "Optimize/Statistics.h"
-#include "PlaneMeshes.h"
-#include "Quality/Shape.h"
+#include "SizeRuns.h"
 #include "TestThreads.h"
 
 using namespace meshopt;
 
 namespace
 {
-constexpr double Wanted = 0.6;
-
-template <int D>
-struct Result
-{
-  SimplexMesh<D> mesh;
-  NodalMetric<D> metric;
-  BoundaryCurves curves;
-  Report report;
-  EdgeLengths lengths;
-  double predicted = 0.0;
-  long cells = 0;
-};
-
-Options options(double beta = 0.0, double target = Wanted)
-{
-  Options result;
-  result.beta = beta;
-  result.targetQuality = target;
-  return result;
-}
-
-/// What holds for every run.
-template <int D>
-void check(const Result<D>& run, long euler, const Options& o)
-{
-  expectSound(run.mesh);
-  EXPECT_EQ(run.mesh.eulerCharacteristic(), euler);
-  EXPECT_EQ(run.report.invertedAfter, 0);
-  EXPECT_GE(run.report.worstAfter, std::min(run.report.worstBefore, o.targetQuality));
-  EXPECT_EQ(run.report.worstAfter, sortedQualities(run.mesh).front());
-  // worst-first rows never fall
-  for (std::size_t k = 1; k < run.report.history.size(); ++k)
-  {
-    const PassRecord& row = run.report.history[k];
-    if (row.stage.rfind("sizes", 0) != 0)
-    {
-      EXPECT_GE(row.worst, run.report.history[k - 1].worst - 1e-12) << row.stage;
-    }
-  }
-}
-
-template <int D>
-Result<D> optimized(const MeshInput<D>& in, const NodalMetric<D>& metric, const Options& given,
-  bool slide, const Control& control = {}, const std::function<void(Result<D>&)>& prepare = {})
-{
-  Result<D> run;
-  run.mesh = buildMesh(in);
-  run.metric = metric;
-  const long euler = run.mesh.eulerCharacteristic();
-  if constexpr (D == 2)
-  {
-    if (slide)
-    {
-      MeshEditor<2> editor(run.mesh);
-      run.curves.build(editor, CurveOptions());
-    }
-  }
-  if (prepare)
-  {
-    prepare(run);
-  }
-  run.predicted = run.metric.predictedNumberOfElements(run.mesh);
-  const auto kept = keptFacets(run.mesh);
-  Options o = given;
-  o.desiredSize = metric.hasSizes() ? 0.0 : metric.element(Simplex<D>()).desiredSize;
-  EXPECT_EQ(o.check(metric.hasSizes()), "");
-  run.report = optimize<D>(run.mesh, run.metric, o, control, slide ? &run.curves : nullptr);
-  check(run, euler, o);
-  if (!slide)
-  {
-    EXPECT_EQ(keptFacets(run.mesh), kept);
-  }
-  else if constexpr (D == 2)
-  {
-    expectOnCurves(run.mesh, run.curves, 1e-7); // of a geometry that is given: found again
-  }
-  run.lengths = measureEdges<D>(run.mesh, run.metric);
-  run.cells = run.mesh.countCells();
-  return run;
-}
-
-/// Sizes at the points of `in` as f says.
-template <int D, class F>
-NodalMetric<D> sizesAt(const MeshInput<D>& in, F&& f)
-{
-  std::vector<double> sizes;
-  for (const Vec<D>& x : in.points)
-  {
-    sizes.push_back(f(x));
-  }
-  NodalMetric<D> metric;
-  EXPECT_EQ(metric.set(buildMesh(in), sizes, {}), "");
-  return metric;
-}
-
-template <int D>
-NodalMetric<D> constantMetric(const Tensor<D>& m, double h)
-{
-  NodalMetric<D> metric(h);
-  EXPECT_EQ(metric.setConstant(m), "");
-  return metric;
-}
-
 /// Greatest distance of boundary points, and of the middle of boundary edges, from a circle.
 double outOfRound(const SimplexMesh<2>& mesh)
 {
@@ -243,87 +136,6 @@ TEST(SizeStage, VeryAnisotropicMetric)
 }
 
 // ---- boundaries ----------------------------------------------------------------------------------
-
-TEST(SizeStage, FixedBoundaryKeepsWhatItHas)
-{
-  const MeshInput<2> in = jitteredGrid<2>(4, 0.1);
-  const Result<2> tiny = optimized<2>(in, NodalMetric<2>(0.02), options(0.3, 0.6), false);
-  EXPECT_GT(tiny.cells, 900);
-  EXPECT_GT(tiny.report.worstAfter, tiny.report.worstBefore);
-  const Result<2> huge = optimized<2>(in, NodalMetric<2>(10.0), options(0.3), false);
-  EXPECT_LT(huge.cells, 32);
-}
-
-/// In this metric the corners of the square are sharp, and two triangles in them already have the best shape.
-TEST(SizeStage, SizesAreGivenUpWhereTheWorstWouldFall)
-{
-  const Tensor<2> m = (Tensor<2>() << 5.05, -4.95, -4.95, 5.05).finished(); // 45 degrees, 1 : 10
-  const MeshInput<2> in = jitteredGrid<2>(8, 0.0);
-  const double angle = std::acos(4.95 / 5.05), sine = std::sin(0.5 * angle);
-  const double best = 1.5 * std::sqrt(3.0) * std::sin(angle) / ((1.0 + sine) * (1.0 + sine));
-  const Result<2> undone = optimized<2>(in, constantMetric<2>(m, 0.015), options(), true);
-  EXPECT_NEAR(undone.report.worstBefore, best, 1e-3);
-  EXPECT_LT(undone.cells, 200);
-  EXPECT_EQ(undone.report.history[undone.report.history.size() - 1].worst, undone.report.worstAfter);
-  const auto& rows = undone.report.history;
-  EXPECT_TRUE(std::any_of(
-    rows.begin(), rows.end(), [](const PassRecord& row) { return row.stage == "sizes given up"; }));
-  EXPECT_TRUE(undone.report.sizes.isGivenUp);
-  EXPECT_LT(undone.report.sizes.worstWithSizes, undone.report.worstBefore);
-  const Result<2> made = optimized<2>(in, constantMetric<2>(m, 0.015), options(0.0, 0.35), true);
-  EXPECT_NEAR(made.cells / made.predicted, 1.0, 0.1);
-  EXPECT_FALSE(made.report.sizes.isGivenUp);
-  EXPECT_LE(made.report.worstAfter, best + 1e-9); // no mesh has more
-}
-
-/// Edges of .39, and .01 is wanted: elements grow from the one to the other, and inside all is as wanted.
-TEST(SizeStage, SizesFallFromAFixedCoarseBoundary)
-{
-  const Result<2> run = optimized<2>(disc(16), NodalMetric<2>(0.01), options(1.0), false);
-  EXPECT_FALSE(run.report.sizes.isGivenUp);
-  EXPECT_EQ(run.report.sizes.cellsAtBrake, 0);
-  EXPECT_NEAR(run.report.sizes.longestKept, 39.0, 0.1); // 2 sin(pi / 16) / .01
-  EXPECT_NE(run.report.stopReason, StopReason::TargetReached);
-  EXPECT_LT(run.report.seconds, 20.0); // takes .2; the machine may be busy
-  EXPECT_GT(run.cells, 12000);
-  double worstShape = 1.0, worstInside = 1.0;
-  for (Index c = 0; c < run.mesh.numberOfCellSlots(); ++c)
-  {
-    if (run.mesh.isAlive(c))
-    {
-      const auto x = run.mesh.corners(c);
-      worstShape = std::min(worstShape, MeanEdgeShape<2>::value(x));
-      const bool isInside = (x[0] + x[1] + x[2]).norm() / 3.0 < 0.3;
-      worstInside = isInside ? std::min(worstInside, run.mesh.quality(c)) : worstInside;
-    }
-  }
-  EXPECT_GE(worstShape, 0.5);
-  EXPECT_GE(worstInside, 0.6);
-}
-
-/// A metric that turns by far more than its elements are short: what is made must not grow without end.
-TEST(SizeStage, SplittingHasABrake)
-{
-  const MeshInput<2> in = jitteredGrid<2>(32, 0.0);
-  std::vector<Tensor<2>> tensors;
-  for (const Vec<2>& x : in.points)
-  {
-    const double a = 8.0 * Pi * x[1], ratio = 100.0;
-    const Vec<2> n(std::cos(a), std::sin(a));
-    tensors.push_back(Tensor<2>(Tensor<2>::Identity() + (ratio * ratio - 1.0) * n * n.transpose()));
-  }
-  NodalMetric<2> metric(0.3);
-  EXPECT_EQ(metric.set(buildMesh(in), {}, tensors), "");
-  Options o = options(1.0, 0.1);
-  o.effort = Effort::Quick;
-  const Result<2> run = optimized<2>(in, metric, o, true);
-  const double most = 4.0 * run.predicted + 1000.0;
-  EXPECT_NEAR(run.predicted, 2566.0, 1.0);
-  EXPECT_NEAR(run.report.sizes.predictedCells, run.predicted, 1e-6);
-  EXPECT_GT(run.report.sizes.cellsAtBrake, most);
-  EXPECT_LT(run.report.sizes.cellsAtBrake, most + 10.0);
-  EXPECT_LT(run.cells, 1.1 * most);
-}
 
 TEST(SizeStage, CurvedInterfaceSlides)
 {

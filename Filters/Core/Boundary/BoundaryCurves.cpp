@@ -331,7 +331,9 @@ void BoundaryCurves::join()
       {
         const Index other = entry->second;
         const bool otherIsEdge = other != None && this->pieces_[other].isEdge;
-        entry->second = this->pieces_[k].isEdge ? static_cast<Index>(k) : otherIsEdge ? other : None;
+        entry->second = this->pieces_[k].isEdge ? static_cast<Index>(k)
+          : otherIsEdge                         ? other
+                                                : None;
       }
     }
   }

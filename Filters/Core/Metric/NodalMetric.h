@@ -90,8 +90,7 @@ public:
 
   /// The same field with h* raised to what `floor` says, at the points of `mesh` and wherever it is sampled
   /// from then on. There must be sizes.
-  NodalMetric raised(
-    const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const;
+  NodalMetric raised(const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const;
   bool isRaised() const { return this->floor_ != nullptr; }
 
   /// M / h*^2 at point p as it was sampled: in it, edges of the wanted length have length 1. The

@@ -114,7 +114,7 @@ struct SizeReport
   long cellsAtBrake = 0;
   /// In the plane: the longest of the edges that had to stay, in the length that is wanted there.
   double longestKept = 0.0;
-  bool isGivenUp = false;     ///< all has been undone: the worst would have been lower than before
+  bool isGivenUp = false;      ///< all has been undone: the worst would have been lower than before
   double worstWithSizes = 0.0; ///< the worst quality that it would have been; where given up
 };
 

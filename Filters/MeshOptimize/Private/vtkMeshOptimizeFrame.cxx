@@ -66,13 +66,13 @@ std::string CheckExtent(const Vec<3>& low, const Vec<3>& high)
     return {};
   }
   std::ostringstream text;
-  text << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
-       << (isLarge ? magnitude : extent)
-       << "): lengths squared and cubed leave the range of double precision. Scale the mesh; between "
-          "1e-100 and 1e100 all is well.";
+  text
+    << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
+    << (isLarge ? magnitude : extent)
+    << "): lengths squared and cubed leave the range of double precision. Scale the mesh; between "
+       "1e-100 and 1e100 all is well.";
   return text.str();
 }
-
 
 namespace
 {

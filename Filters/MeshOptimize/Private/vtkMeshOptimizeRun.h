@@ -53,7 +53,7 @@ struct Outcome
   vtkIdType NumberOfOperations = 0;
   double Seconds = 0.0;
   meshopt::EdgeLengths Lengths; ///< in the end; no edges if neither sizes nor a metric are given
-  std::string Sizes;  ///< what the user should know about the wanted sizes; or empty
+  std::string Sizes;            ///< what the user should know about the wanted sizes; or empty
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
   /// Takes another grid's outcome in: minima, means by number of cells, sums, the strongest stop

@@ -101,7 +101,8 @@ std::string DescribeSizes(const meshopt::Report& report, const Request& request)
     text << "Edges that are kept are up to " << sizes.longestKept
          << " times as long as wanted, and elements beside them can only grow towards the wanted "
             "size"
-         << (request.Slide ? "." : ": set the boundary mode to Slide to have the boundary divided.");
+         << (request.Slide ? "."
+                           : ": set the boundary mode to Slide to have the boundary divided.");
   }
   std::string result = text.str();
   result.erase(result.find_last_not_of(' ') + 1);
