@@ -3,6 +3,9 @@
 #include "Optimize/EdgeLengths.h"
 #include "PlaneMeshes.h"
 
+#include <limits>
+#include <numeric>
+
 using namespace meshopt;
 
 TEST(EdgeLengths, LogarithmicMean)
@@ -23,6 +26,24 @@ TEST(EdgeLengths, LogarithmicMean)
     sum += std::pow(5.0, (k + 0.5) / 1000) / 1000;
   }
   EXPECT_NEAR(logMeanLength(1.0, 5.0), sum, 1e-5);
+}
+
+/// Edges without length (two points at one place), and those that a double cannot measure.
+TEST(EdgeLengths, NoneAndTooLong)
+{
+  EXPECT_EQ(logMeanLength(0.0, 0.0), 0.0);
+  EXPECT_EQ(logMeanLength(0.0, 1.0), 0.0);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(logMeanLength(infinity, infinity), infinity);
+  MeshInput<2> in = twoTriangles();
+  in.points[1] = in.points[0];
+  for (double size : { 1.0, 1e200, 1e-200 })
+  {
+    const EdgeLengths l = measureEdges<2>(buildMesh(in), NodalMetric<2>(size));
+    EXPECT_EQ(l.edges, 5);
+    EXPECT_EQ(std::accumulate(l.histogram.begin(), l.histogram.end(), 0L), 5);
+    EXPECT_GE(l.histogram.front(), 1);
+  }
 }
 
 TEST(EdgeLengths, OfGridsBySizeAndMetric)

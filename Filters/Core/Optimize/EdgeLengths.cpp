@@ -9,6 +9,10 @@ namespace meshopt
 {
 double logMeanLength(double la, double lb)
 {
+  if (la == lb) // 0 and infinity, too, whose ratio is no number
+  {
+    return la;
+  }
   const double r = std::log(la / lb);
   return std::fabs(r) < 1e-4 ? 0.5 * (la + lb) : (la - lb) / r;
 }
@@ -69,7 +73,7 @@ EdgeLengths measureEdges(const SimplexMesh<D>& mesh, const NodalMetric<D>& metri
     result.longest = std::max(result.longest, l);
     result.shortest = result.shortest > 0.0 ? std::min(result.shortest, l) : l;
     const double bin = std::floor(
-      EdgeLengths::BinsPerOctave * (std::log2(std::max(l, 1e-30)) + EdgeLengths::Octaves));
+      EdgeLengths::BinsPerOctave * (std::log2(l > 1e-30 ? l : 1e-30) + EdgeLengths::Octaves));
     ++result.histogram[static_cast<std::size_t>(
       std::clamp(bin, 0.0, static_cast<double>(result.histogram.size() - 1)))];
   }
