@@ -408,6 +408,22 @@ void TestSlide()
   ExpectError(square, { "geometry", "corner", "point 0" }, along(Lines(larger, around)));
   ExpectError(square, { "does not lie on the geometry", "point " },
     along(Lines(corners, { { 0, 1, 2, 3 } }))); // open
+  for (const int components : { 1, 3 })
+  {
+    const vtkSmartPointer<vtkPolyData> marked = Lines(corners, around);
+    vtkNew<vtkDoubleArray> marks;
+    marks->SetName("c");
+    marks->SetNumberOfComponents(components);
+    marks->SetNumberOfTuples(components == 1 ? 2 : 4);
+    marks->Fill(0.0);
+    marked->GetPointData()->AddArray(marks);
+    ExpectError(square, { "corner array 'c'", "geometry", components == 1 ? "4 points" : "3 comp" },
+      [&](vtkMeshOptimizeFilter* f)
+      {
+        along(marked)(f);
+        f->SetCornerArray("c");
+      });
+  }
   ExpectError(
     square, { "does not lie on the geometry", "point " }, along(Lines(corners, { { 0, 1 } })));
 }

@@ -37,6 +37,25 @@ vtkDataArray* FindCorners(vtkAlgorithm* filter, vtkPolyData* geometry)
 }
 
 /**
+ * `corners`, if there is one, must have one number per point of `geometry`.
+ */
+std::string CheckCorners(vtkPolyData* geometry, vtkDataArray* corners)
+{
+  if (corners && corners->GetNumberOfComponents() != 1)
+  {
+    return "The corner array '" + std::string(corners->GetName()) + "' of the geometry has " +
+      std::to_string(corners->GetNumberOfComponents()) + " components; one is needed.";
+  }
+  if (corners && corners->GetNumberOfTuples() != geometry->GetNumberOfPoints())
+  {
+    return "The corner array '" + std::string(corners->GetName()) + "' of the geometry has " +
+      std::to_string(corners->GetNumberOfTuples()) + " values, but the geometry has " +
+      std::to_string(geometry->GetNumberOfPoints()) + " points.";
+  }
+  return {};
+}
+
+/**
  * Calls f(n, points) for each line of `geometry`.
  */
 template <class F>
@@ -123,7 +142,8 @@ std::string ReadLines(
   }
   std::vector<char> used;
   vtkBoundingBox box;
-  std::string error = FindUsedPoints(geometry, used);
+  std::string error = CheckCorners(geometry, corners);
+  error = error.empty() ? FindUsedPoints(geometry, used) : error;
   error = error.empty() ? CheckPoints(geometry, used, frame, box) : error;
   if (!error.empty())
   {
