@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace meshopt;
@@ -186,6 +187,24 @@ TEST_F(Metric3, ExponentialAndLogarithm)
   bad(0, 1) = 0.5;
   EXPECT_FALSE(logarithm<3>(bad, l)) << "not symmetric";
   EXPECT_EQ(l, Tensor<3>(Tensor<3>::Identity())) << "left alone";
+}
+
+TEST_F(Metric3, LogarithmOfWhatHasNoSquare)
+{
+  for (double scale : { 1e-300, 1e-200, 1e-155, 1e155, 1e200, 1e300 })
+  {
+    const Tensor<3> m = this->tensor();
+    Tensor<3> l, one;
+    ASSERT_TRUE(logarithm<3>(scale * m, l)) << scale;
+    ASSERT_TRUE(logarithm<3>(m, one));
+    EXPECT_LT((l - one - std::log(scale) * Tensor<3>::Identity()).norm(), 1e-11) << scale;
+  }
+  Tensor<3> l, bad = 1e200 * Tensor<3>::Identity();
+  bad(0, 1) = 1e199;
+  EXPECT_FALSE(logarithm<3>(bad, l)) << "not symmetric";
+  EXPECT_FALSE(logarithm<3>(-1e-200 * Tensor<3>::Identity(), l));
+  EXPECT_FALSE(logarithm<3>(Tensor<3>::Zero(), l));
+  EXPECT_FALSE(logarithm<3>(Tensor<3>::Constant(std::numeric_limits<double>::infinity()), l));
 }
 
 TEST_F(Metric2, ExponentialAndLogarithm)

@@ -2,6 +2,7 @@
 // The solution-adapted metric: its definition, the number of elements, and each of its limits.
 #include "Metric/SolutionMetric.h"
 #include "Metric/MetricVolume.h"
+#include "Metric/TensorFunctions.h"
 
 #include "TestMeshes.h"
 
@@ -428,4 +429,34 @@ TEST(SolutionMetricOptions, WhatIsUnusableIsNamed)
     std::string::npos);
   EXPECT_NE(
     complaint([=](O& o) { o.limits.gradation = 1.0; }).find("gradation"), std::string::npos);
+}
+
+/// Either a metric that can be used, or a sentence.
+TEST(SolutionMetricOptions, VeryLargeAndVerySmallSolutions)
+{
+  const MeshInput<2> in = jitteredGrid<2>(6, 0.1);
+  const SimplexMesh<2> mesh = buildMesh(in);
+  for (double scale : { 1e-310, 1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300 })
+  {
+    std::vector<double> values = sample<2>(in);
+    for (double& v : values)
+    {
+      v *= scale;
+    }
+    for (double order : { 0.0, 1.0, 100.0, 1e300 })
+    {
+      SolutionMetricOptions options;
+      options.desiredCount = 100.0;
+      options.normOrder = order;
+      SolutionMetric<2> metric;
+      const std::string error = solutionMetric(mesh, values, 1, options, metric);
+      for (std::size_t p = 0; p < in.points.size() && error.empty(); ++p)
+      {
+        Tensor<2> l;
+        EXPECT_TRUE(logarithm<2>(metric.tensors[p], l)) << scale << " " << order;
+      }
+      EXPECT_TRUE(error.empty() || error.find("Multiply") != std::string::npos) << error;
+      EXPECT_TRUE(error.empty() || scale < 1e-99 || scale > 1e199) << scale << error;
+    }
+  }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Metric/SolutionMetric.h"
 
+#include "Metric/TensorFunctions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -52,6 +54,33 @@ void scaleForNorm(const SimplexMesh<D>& mesh, const SolutionMetricOptions& optio
     e.values = e.values.cwiseMax(least);
     e.values *= std::exp(-e.values.array().log().sum() / (2.0 * options.normOrder + D));
   }
+}
+}
+
+namespace
+{
+/// Solutions of 1e-300, or of 1e300, have derivatives that a double cannot hold.
+template <int D>
+std::string checkRange(const SimplexMesh<D>& mesh, const SolutionMetric<D>& metric)
+{
+  constexpr double least = 1e-140, most = 1e140; // between them squares are safe
+  Tensor<D> logarithms;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    const double size = mesh.isPointAlive(p) ? metric.tensors[p].trace() : 1.0;
+    if (!(size > least && size < most) && !logarithm<D>(metric.tensors[p], logarithms))
+    {
+      std::ostringstream text;
+      text << "The metric at point " << p
+           << " is beyond the range of numbers: the solution, or its derivatives, are too large or "
+              "too small. Multiply the solution by a number that brings it near 1.";
+      return text.str();
+    }
+  }
+  return std::isfinite(metric.desiredSize) && metric.desiredSize > 0.0
+    ? std::string()
+    : "The desired size is beyond the range of numbers. Multiply the solution by a number that "
+      "brings it near 1.";
 }
 }
 
@@ -165,7 +194,7 @@ std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>
   {
     tensor *= scaled.desiredSize * scaled.desiredSize;
   }
-  return std::string();
+  return checkRange(mesh, metric);
 }
 
 template SymmetricEigen<2> absoluteValue<2>(const Tensor<2>&);

@@ -98,7 +98,11 @@ Tensor<D> exponential(const Tensor<D>& l)
 template <int D>
 bool logarithm(const Tensor<D>& m, Tensor<D>& l)
 {
-  const double norm = m.norm();
+  double norm = m.norm();
+  if (!(norm > 1e-150 && norm < 1e150) && m.allFinite()) // squares vanish or overflow
+  {
+    norm = m.cwiseAbs().maxCoeff();
+  }
   if (!std::isfinite(norm) || norm == 0.0 || (m - m.transpose()).norm() > 1e-9 * norm)
   {
     return false;
