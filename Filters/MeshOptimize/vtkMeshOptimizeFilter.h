@@ -274,7 +274,7 @@ public:
    * How long WorstFirst insists. Quick makes single changes (reconnecting, moving, removing and
    * inserting nodes), tries more only for the few worst cells, and stops at TargetQuality. Default
    * also looks ahead: it tries changes that pay only together; it, too, stops at TargetQuality.
-   * Best looks further ahead and goes on past TargetQuality, up to .74 or what the surface allows,
+   * Best looks further ahead and goes on past TargetQuality, up to .76 or what the surface allows,
    * until nothing lifts the worst cell any more; this costs many times what Default does. Default:
    * Default.
    */

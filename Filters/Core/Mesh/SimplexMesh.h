@@ -108,9 +108,10 @@ public:
   struct Point : CurvePlace<D>
   {
     Vec<D> x;
-    Index cell = None;       ///< a cell that uses the point
-    std::uint32_t stamp = 0; ///< last change in the star of the point
-    Index owner = 0;         ///< chunk that may edit around the point (parallel rounds)
+    Index cell = None;            ///< a cell that uses the point
+    std::uint32_t stamp = 0;      ///< last change in the star of the point
+    std::uint32_t moveFailed = 0; ///< free for algorithms: last failed try to move it
+    Index owner = 0;              ///< chunk that may edit around the point (parallel rounds)
     std::uint8_t flags = 0;
   };
 

@@ -62,7 +62,11 @@ public:
     this->guard_ = guard;
   }
   /// Least gain that makes a change worth it: this much, less where all is tiny.
-  void setGain(double gain) { this->gain_ = gain; }
+  void setGain(double gain)
+  {
+    this->failuresSince_ = gain == this->gain_ ? this->failuresSince_ : this->editor_->clock();
+    this->gain_ = gain;
+  }
   /// Net number of cells that may still be added.
   void setGrowth(long cells) { this->growth_ = cells; }
   long growth() const { return this->growth_; }
@@ -139,6 +143,7 @@ private:
   double target_ = 1.0;
   double guard_ = -1.0;
   double gain_ = 1e-3;
+  std::uint32_t failuresSince_ = 0; ///< failures to move a node before that were with another gain
   long bad_ =
     0; ///< sum of badness() of the cells made, less that of those removed, since the construction
   long growth_ = 0;

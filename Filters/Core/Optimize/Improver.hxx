@@ -260,7 +260,9 @@ template <int D, class Shape>
 bool Improver<D, Shape>::moveNode(Index v)
 {
   const SimplexMesh<D>& mesh = this->editor_->mesh();
-  if (!this->editor_->star(v, this->star_))
+  const auto& data = mesh.pointData(v);
+  const bool failedAsItIs = data.moveFailed >= data.stamp && data.moveFailed > this->failuresSince_;
+  if (failedAsItIs || !this->editor_->star(v, this->star_))
   {
     return false;
   }
@@ -273,6 +275,10 @@ bool Improver<D, Shape>::moveNode(Index v)
   this->count(Operation::NodeMotion, better);
   if (!better)
   {
+    if (!this->editor_->inTransaction()) // what is undone is another star
+    {
+      this->editor_->setMoveFailed(v, this->editor_->clock());
+    }
     return false;
   }
   const Place start = this->begin();

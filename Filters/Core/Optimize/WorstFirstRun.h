@@ -22,7 +22,8 @@ namespace meshopt
 namespace worstfirst
 {
 /// Targets of the stages. Steps get smaller where gains cost more.
-constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.70, 0.72, 0.74 };
+constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.69, 0.705, 0.72, 0.73, 0.74,
+  0.75, 0.76 };
 constexpr int MaximumPasses = 10;      // of one stage
 constexpr Index CellsPerChunk = 20000; // fewer make borders too long
 constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
