@@ -55,14 +55,10 @@ Cluster<D> clusterOf(SimplexMesh<D>& mesh, Index cell, int level)
   {
     editor.setQuality(c, quality.value(mesh.corners(c), ElementMetric<D>{}));
   }
-  std::vector<std::uint8_t> movable;
-  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
-  {
-    movable.push_back(!mesh.isFixed(p));
-  }
   ClusterGatherer<D> gatherer(editor);
   Cluster<D> cluster;
-  gatherer.gather(cell, level, movable, cluster);
+  gatherer.gather(
+    cell, level, [&](Index p) { return !mesh.isFixed(p); }, cluster);
   return cluster;
 }
 }

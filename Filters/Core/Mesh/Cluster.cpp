@@ -24,35 +24,25 @@ double Cluster<D>::meanEdge() const
 template <int D>
 int ClusterGatherer<D>::localNumber(Index p, Cluster<D>& cluster)
 {
-  if (this->seen_[p] != this->time_)
+  const int k = this->numbers_.add(p);
+  if (k == static_cast<int>(cluster.points.size()))
   {
-    this->seen_[p] = this->time_;
-    this->local_[p] = static_cast<int>(cluster.points.size());
     cluster.points.push_back(p);
     cluster.x.push_back(this->editor_->mesh().point(p));
   }
-  return this->local_[p];
+  return k;
 }
 
+/// Neighbours of the cell, order by order, in front_.
 template <int D>
-void ClusterGatherer<D>::gather(
-  Index cell, int level, const std::vector<std::uint8_t>& movable, Cluster<D>& cluster)
+void ClusterGatherer<D>::findNeighbours(Index cell, int level)
 {
   const SimplexMesh<D>& mesh = this->editor_->mesh();
-  this->seen_.resize(mesh.numberOfPointSlots(), 0);
-  this->local_.resize(mesh.numberOfPointSlots(), 0);
-  cluster.points.clear();
-  cluster.x.clear();
-  cluster.cells.clear();
-  cluster.nodes.clear();
-  cluster.quality.clear();
-
-  // Neighbours, order by order.
-  ++this->time_;
+  this->numbers_.clear();
   this->front_.assign(mesh.nodes(cell).begin(), mesh.nodes(cell).end());
   for (Index p : this->front_)
   {
-    this->seen_[p] = this->time_;
+    this->numbers_.add(p);
   }
   for (std::size_t begin = 0; level > 0; --level)
   {
@@ -64,24 +54,31 @@ void ClusterGatherer<D>::gather(
       {
         for (Index p : mesh.nodes(c))
         {
-          if (this->seen_[p] != this->time_)
+          if (this->numbers_.get(p) < 0)
           {
-            this->seen_[p] = this->time_;
+            this->numbers_.add(p);
             this->front_.push_back(p);
           }
         }
       }
     }
   }
+}
 
-  // Moving nodes first, then their cells with whatever other nodes these have.
-  ++this->time_;
+/// Moving nodes, those of front_, first; then their cells with whatever other nodes these have.
+template <int D>
+void ClusterGatherer<D>::collect(Cluster<D>& cluster)
+{
+  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  cluster.points.clear();
+  cluster.x.clear();
+  cluster.cells.clear();
+  cluster.nodes.clear();
+  cluster.quality.clear();
+  this->numbers_.clear();
   for (Index p : this->front_)
   {
-    if (movable[p])
-    {
-      this->localNumber(p, cluster);
-    }
+    this->localNumber(p, cluster);
   }
   cluster.numberOfMoving = static_cast<int>(cluster.points.size());
   // star() uses marks of its own: a cell is taken at its first moving node in local order.

@@ -9,8 +9,10 @@
 #ifndef meshopt_Mesh_Cluster_h
 #define meshopt_Mesh_Cluster_h
 
+#include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace meshopt
@@ -52,17 +54,26 @@ public:
   }
 
   /// The cluster of `cell`: nodes in its neighbourhood of order `level` (0: its own nodes; 1: also
-  /// those joined to them by an edge; and so on) that are `movable` (nonzero, one per point slot)
-  /// become moving nodes, in the order of distance; the cells are those that contain one.
-  void gather(Index cell, int level, const std::vector<std::uint8_t>& movable, Cluster<D>& cluster);
+  /// those joined to them by an edge; and so on) for which movable(p) is true become moving nodes, in
+  /// the order of distance; the cells are those that contain one. What the editor does not own is not
+  /// seen.
+  template <class Movable>
+  void gather(Index cell, int level, Movable&& movable, Cluster<D>& cluster)
+  {
+    this->findNeighbours(cell, level);
+    this->front_.erase(std::remove_if(this->front_.begin(), this->front_.end(),
+                         [&](Index p) { return !movable(p); }),
+      this->front_.end());
+    this->collect(cluster);
+  }
 
 private:
+  void findNeighbours(Index cell, int level);
+  void collect(Cluster<D>& cluster);
   int localNumber(Index p, Cluster<D>& cluster);
 
   MeshEditor<D>* editor_;
-  std::uint32_t time_ = 0;
-  std::vector<std::uint32_t> seen_; // per point: the call that saw it last
-  std::vector<int> local_;          // per point: its number in that call
+  LocalNumbers numbers_;
   std::vector<Index> front_, star_;
 };
 

@@ -299,7 +299,13 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
 {
   const Mesh& mesh = *this->mesh_;
   const std::uint32_t seen = this->newMark();
-  star.assign(1, mesh.points_[p].cell);
+  star.clear();
+  if (this->owner_ != None && mesh.points_[p].owner != this->owner_)
+  {
+    this->blocked_ = true;
+    return false; // the point's cell may be changing
+  }
+  star.push_back(mesh.points_[p].cell);
   if (!this->owns(star[0]))
   {
     return false;

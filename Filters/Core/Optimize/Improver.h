@@ -99,7 +99,6 @@ private:
   bool move(Index t);
   bool moveNode(Index v);
   bool settleStar(double old);
-  bool gatherCluster(Index t);
   bool moveCluster(Index t);
   bool removeNodes(Index t);
   bool removeNode(Index v);
@@ -144,8 +143,7 @@ private:
   double guard_ = -1.0;
   double gain_ = 1e-3;
   std::uint32_t failuresSince_ = 0; ///< failures to move a node before that were with another gain
-  long bad_ =
-    0; ///< sum of badness() of the cells made, less that of those removed, since the construction
+  long bad_ = 0;                    ///< badness() of all cells made, less that of those removed
   long growth_ = 0;
   bool tangled_ = false;
 
@@ -162,7 +160,7 @@ private:
   StarProblem<D, Shape> problem_;
   ClusterProblem<D, Shape> clusterProblem_;
   Cluster<D> moving_;
-  LocalNumbers numbers_;
+  ClusterGatherer<D> gatherer_;
 };
 }
 

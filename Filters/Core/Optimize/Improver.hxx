@@ -12,6 +12,7 @@ Improver<D, Shape>::Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>
   , caps_(&caps)
   , options_(&options)
   , curves_(curves)
+  , gatherer_(editor)
 {
 }
 

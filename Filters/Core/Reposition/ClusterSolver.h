@@ -80,10 +80,10 @@ void ClusterSolver<D, Shape>::setMetrics()
 }
 
 template <int D, class Shape>
-bool ClusterSolver<D, Shape>::solve(
-  Index cell, int level, const std::vector<std::uint8_t>& movable)
+bool ClusterSolver<D, Shape>::solve(Index cell, int level, const std::vector<std::uint8_t>& movable)
 {
-  this->gatherer_.gather(cell, level, movable, this->cluster_);
+  this->gatherer_.gather(
+    cell, level, [&](Index p) { return movable[p] != 0; }, this->cluster_);
   this->oldQuality_ = this->cluster_.quality;
   if (this->cluster_.cells.empty())
   {
