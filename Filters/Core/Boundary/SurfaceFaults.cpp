@@ -301,6 +301,67 @@ std::vector<SurfaceFault<D>> findSurfaceFaults(
   return faults;
 }
 
+namespace
+{
+/// How much of all directions the angle between these edges takes up.
+double shareOfDirections(const std::array<Vec<2>, 2>& e)
+{
+  const double cross = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+  return std::atan2(std::fabs(cross), e[0].dot(e[1])) / (2.0 * std::acos(-1.0));
+}
+
+/// The same for the solid angle (van Oosterom and Strackee).
+double shareOfDirections(const std::array<Vec<3>, 3>& e)
+{
+  const double a = e[0].norm(), b = e[1].norm(), c = e[2].norm();
+  const double part = a * b * c + e[0].dot(e[1]) * c + e[0].dot(e[2]) * b + e[1].dot(e[2]) * a;
+  const double half = std::atan2(std::fabs(e[0].dot(e[1].cross(e[2]))), part);
+  return half / (2.0 * std::acos(-1.0));
+}
+
+template <int D>
+bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
+{
+  constexpr double most = 1.0 + 1e-6; // rounding
+  std::vector<double> share(static_cast<std::size_t>(mesh.numberOfPointSlots()), 0.0);
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i <= D && mesh.isAlive(c); ++i)
+    {
+      const Index p = mesh.nodes(c)[i];
+      const Facet<D> f = mesh.facet(c, i);
+      std::array<Vec<D>, D> edges;
+      for (int k = 0; k < D; ++k)
+      {
+        edges[k] = mesh.point(f[k]) - mesh.point(p);
+      }
+      share[p] += shareOfDirections(edges);
+    }
+  }
+  return std::any_of(share.begin(), share.end(), [](double s) { return !(s <= most); });
+}
+}
+
+template <int D>
+bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pinched)
+{
+  if (!pinched.empty() || fillsMoreThanAll(mesh))
+  {
+    return true;
+  }
+  std::vector<Index> cells;
+  for (Index c = 0; D == 3 && c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      cells.push_back(c);
+    }
+  }
+  return !findSurfaceFaults<D>(mesh, cells).empty();
+}
+
+template bool mayOverlap<2>(const SimplexMesh<2>&, const std::vector<std::uint8_t>&);
+template bool mayOverlap<3>(const SimplexMesh<3>&, const std::vector<std::uint8_t>&);
 template std::vector<SurfaceFault<2>> findSurfaceFaults<2>(
   const SimplexMesh<2>&, const std::vector<Index>&);
 template std::vector<SurfaceFault<3>> findSurfaceFaults<3>(

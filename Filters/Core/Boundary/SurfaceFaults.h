@@ -32,6 +32,14 @@ template <int D>
 std::vector<SurfaceFault<D>> findSurfaceFaults(
   const SimplexMesh<D>& mesh, const std::vector<Index>& cells);
 
+/// Whether cells may lie on each other although none is inverted: if they fill more than all directions
+/// at some point, if points are `pinched` (PinchedPoints.h; one part can then lie in another), in space
+/// also if the surface has a fault. Cost as above.
+template <int D>
+bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pinched);
+
+extern template bool mayOverlap<2>(const SimplexMesh<2>&, const std::vector<std::uint8_t>&);
+extern template bool mayOverlap<3>(const SimplexMesh<3>&, const std::vector<std::uint8_t>&);
 extern template std::vector<SurfaceFault<2>> findSurfaceFaults<2>(
   const SimplexMesh<2>&, const std::vector<Index>&);
 extern template std::vector<SurfaceFault<3>> findSurfaceFaults<3>(

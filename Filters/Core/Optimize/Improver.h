@@ -70,8 +70,18 @@ public:
   /// Net number of cells that may still be added.
   void setGrowth(long cells) { this->growth_ = cells; }
   long growth() const { return this->growth_; }
-  /// Guards against inputs whose cells overlap, where the usual geometric reasons do not hold.
-  void setTangled(bool tangled) { this->tangled_ = tangled; }
+  /// Guards against inputs whose cells overlap, where the usual geometric reasons do not hold:
+  /// `tangled`, if they may; `inverted`, if some are inverted. `pinched`: see PinchedPoints.h.
+  void setTangled(bool tangled, bool inverted, const std::vector<std::uint8_t>& pinched)
+  {
+    this->tangled_ = tangled;
+    this->inverted_ = inverted;
+    this->pinched_ = &pinched;
+  }
+
+  /// Whether `cells`, in place of the cavity, would have an edge or a facet that is there already
+  /// outside of it. Where no cells overlap that cannot be. After setTangled().
+  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
 
   std::array<long, NumberOfOperations> tried{}, done{};
 
@@ -119,7 +129,6 @@ private:
   bool insertHere(Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
     const KeptChange<D>* kept = nullptr);
-  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }
   int badness(double q) const
@@ -145,7 +154,8 @@ private:
   std::uint32_t failuresSince_ = 0; ///< failures to move a node before that were with another gain
   long bad_ = 0;                    ///< badness() of all cells made, less that of those removed
   long growth_ = 0;
-  bool tangled_ = false;
+  bool tangled_ = false, inverted_ = false;
+  const std::vector<std::uint8_t>* pinched_ = nullptr; // where tangled_
 
   std::vector<std::pair<Index, typename NodalMetric<D>::Sample>> samples_; ///< before the moves
   std::vector<Index> changed_, star_;

@@ -178,13 +178,12 @@ bool Improver<D, Shape>::reconnect(Index t)
   return !this->bestCells_.empty() && this->replace(this->bestCavity_, this->bestCells_);
 }
 
-/// True if an edge or a facet that the new cells bring exists elsewhere already. Where cells do not
-/// overlap that cannot be; in a tangled mesh it can.
 template <int D, class Shape>
 bool Improver<D, Shape>::conflicts(
   const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const
 {
   const SimplexMesh<D>& mesh = this->editor_->mesh();
+  const std::vector<std::uint8_t>& pinched = *this->pinched_;
   std::vector<Index> star;
   // a face of a new cell: its points, the first `n` of `face`
   const auto isNewAndTaken = [&](const Index* face, int n)
@@ -196,8 +195,19 @@ bool Improver<D, Shape>::conflicts(
     {
       return false;
     }
-    mesh.star(face[0], star);
-    return std::any_of(star.begin(), star.end(), has);
+    const Index* whole = std::find_if_not(face, face + n,
+      [&](Index p) { return p < static_cast<Index>(pinched.size()) && pinched[p]; });
+    if (whole != face + n)
+    {
+      mesh.star(*whole, star);
+      return std::any_of(star.begin(), star.end(), has);
+    }
+    bool found = false; // no star of these points is all of it; there are few such points
+    for (Index c = 0; c < mesh.numberOfCellSlots() && !found; ++c)
+    {
+      found = mesh.isAlive(c) && has(c);
+    }
+    return found;
   };
   for (const Simplex<D>& cell : cells)
   {

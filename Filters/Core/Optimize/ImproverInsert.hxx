@@ -167,7 +167,7 @@ bool Improver<D, Shape>::retriangulate(Index t)
   bool done = false;
   if constexpr (D == 3)
   {
-    if (!this->tangled_)
+    if (!this->inverted_)
     {
       typename SmallPolyhedron<Shape>::Limits limits;
       done = this->retriangulate(t, limits);

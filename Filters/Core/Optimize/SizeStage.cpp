@@ -18,7 +18,11 @@ SizeStage<D>::SizeStage(MeshEditor<D>& editor, NodalMetric<D>& metric, const Opt
   , progress_(control)
   , model_(editor.mesh(), metric, 0.0)
   , improver_(editor, this->model_, this->caps_, options)
+  , pinched_(pinchedPoints<D>(editor.mesh()))
+  , overlaps_(!this->pinched_.empty() ||
+      (report.invertedBefore > 0 && mayOverlap<D>(editor.mesh(), this->pinched_)))
 {
+  this->improver_.setTangled(this->overlaps_, false, this->pinched_);
   this->improver_.setGrowth(std::numeric_limits<long>::max() / 2);
   for (Index p = 0; p < this->mesh().numberOfPointSlots(); ++p)
   {

@@ -4,6 +4,8 @@
 #ifndef meshopt_Optimize_SizeStageRun_h
 #define meshopt_Optimize_SizeStageRun_h
 
+#include "Boundary/SurfaceFaults.h"
+#include "Mesh/PinchedPoints.h"
 #include "Optimize/EdgeLengths.h"
 #include "Optimize/Improver.h"
 #include "Optimize/Progress.h"
@@ -123,6 +125,8 @@ private:
   Caps<D> caps_; // none: what is capped matters later
   Improver<D, Shape> improver_;
   EdgeChange<D> change_;
+  std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
+  bool overlaps_;                     // cells may lie on each other
 
   std::vector<Tensor<D>> units_; // M / h*^2 at the points
   int round_ = 0;

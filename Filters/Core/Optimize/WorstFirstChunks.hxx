@@ -49,7 +49,7 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
     take(freeCells, n > 1 ? cellRoom : freeCells.size(), w.editor.freeCells());
     take(freePoints, n > 1 ? pointRoom : freePoints.size(), w.editor.freePoints());
     w.improver.setGrowth((this->growth_ - (this->guard_ ? this->reserve_ : 0)) / n);
-    w.improver.setTangled(this->tangled_);
+    w.improver.setTangled(this->tangled_, this->inverted_, this->pinched_);
     w.improver.setGain(this->gain_);
     w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
     w.kept = w.tries = 0;

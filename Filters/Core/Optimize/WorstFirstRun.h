@@ -5,6 +5,8 @@
 #ifndef meshopt_Optimize_WorstFirstRun_h
 #define meshopt_Optimize_WorstFirstRun_h
 
+#include "Boundary/SurfaceFaults.h"
+#include "Mesh/PinchedPoints.h"
 #include "Optimize/Caps.h"
 #include "Optimize/Chunks.h"
 #include "Optimize/Improver.h"
@@ -15,6 +17,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <queue>
 
 namespace meshopt
@@ -117,7 +120,10 @@ private:
   double usualGain_; ///< least gain of a change
   double gain_;
   double polishTarget_ = 0.0;
-  bool tangled_ = true; ///< there are inverted cells
+  bool tangled_ = true;               ///< cells may lie on each other
+  bool inverted_ = true;              ///< some are inverted
+  std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
+  std::optional<bool> overlaps_;      ///< see mayOverlap(): known once no cell is inverted
   long growth_ = 0, kept_ = 0;
   long reserve_ = 0; ///< of the growth, for polish()
   std::array<long, NumberOfOperations> tried_{}, done_{};
@@ -184,7 +190,13 @@ void WorstFirst<D, Shape>::run()
   this->growth_ = static_cast<long>(
     this->options_.growthBudget * static_cast<double>(this->mesh().countCells()));
   this->reserve_ = this->growth_ / 10;
-  this->tangled_ = this->report_.invertedBefore > 0;
+  this->inverted_ = this->report_.invertedBefore > 0;
+  this->tangled_ = this->inverted_;
+  if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // else it costs time
+  {
+    this->pinched_ = pinchedPoints<D>(this->mesh());
+    this->tangled_ = this->tangled_ || !this->pinched_.empty();
+  }
   const double highest = this->options_.effort == Effort::Best
     ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
     : this->options_.targetQuality;
@@ -312,7 +324,15 @@ void WorstFirst<D, Shape>::record(double target, int pass)
 {
   long inverted = 0;
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
-  this->tangled_ = inverted > 0;
+  this->inverted_ = inverted > 0;
+  if (this->tangled_ && !this->inverted_)
+  {
+    if (!this->overlaps_) // cells may lie on each other all the same
+    {
+      this->overlaps_ = mayOverlap<D>(this->mesh(), this->pinched_);
+    }
+    this->tangled_ = *this->overlaps_;
+  }
   char name[32];
   std::snprintf(name, sizeof name, this->guard_ ? "towards %.2f, pass %d" : "polish towards %.2f",
     this->guard_ ? target : this->polishTarget_, pass + 1);

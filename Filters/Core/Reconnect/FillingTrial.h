@@ -5,6 +5,7 @@
 #define meshopt_Reconnect_FillingTrial_h
 
 #include "Mesh/CavityFit.h"
+#include "Mesh/PinchedPoints.h"
 #include "Metric/NodalMetric.h"
 #include "Quality/ElementQuality.h"
 #include "Reconnect/Filling.h"
@@ -23,6 +24,7 @@ public:
     , metric_(metric)
     , quality_(quality)
     , trivial_(metric.isTrivial())
+    , pinched_(pinchedPoints<D>(editor.mesh()))
   {
     if (this->trivial_)
     {
@@ -42,12 +44,14 @@ public:
 
 private:
   bool keepsWhatItMust(const Part<D>& part, const Apex<D>& apex);
+  void collectCells(Index p);
 
   MeshEditor<D>& editor_;
   const SimplexMesh<D>& mesh_;
   NodalMetric<D>& metric_;
   ElementQuality<D, Shape> quality_;
   bool trivial_; // the metric is the same for all elements
+  std::vector<std::uint8_t> pinched_;
   ElementMetric<D> common_;
   typename NodalMetric<D>::Sample oldSample_; // of a node that is tried at the centre
   Fan<D> fan_;
@@ -89,6 +93,26 @@ void FillingTrial<D, Shape>::giveUp(const Part<D>& part, const Apex<D>& apex)
   }
 }
 
+/// Collects all cells of p in star_.
+template <int D, class Shape>
+void FillingTrial<D, Shape>::collectCells(Index p)
+{
+  const bool isPinched = p < static_cast<Index>(this->pinched_.size()) && this->pinched_[p];
+  if (!isPinched)
+  {
+    this->editor_.star(p, this->star_);
+    return;
+  }
+  this->star_.clear();
+  for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
+  {
+    if (this->mesh_.isAlive(c) && this->mesh_.localIndex(c, p) >= 0)
+    {
+      this->star_.push_back(c);
+    }
+  }
+}
+
 // What geometry does not tell: the fan meets the rest of the mesh in the cluster's boundary only,
 // and has the kept edges.
 template <int D, class Shape>
@@ -101,7 +125,7 @@ bool FillingTrial<D, Shape>::keepsWhatItMust(const Part<D>& part, const Apex<D>&
   }
   if (apex.local >= 0)
   {
-    this->editor_.star(apex.id, this->star_);
+    this->collectCells(apex.id);
     const std::uint32_t mark = this->editor_.newMark();
     for (Index c : part.cluster.cells)
     {

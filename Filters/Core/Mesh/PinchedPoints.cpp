@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/PinchedPoints.h"
+
+#include <algorithm>
+
+namespace meshopt
+{
+template <int D>
+std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh)
+{
+  std::vector<std::size_t> uses(static_cast<std::size_t>(mesh.numberOfPointSlots()), 0);
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i <= D && mesh.isAlive(c); ++i)
+    {
+      ++uses[mesh.nodes(c)[i]];
+    }
+  }
+  std::vector<std::uint8_t> pinched(uses.size(), 0);
+  std::vector<Index> star;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (uses[p] > 0)
+    {
+      mesh.star(p, star);
+      pinched[p] = star.size() < uses[p];
+    }
+  }
+  if (std::count(pinched.begin(), pinched.end(), 1) < 2)
+  {
+    pinched.clear();
+  }
+  return pinched;
+}
+
+template std::vector<std::uint8_t> pinchedPoints<2>(const SimplexMesh<2>&);
+template std::vector<std::uint8_t> pinchedPoints<3>(const SimplexMesh<3>&);
+}

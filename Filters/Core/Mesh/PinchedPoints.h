@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file PinchedPoints.h
+/// Points at which parts of a mesh meet that do not hang together there.
+#ifndef meshopt_Mesh_PinchedPoints_h
+#define meshopt_Mesh_PinchedPoints_h
+
+#include "Mesh/SimplexMesh.h"
+
+#include <vector>
+
+namespace meshopt
+{
+/// Nonzero for the points of which SimplexMesh::star() finds some cells only, since the others are not
+/// reached over facets. One entry per point slot, or none at all if there are not two such points. Linear.
+///
+/// Parts of a mesh that are joined in two such points may lie on each other although no cell is
+/// inverted, and then one can get the edge between the two points that the other has.
+template <int D>
+std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh);
+
+extern template std::vector<std::uint8_t> pinchedPoints<2>(const SimplexMesh<2>&);
+extern template std::vector<std::uint8_t> pinchedPoints<3>(const SimplexMesh<3>&);
+}
+
+#endif
