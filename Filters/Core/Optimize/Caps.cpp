@@ -10,6 +10,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
 {
   this->bound_ = 1.0;
   this->largest_ = -1.0;
+  this->hasTiny_ = false;
   this->facets_.clear();
   this->edges_.clear();
   if (!known)
@@ -29,6 +30,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
       Facet<D> f = surface.sides[k].nodes;
       std::sort(f.begin(), f.end());
       this->facets_[f] = surface.sideCaps[k];
+      this->hasTiny_ |= surface.sideCaps[k] < Tiny;
       this->largest_ = std::max(this->largest_, surface.sideCaps[k]);
     }
   }
@@ -45,9 +47,35 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
 }
 
 template <int D>
+double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
+{
+  if (std::any_of(f.begin(), f.end(), [&](Index p) { return !mesh.isBoundary(p); }))
+  {
+    return 1.0;
+  }
+  std::sort(f.begin(), f.end());
+  const auto found = this->facets_.find(f);
+  return found == this->facets_.end() || found->second >= Tiny ? 1.0 : this->full_ / found->second;
+}
+
+template <int D>
+double Caps<D>::weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) const
+{
+  double weight = 1.0;
+  for (int i = 0; i <= D; ++i)
+  {
+    Facet<D> f;
+    std::copy_n(nodes.begin(), i, f.begin());
+    std::copy(nodes.begin() + i + 1, nodes.end(), f.begin() + i);
+    weight = std::max(weight, this->weight(mesh, f));
+  }
+  return weight;
+}
+
+template <int D>
 bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 {
-  const double q = mesh.quality(c);
+  const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh, mesh.nodes(c)) : 1.0);
   if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))
   {
     return false;

@@ -28,6 +28,18 @@ public:
   /// cells are all better.
   bool isCapped(const SimplexMesh<D>& mesh, Index c) const;
 
+  /// A facet with a cap under Tiny makes a bad cell whatever is done, and its best fourth node, far
+  /// away, makes the neighbours bad, too. To spare these, cells there can be judged by what they
+  /// could have: weighed with 1 / cap, such that `full` is at the cap.
+  static constexpr double Tiny = 0.2;
+  bool hasTiny() const { return this->hasTiny_; }
+  void setFull(double quality) { this->full_ = quality; }
+  /// The weight of a facet, 1 unless its cap is tiny; the greatest one of a cell's facets.
+  double weight(const SimplexMesh<D>& mesh, Facet<D> f) const;
+  double weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) const;
+  /// Says if the qualities that the mesh holds are weighed.
+  void setWeighed(bool on) { this->weighed_ = on; }
+
   /// What a cell on kept facet i of cell c must have to count as capped; not less than c has. -1 if
   /// no cap is known there.
   double enough(const SimplexMesh<D>& mesh, Index c, int i) const;
@@ -53,6 +65,8 @@ private:
   double reached_ = 0.998;
   double bound_ = 1.0;
   double largest_ = -1.0; // of all caps
+  double full_ = 1.0;     // see setFull()
+  bool hasTiny_ = false, weighed_ = false;
   std::unordered_map<Facet<D>, double, Hash> facets_;
   std::unordered_map<std::array<Index, 2>, double, Hash> edges_;
 };

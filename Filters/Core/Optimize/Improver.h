@@ -55,7 +55,8 @@ public:
   /// Node motion stops a little above `quality`: what is more than enough is not paid for.
   /// Insertion must not make more bad cells than it removes: otherwise many cells that are hardly
   /// better come for one that is worst. A cell under `guard` counts once, under two thirds of it
-  /// twice, under one third of it three times. -1: no such guard.
+  /// twice, under one third of it three times. -1: no such guard. Where qualities are weighed no
+  /// other change may do so, either, unless it takes an inverted cell out.
   void setTarget(double quality, double guard)
   {
     this->target_ = quality;

@@ -129,6 +129,12 @@ bool Improver<D, Shape>::replace(
   {
     bad -= this->badness(this->editor_->mesh().quality(c));
   }
+  // The guard of swaps; what happens within a transaction is judged at its end.
+  if (this->model_->weights && bad > 0 && !this->editor_->inTransaction() &&
+    this->editor_->mesh().worstQuality(cavity) > 0.0)
+  {
+    return false;
+  }
   if (!this->editor_->replace(cavity, cells, this->qualities_, kept))
   {
     return false;
@@ -247,7 +253,7 @@ void Improver<D, Shape>::loadStar(Index v)
     {
       local[k] = this->problem_.addPoint(f[k], mesh.point(f[k]));
     }
-    this->problem_.addFacet(local);
+    this->problem_.addFacet(local, this->model_->weight(f));
     if (!this->model_->plain)
     {
       this->problem_.addFacetMetric(this->model_->metric->element(mesh.nodes(c)));
@@ -318,6 +324,10 @@ bool Improver<D, Shape>::settleStar(double old)
     bad += this->badness(q);
     bad -= this->badness(this->editor_->mesh().quality(c));
     this->editor_->setQuality(c, q);
+  }
+  if (this->model_->weights && bad > 0 && old > 0.0)
+  {
+    return false;
   }
   this->bad_ += bad;
   this->editor_->stamp(this->star_);

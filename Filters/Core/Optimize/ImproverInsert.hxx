@@ -74,7 +74,7 @@ double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGa
       {
         local[k] = this->problem_.addPoint(f[k], this->editor_->mesh().point(f[k]));
       }
-      this->problem_.addFacet(local);
+      this->problem_.addFacet(local, this->model_->weight(f));
       if (!this->model_->plain)
       {
         Simplex<D> cell;
@@ -141,10 +141,10 @@ bool Improver<D, Shape>::insert(Index t)
     const double old = this->cavity_.oldWorst();
     if (q > old + gain(old) && this->badBalance() <= 0)
     {
-      // The search took the metric where the node was: what counts is the one where it is now.
+      // The search took the metric where the node was, and no notice of the floor: a second look.
       const Place before = this->begin();
       done = this->insertHere(p, x[k]) &&
-        (this->model_->plain ||
+        ((this->model_->plain && !this->model_->weights) ||
           (this->editor_->mesh().worstQuality(this->editor_->created()) > old + gain(old) &&
             this->bad_ <= start.bad));
       done ? this->commit(before) : this->rollback(before);

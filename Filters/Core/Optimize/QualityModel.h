@@ -5,6 +5,7 @@
 #define meshopt_Optimize_QualityModel_h
 
 #include "Metric/NodalMetric.h"
+#include "Optimize/Caps.h"
 #include "Quality/EdgeSum.h"
 #include "Quality/ElementQuality.h"
 
@@ -20,7 +21,11 @@ struct QualityModel
   bool plain;
   /// Plain, and the measure is a function of volume and edge sum: lengths can be shared.
   static constexpr bool HasSum = EdgeSum<Shape>::value;
-  bool fast() const { return HasSum && this->plain; }
+  /// Where set, the quality of a cell is multiplied by Caps::weight(), unless it is under the floor.
+  const Caps<D>* weights = nullptr;
+  double floor = 0.0;
+
+  bool fast() const { return HasSum && this->plain && !this->weights; }
 
   QualityModel(const SimplexMesh<D>& m, NodalMetric<D>& field, double beta)
     : mesh(&m)
@@ -37,7 +42,14 @@ struct QualityModel
     {
       x[i] = this->mesh->point(nodes[i]);
     }
-    return this->plain ? Shape::value(x) : this->quality.value(x, this->metric->element(nodes));
+    const double q = this->plain ? Shape::value(x)
+                                 : this->quality.value(x, this->metric->element(nodes));
+    const bool weigh = this->weights && !(q < this->floor);
+    return weigh ? q * this->weights->weight(*this->mesh, nodes) : q;
+  }
+  double weight(const Facet<D>& f) const
+  {
+    return this->weights ? this->weights->weight(*this->mesh, f) : 1.0;
   }
 };
 }

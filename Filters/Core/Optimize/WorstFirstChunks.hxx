@@ -10,7 +10,7 @@ namespace worstfirst
 {
 /// Chunks, their queues and slots: a function of the mesh and of the bad cells only.
 template <int D, class Shape>
-void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& bad)
+void WorstFirst<D, Shape>::distribute(double target, int level, const std::vector<Index>& bad)
 {
   const Index cells = this->mesh().numberOfCellSlots();
   const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
@@ -40,6 +40,10 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
     to.assign(from.end() - count, from.end());
     from.resize(from.size() - count);
   };
+  const bool onTheWay = this->guard_ && !(target > this->options_.targetQuality);
+  const long limit = onTheWay && level == Improver<D, Shape>::LookAhead
+    ? std::max<long>(PatientTries, cells * LookAheadsPerMille / 1000) / n
+    : std::numeric_limits<long>::max();
   for (int k = 0; k < n; ++k)
   {
     Worker& w = *this->workers_[k];
@@ -53,6 +57,7 @@ void WorstFirst<D, Shape>::distribute(double target, const std::vector<Index>& b
     w.improver.setGain(this->gain_);
     w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
     w.kept = w.tries = 0;
+    w.limit = limit;
     w.isPatient = true;
   }
   if (!this->metric_.isTrivial())
@@ -104,7 +109,7 @@ void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Inde
   this->kept_ = 0;
   this->tried_.fill(0);
   this->done_.fill(0);
-  this->distribute(target, bad);
+  this->distribute(target, level, bad);
   const auto body = [&](int k) { this->work(*this->workers_[k], target, level); };
   bool more = true;
   while (more && this->keepGoing(target))
@@ -140,7 +145,7 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
     w.queue.pop();
     // Without patience cells are still tried cheaply: a border may have kept them from it before.
     const long more = this->model_.plain ? 1 : Hurry;
-    w.isPatient = w.isPatient &&
+    w.isPatient = w.isPatient && w.tries < w.limit &&
       (w.tries * more < PatientTries || w.kept * Patience[level] >= w.tries * more);
     level = w.isPatient ? level : Improver<D, Shape>::Topology;
     if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||

@@ -42,12 +42,17 @@ constexpr double LiftStep = 0.02;
 /// the best effort polishes.
 constexpr double Gain = 1e-3, FineGain = 1e-4;
 constexpr double CapReached = 0.998, CapReachedFinely = 0.9995;
+/// The part of a tiny cap that is as good as the target where cells are weighed.
+constexpr double TinyReached = 0.5;
 /// The least gain where the metric or a wanted size varies: qualities then cost many times more, and
 /// most cells can be under the target.
 constexpr double CoarseGain = 1e-2;
 /// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
 constexpr long Patience[] = { std::numeric_limits<int>::max(), 50, 20, 20 };
 constexpr long PatientTries = 200; // before that is looked at
+/// Look-ahead on the way to the target: for so many of a thousand cells a pass, the worst ones, or
+/// PatientTries.
+constexpr long LookAheadsPerMille = 10;
 /// Where the metric or a wanted size varies a try costs many times more: it counts as so many.
 constexpr long Hurry = 5;
 /// Tries of one chunk between two looks at progress, by level: some tenth of a second.
@@ -72,6 +77,7 @@ private:
     Improver<D, Shape> improver;
     Queue queue;
     long kept = 0, tries = 0; // in this pass
+    long limit = 0;           // of such tries
     bool isPatient = true;    // likewise
 
     Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Caps<D>& caps,
@@ -85,12 +91,13 @@ private:
   std::vector<double> stages() const;
   int highestLevel() const;
   bool stage(double target);
+  void weigh(bool on);
   bool polish(double target, bool finely);
   double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
   bool liftAround(const std::vector<Entry>& cells, int layers);
   void pass(double target, int level, const std::vector<Index>& bad);
   void collect(double target, int level, std::vector<Index>& bad) const;
-  void distribute(double target, const std::vector<Index>& bad);
+  void distribute(double target, int level, const std::vector<Index>& bad);
   void work(Worker& worker, double target, int level);
   void gather();
   bool worthTrying(Index c, int level) const;
@@ -202,6 +209,7 @@ void WorstFirst<D, Shape>::run()
     : this->options_.targetQuality;
   this->caps_.build(
     this->mesh(), this->options_.measure, highest, this->metric_.isTrivial() && !this->curves_);
+  this->caps_.setFull(this->options_.targetQuality / TinyReached);
   this->report_.bound = this->caps_.bound();
   const std::vector<double> stages = this->stages();
   bool more = true;
@@ -211,7 +219,9 @@ void WorstFirst<D, Shape>::run()
     const bool past = stages[k] > this->options_.targetQuality + 1e-9;
     this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
     const double before = this->report_.history.back().worst;
+    this->weigh(true);
     more = this->stage(stages[k]);
+    this->weigh(false);
     if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
     {
       more = this->polish(stages[k], false);
@@ -219,7 +229,9 @@ void WorstFirst<D, Shape>::run()
       if (more && !past)
       {
         this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
+        this->weigh(true);
         more = this->stage(std::min(stages[k], Stages[0]));
+        this->weigh(false);
       }
     }
     // Past the target, two stages that did not lift the worst cell are the end.
@@ -231,6 +243,41 @@ void WorstFirst<D, Shape>::run()
     this->polish(stages.back(), true);
   }
   this->report_.stopReason = this->reason();
+}
+
+/// From now on qualities are weighed, see Caps::weight(), but never such that one gets worse than the
+/// worst is now; or as they are again.
+template <int D, class Shape>
+void WorstFirst<D, Shape>::weigh(bool on)
+{
+  if (!this->caps_.hasTiny())
+  {
+    return;
+  }
+  const auto update = [&](const Caps<D>* weights)
+  {
+    this->model_.weights = weights;
+    double worst = 1.0;
+    for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+    {
+      if (this->mesh().isAlive(c))
+      {
+        const Simplex<D>& nodes = this->mesh().nodes(c);
+        if (this->caps_.weight(this->mesh(), nodes) > 1.0)
+        {
+          this->editor_.setQuality(c, this->model_(nodes));
+        }
+        worst = std::min(worst, this->mesh().quality(c));
+      }
+    }
+    return worst;
+  };
+  this->model_.floor = std::max(0.0, update(nullptr));
+  if (on)
+  {
+    update(&this->caps_);
+  }
+  this->caps_.setWeighed(on);
 }
 
 template <int D, class Shape>
@@ -323,7 +370,10 @@ template <int D, class Shape>
 void WorstFirst<D, Shape>::record(double target, int pass)
 {
   long inverted = 0;
+  const bool weighed = this->model_.weights;
+  this->weigh(false);
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
+  this->weigh(weighed);
   this->inverted_ = inverted > 0;
   if (this->tangled_ && !this->inverted_)
   {

@@ -45,9 +45,10 @@ public:
   }
 
   /// Facet of local point numbers; (facet, node) is positive for a node inside.
-  void addFacet(const std::array<int, D>& f)
+  void addFacet(const std::array<int, D>& f, double weight = 1.0)
   {
     FacetData data;
+    data.weight = weight;
     data.points = f;
     const Vec<D>& a = this->ring_[f[0]].x;
     if constexpr (D == 3)
@@ -86,7 +87,8 @@ public:
     {
       for (std::size_t k = 0; k < this->facets_.size(); ++k)
       {
-        this->values_[k] = this->quality_.value(this->corners(k, x), this->metric(k));
+        this->values_[k] = this->facets_[k].weight *
+          this->quality_.value(this->corners(k, x), this->metric(k));
       }
     }
     for (double q : this->values_)
@@ -146,7 +148,7 @@ private:
   struct FacetData
   {
     Vec<D> normal; // det = normal . (node - first point)
-    double sum = 0.0;
+    double sum = 0.0, weight = 1.0;
     std::array<int, D> points;
   };
 
@@ -183,8 +185,8 @@ private:
         {
           sum += this->ring_[p].weight;
         }
-        this->values_[k] = EdgeSum<Shape>::quality(
-          f.normal.dot(x - this->ring_[f.points[0]].x), sum);
+        this->values_[k] = f.weight *
+          EdgeSum<Shape>::quality(f.normal.dot(x - this->ring_[f.points[0]].x), sum);
       }
     }
   }
@@ -220,12 +222,12 @@ private:
         }
         EdgeSum<Shape>::derivatives(
           f.normal.dot(x - this->ring_[f.points[0]].x), sum, byDet, bySum);
-        return byDet * f.normal + bySum * g;
+        return f.weight * (byDet * f.normal + bySum * g);
       }
     }
     std::array<Vec<D>, D + 1> g;
     this->quality_.gradient(this->corners(k, x), this->metric(k), g);
-    return g[D];
+    return this->facets_[k].weight * g[D];
   }
 
   /// Trust at the start: a unit gradient per length L moves the node by a tenth of L, the mean
