@@ -130,7 +130,7 @@ private:
 
   std::vector<Tensor<D>> units_; // M / h*^2 at the points
   int round_ = 0;
-  long mostCells_ = 0; // brake
+  long mostCells_ = 0;       // brake
   double scale_ = 1.0;       // of h*
   double longest_ = Longest; // longer edges are split
   std::uint32_t swappedAt_ = 0;

@@ -21,6 +21,8 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
   const bool past = finely || target > this->options_.targetQuality + 1e-9;
   bool more = true;
   std::vector<Entry> worst;
+  // Where facets have tiny caps the next worst cells are spared on purpose.
+  const std::size_t most = this->caps_.hasTiny() ? PolishedCells : MostPolishedCells;
   std::size_t wanted = PolishedCells;
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
   {
@@ -41,7 +43,7 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
     {
       break;
     }
-    else if (worst.size() == wanted && wanted < MostPolishedCells)
+    else if (worst.size() == wanted && wanted < most)
     {
       wanted *= 2;
     }

@@ -33,7 +33,7 @@ constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
 constexpr int PolishedPerChunk = 4;    // the same where each is tried long
 constexpr int MaximumChunks = 256;
 constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of their borders, by turns
-constexpr std::size_t PolishedCells = 10, MostPolishedCells = 320;
+constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 constexpr int PolishRounds = 50;
 /// How far around the worst cells others are lifted, and by how much per layer.
 constexpr int LiftedLayers = 3;
@@ -91,6 +91,7 @@ private:
   std::vector<double> stages() const;
   int highestLevel() const;
   bool stage(double target);
+  bool weighedStage(double target);
   void weigh(bool on);
   bool polish(double target, bool finely);
   double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
@@ -219,9 +220,7 @@ void WorstFirst<D, Shape>::run()
     const bool past = stages[k] > this->options_.targetQuality + 1e-9;
     this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
     const double before = this->report_.history.back().worst;
-    this->weigh(true);
-    more = this->stage(stages[k]);
-    this->weigh(false);
+    more = this->weighedStage(stages[k]);
     if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
     {
       more = this->polish(stages[k], false);
@@ -229,18 +228,16 @@ void WorstFirst<D, Shape>::run()
       if (more && !past)
       {
         this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
-        this->weigh(true);
-        more = this->stage(std::min(stages[k], Stages[0]));
-        this->weigh(false);
+        more = this->weighedStage(std::min(stages[k], Stages[0]));
       }
     }
     // Past the target, two stages that did not lift the worst cell are the end.
     const bool stuck = this->report_.history.back().worst < before + Gain;
     idle = past && stuck ? idle + 1 : 0;
   }
-  if (more && this->options_.effort == Effort::Best)
+  if (more && this->options_.effort == Effort::Best && this->polish(stages.back(), true))
   {
-    this->polish(stages.back(), true);
+    this->weighedStage(Stages[0]);
   }
   this->report_.stopReason = this->reason();
 }
@@ -278,6 +275,15 @@ void WorstFirst<D, Shape>::weigh(bool on)
     update(&this->caps_);
   }
   this->caps_.setWeighed(on);
+}
+
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::weighedStage(double target)
+{
+  this->weigh(true);
+  const bool more = this->stage(target);
+  this->weigh(false);
+  return more;
 }
 
 template <int D, class Shape>
