@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Single improvements where metric and size vary from place to place: each must raise the sorted
-// vector of qualities, as they really are after it.
+// Single improvements: where metric and size vary from place to place each must raise the sorted
+// vector of qualities, as they really are after it; and the limits of what may go.
 #include "Optimize/Improver.h"
 #include "Optimize/Statistics.h"
 #include "Quality/Shape.h"
@@ -90,4 +90,40 @@ TYPED_TEST(Improving, InAVaryingMetricRaisesWhatIsThere)
     }
   }
   EXPECT_TRUE(D == 2 || inserted > 5) << inserted;
+}
+
+/// Points that are there after all cells have been tried, if cells may go until `most` is reached.
+template <int D>
+Index pointsLeft(long growth, long most)
+{
+  using Shape = MeanEdgeShape<D>;
+  SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(D == 3 ? 5 : 12, 0.3));
+  NodalMetric<D> metric;
+  MeshEditor<D> editor(mesh);
+  computeQualities<D>(editor, metric, Measure::Shape, 0.0);
+  const QualityModel<D, Shape> model(mesh, metric, 0.0);
+  const Caps<D> caps;
+  Options options;
+  options.moveNodes = options.reconnect = options.insertNodes = false;
+  Improver<D, Shape> improver(editor, model, caps, options);
+  improver.setGrowth(growth, most);
+  improver.setTarget(0.9, -1.0);
+  for (Index t = 0; t < mesh.numberOfCellSlots(); ++t)
+  {
+    if (mesh.isAlive(t) && mesh.quality(t) < 0.7)
+    {
+      improver.improve(t, Improver<D, Shape>::Insertion);
+    }
+  }
+  expectSound(mesh);
+  return mesh.countPoints();
+}
+
+TYPED_TEST(Improving, KeepsNodesOnceEnoughCellsAreGone)
+{
+  constexpr int D = TypeParam::dimension;
+  const Index input = buildMesh(jitteredGrid<D>(D == 3 ? 5 : 12, 0.1)).countPoints();
+  const long never = std::numeric_limits<long>::max();
+  EXPECT_LT(pointsLeft<D>(0, never), input);
+  EXPECT_EQ(pointsLeft<D>(0, 0), input);
 }

@@ -68,8 +68,13 @@ public:
     this->failuresSince_ = gain == this->gain_ ? this->failuresSince_ : this->editor_->clock();
     this->gain_ = gain;
   }
-  /// Net number of cells that may still be added.
-  void setGrowth(long cells) { this->growth_ = cells; }
+  /// Net number of cells that may still be added. Where cells go it rises; at `most` no more nodes
+  /// are removed.
+  void setGrowth(long cells, long most = std::numeric_limits<long>::max())
+  {
+    this->growth_ = cells;
+    this->mostGrowth_ = most;
+  }
   long growth() const { return this->growth_; }
   /// Guards against inputs whose cells overlap, where the usual geometric reasons do not hold:
   /// `tangled`, if they may; `inverted`, if some are inverted. `pinched`: see PinchedPoints.h.
@@ -111,6 +116,10 @@ private:
   bool moveNode(Index v);
   bool settleStar(double old);
   bool moveCluster(Index t);
+  bool mayRemoveNodes() const
+  {
+    return this->options_->removeNodes && this->growth_ < this->mostGrowth_;
+  }
   bool removeNodes(Index t);
   bool removeNode(Index v);
   bool changeBoundary(Index t, int level);
@@ -154,7 +163,7 @@ private:
   double gain_ = 1e-3;
   std::uint32_t failuresSince_ = 0; ///< failures to move a node before that were with another gain
   long bad_ = 0;                    ///< badness() of all cells made, less that of those removed
-  long growth_ = 0;
+  long growth_ = 0, mostGrowth_ = 0;
   bool tangled_ = false, inverted_ = false;
   const std::vector<std::uint8_t>* pinched_ = nullptr; // where tangled_
 

@@ -28,7 +28,7 @@ bool Improver<D, Shape>::improve(Index t, int level)
   {
     return true;
   }
-  if (level >= Insertion && this->options_->removeNodes && this->removeNodes(t))
+  if (level >= Insertion && this->mayRemoveNodes() && this->removeNodes(t))
   {
     return true;
   }

@@ -59,7 +59,7 @@ double Improver<D, Shape>::tryInsertion(Index t, Index p, Vec<D>& x, bool needGa
   {
     this->place(p, x, this->editor_->mesh().nodes(t)[0]);
     typename Cavity<D, Shape>::Limits limits;
-    limits.swallowed = this->options_->removeNodes ? limits.swallowed : 0;
+    limits.swallowed = this->mayRemoveNodes() ? limits.swallowed : 0;
     q = this->cavity_.grow(*this->editor_, *this->model_, t, p, x, limits);
     if (!(q > 0.0))
     {
@@ -191,7 +191,7 @@ bool Improver<D, Shape>::retriangulate(
   if constexpr (D == 3)
   {
     typename SmallPolyhedron<Shape>::Limits limits = asked;
-    limits.mayDropPoints = this->options_->removeNodes;
+    limits.mayDropPoints = this->mayRemoveNodes();
     const SimplexMesh<3>& mesh = this->editor_->mesh();
     const double above = mesh.quality(t) + this->gain(mesh.quality(t));
     const double q = this->smallPolyhedron_.propose(*this->editor_, *this->model_, t, above, limits,

@@ -41,9 +41,16 @@ void WorstFirst<D, Shape>::distribute(double target, int level, const std::vecto
     from.resize(from.size() - count);
   };
   const bool onTheWay = this->guard_ && !(target > this->options_.targetQuality);
+  const long few = std::max<long>(FewCells, cells * FewCellsPerMille / 1000);
   const long limit = onTheWay && level == Improver<D, Shape>::LookAhead
-    ? std::max<long>(PatientTries, cells * LookAheadsPerMille / 1000) / n
+    ? few / n
     : std::numeric_limits<long>::max();
+  // While many cells are stuck it does not pay to lift one of them by making others bad.
+  const bool many = onTheWay && level > 0 && static_cast<long>(bad.size()) > few;
+  const long reserve = this->guard_ ? this->reserve_ : 0;
+  const long most = this->guard_ ? (this->mostGrowth_ - reserve) / n
+                                 : std::numeric_limits<long>::max();
+  const double guard = !this->guard_ ? -1.0 : many ? target : Stages[0];
   for (int k = 0; k < n; ++k)
   {
     Worker& w = *this->workers_[k];
@@ -52,10 +59,10 @@ void WorstFirst<D, Shape>::distribute(double target, int level, const std::vecto
     w.editor.setLastMark(this->editor_.lastMark());
     take(freeCells, n > 1 ? cellRoom : freeCells.size(), w.editor.freeCells());
     take(freePoints, n > 1 ? pointRoom : freePoints.size(), w.editor.freePoints());
-    w.improver.setGrowth((this->growth_ - (this->guard_ ? this->reserve_ : 0)) / n);
+    w.improver.setGrowth((this->growth_ - reserve) / n, most);
     w.improver.setTangled(this->tangled_, this->inverted_, this->pinched_);
     w.improver.setGain(this->gain_);
-    w.improver.setTarget(target, this->guard_ ? Stages[0] : -1.0);
+    w.improver.setTarget(target, guard);
     w.kept = w.tries = 0;
     w.limit = limit;
     w.isPatient = true;

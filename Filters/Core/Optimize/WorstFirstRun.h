@@ -50,9 +50,10 @@ constexpr double CoarseGain = 1e-2;
 /// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
 constexpr long Patience[] = { std::numeric_limits<int>::max(), 50, 20, 20 };
 constexpr long PatientTries = 200; // before that is looked at
-/// Look-ahead on the way to the target: for so many of a thousand cells a pass, the worst ones, or
-/// PatientTries.
-constexpr long LookAheadsPerMille = 10;
+/// So many of the cells may go, unless sizes are wanted, before nodes are kept.
+constexpr double ShrinkBudget = 0.12;
+/// On the way to the target look-ahead is for the worst few cells of a pass: so many of a thousand.
+constexpr long FewCells = 200, FewCellsPerMille = 10; // at least; of all cells
 /// Where the metric or a wanted size varies a try costs many times more: it counts as so many.
 constexpr long Hurry = 5;
 /// Tries of one chunk between two looks at progress, by level: some tenth of a second.
@@ -132,7 +133,7 @@ private:
   bool inverted_ = true;              ///< some are inverted
   std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
   std::optional<bool> overlaps_;      ///< see mayOverlap(): known once no cell is inverted
-  long growth_ = 0, kept_ = 0;
+  long growth_ = 0, mostGrowth_ = 0, kept_ = 0;
   long reserve_ = 0; ///< of the growth, for polish()
   std::array<long, NumberOfOperations> tried_{}, done_{};
   double stageDone_ = 0.0;
@@ -198,6 +199,9 @@ void WorstFirst<D, Shape>::run()
   this->growth_ = static_cast<long>(
     this->options_.growthBudget * static_cast<double>(this->mesh().countCells()));
   this->reserve_ = this->growth_ / 10;
+  this->mostGrowth_ = this->model_.plain
+    ? this->growth_ + static_cast<long>(ShrinkBudget * this->mesh().countCells())
+    : std::numeric_limits<long>::max();
   this->inverted_ = this->report_.invertedBefore > 0;
   this->tangled_ = this->inverted_;
   if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // else it costs time
