@@ -61,6 +61,31 @@ Cluster<D> clusterOf(SimplexMesh<D>& mesh, Index cell, int level)
     cell, level, [&](Index p) { return !mesh.isFixed(p); }, cluster);
   return cluster;
 }
+
+/// Calls check(cluster) for 50 such stars whose free node is somewhere inside; afterwards all other
+/// nodes have to be where they were.
+template <int D, class Check>
+void forStarsOffCentre(Check&& check)
+{
+  TestRandom random(5);
+  for (int run = 0; run < 50; ++run)
+  {
+    MeshInput<D> in = star<D>();
+    for (int d = 0; d < D; ++d)
+    {
+      in.points[0][d] = 0.45 * random();
+    }
+    SimplexMesh<D> mesh = buildMesh(in);
+    Cluster<D> cluster = clusterOf(mesh, 0, 0);
+    ASSERT_EQ(cluster.numberOfMoving, 1);
+    ASSERT_EQ(cluster.cells.size(), in.cells.size());
+    check(cluster);
+    for (std::size_t k = 1; k < cluster.points.size(); ++k)
+    {
+      EXPECT_EQ(cluster.x[k], mesh.point(cluster.points[k]));
+    }
+  }
+}
 }
 
 #endif
