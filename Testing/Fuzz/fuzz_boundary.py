@@ -17,7 +17,7 @@ import argparse
 import sys
 
 import numpy as np
-from fuzz_filter import bytes_of, cell_lists, coordinates, make_filter
+from fuzz_filter import Checks, bytes_of, cell_lists, coordinates, make_filter, set_measure_and_switches
 from fuzz_meshes import base, grid_of, regions_of, spoil, tilt, valid
 from meshoptimize import vtkMeshOptimizeFilter
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -136,11 +136,7 @@ def random_options(random, mesh, extent):
     options = {"TargetQuality": float(random.choice([0.3, 0.6, 0.6, 0.9])), "Effort": int(random.choice([0, 1, 1, 2])),
                "BoundaryMode": int(random.random() < 0.85), "BoundaryCurve": int(random.random() < 0.6),
                "CornerAngle": float(random.choice([0.0, 10.0, 45.0, 45.0, 90.0, 180.0]))}
-    if random.random() < 0.3:
-        options["QualityMeasure"] = int(random.integers(6))
-    for name in ("MoveNodes", "Reconnect", "InsertNodes", "RemoveNodes", "LookAhead"):
-        if random.random() < 0.1:
-            options[name] = False
+    set_measure_and_switches(random, options, 0.3, 0.1)
     if random.random() < 0.6:
         options["Beta"] = float(random.choice([0.3, 1.0, 2.0]))
     if random.random() < 0.8 or "Beta" in options:
@@ -168,7 +164,7 @@ def distance_to_lines(x, ends):
     return result
 
 
-class Case:
+class Case(Checks):
     def __init__(self, seed, limit):
         random = np.random.default_rng([seed, 2])
         self.mesh = plane_mesh(random)
@@ -211,10 +207,6 @@ class Case:
             if self.must_fail and abs(value) <= 1.0:
                 self.must_fail = None  # in the plane of the mesh it may still be one
 
-    def check(self, condition, text):
-        if not condition:
-            self.failures.append(text)
-
     def run(self):
         before = vtkUnstructuredGrid()
         before.DeepCopy(self.grid)
@@ -233,8 +225,7 @@ class Case:
         if f.GetStopReason() == vtkMeshOptimizeFilter.TimeLimitReached:
             self.failures.append("too slow")
             return
-        second = make_filter(self.grid, self.options, self.arrays, 2)
-        self.check(bytes_of(second.GetOutput()) == bytes_of(f.GetOutput()), "two threads give other bytes")
+        self.check_two_threads()
         self.check_figures()
         self.check_arrays()
         self.check_shape()

@@ -25,17 +25,22 @@ from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkUnstructur
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 
+def set_measure_and_switches(random, options, measure, off):
+    """With these probabilities another measure, each kind of change switched off."""
+    if random.random() < measure:
+        options["QualityMeasure"] = int(random.integers(6))
+    for name in ("MoveNodes", "Reconnect", "InsertNodes", "RemoveNodes", "LookAhead"):
+        if random.random() < off:
+            options[name] = False
+
+
 def random_options(random, mesh):
     """Setters and their values."""
     options = {"Algorithm": int(random.random() < 0.7), "TargetQuality": float(random.choice([0.3, 0.6, 0.6, 1.0])),
                "Effort": int(random.choice([0, 1, 1, 1, 2]))}
     if options["TargetQuality"] == 1.0 and len(mesh["cells"]) > 150:
         options["Effort"] = 0  # time
-    if random.random() < 0.4:
-        options["QualityMeasure"] = int(random.integers(6))
-    for name in ("MoveNodes", "Reconnect", "InsertNodes", "RemoveNodes", "LookAhead"):
-        if random.random() < 0.12:
-            options[name] = False
+    set_measure_and_switches(random, options, 0.4, 0.12)
     if random.random() < 0.2:
         options["Beta"] = float(random.choice([0.1, 0.5, 2.0]))
         options["DesiredSize"] = float(np.ptp(mesh["points"], axis=0).max()) / 5.0
@@ -135,7 +140,19 @@ def kept_facets(points, cells, regions):
     return kept, most
 
 
-class Case:
+class Checks:
+    """What is wrong with one seed."""
+
+    def check(self, condition, text):
+        if not condition:
+            self.failures.append(text)
+
+    def check_two_threads(self):
+        second = make_filter(self.grid, self.options, self.arrays, 2)
+        self.check(bytes_of(second.GetOutput()) == bytes_of(self.f.GetOutput()), "two threads give other bytes")
+
+
+class Case(Checks):
     """One seed: the mesh, the run, and what is wrong with it."""
 
     def __init__(self, seed, limit=60.0):
@@ -146,10 +163,6 @@ class Case:
         self.options["TimeLimit"] = limit
         self.fault = corrupted(random, self.grid) if random.random() < 0.08 else None
         self.failures = []
-
-    def check(self, condition, text):
-        if not condition:
-            self.failures.append(text)
 
     def run(self):
         before = vtkUnstructuredGrid()
@@ -169,8 +182,7 @@ class Case:
         if f.GetStopReason() == vtkMeshOptimizeFilter.TimeLimitReached:
             self.failures.append("too slow")
             return
-        second = make_filter(self.grid, self.options, self.arrays, 2)
-        self.check(bytes_of(second.GetOutput()) == bytes_of(f.GetOutput()), "two threads give other bytes")
+        self.check_two_threads()
         if len(self.mesh["cells"]):
             self.check_figures()
             self.check_mesh()

@@ -251,7 +251,7 @@ void WorstFirst<D, Shape>::run()
 template <int D, class Shape>
 void WorstFirst<D, Shape>::weigh(bool on)
 {
-  if (!this->caps_.hasTiny())
+  if (!this->caps_.hasTiny() || (!on && !this->model_.weights))
   {
     return;
   }
@@ -281,6 +281,7 @@ void WorstFirst<D, Shape>::weigh(bool on)
   this->caps_.setWeighed(on);
 }
 
+/// A stage with qualities weighed; without tiny facets a stage like any other.
 template <int D, class Shape>
 bool WorstFirst<D, Shape>::weighedStage(double target)
 {

@@ -44,7 +44,8 @@ public:
     return k;
   }
 
-  /// Facet of local point numbers; (facet, node) is positive for a node inside.
+  /// Facet of local point numbers; (facet, node) is positive for a node inside. The quality of its
+  /// element counts `weight` times, > 0; usually once.
   void addFacet(const std::array<int, D>& f, double weight = 1.0)
   {
     FacetData data;
