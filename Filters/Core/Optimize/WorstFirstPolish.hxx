@@ -21,8 +21,8 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
   const bool past = finely || target > this->options_.targetQuality + 1e-9;
   bool more = true;
   std::vector<Entry> worst;
-  // Where facets have tiny caps the next worst cells are spared on purpose.
-  const std::size_t most = this->caps_.hasTiny() ? PolishedCells : MostPolishedCells;
+  // Where facets have tiny caps the next worst cells, and what surrounds them, are spared on purpose.
+  const bool widens = past && !this->caps_.hasTiny();
   std::size_t wanted = PolishedCells;
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
   {
@@ -34,16 +34,16 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
     }
     const double before = this->report_.history.back().worst;
     more = this->stage(std::nextafter(worst.back().first, 1.0));
-    if (this->report_.history.back().worst > before + this->gain_ * std::fabs(before))
+    if (this->report_.history.back().worst > before + RoundGain * this->gain_ * std::fabs(before))
     {
       layers = 0;
       wanted = PolishedCells;
     }
-    else if (!past)
+    else if (!widens)
     {
       break;
     }
-    else if (worst.size() == wanted && wanted < most)
+    else if (worst.size() == wanted && wanted < MostPolishedCells)
     {
       wanted *= 2;
     }

@@ -35,6 +35,8 @@ constexpr int MaximumChunks = 256;
 constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of their borders, by turns
 constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 constexpr int PolishRounds = 50;
+constexpr double RoundGain =
+  10.0; // what a round must gain to be repeated, in least gains of a change
 /// How far around the worst cells others are lifted, and by how much per layer.
 constexpr int LiftedLayers = 3;
 constexpr double LiftStep = 0.02;
