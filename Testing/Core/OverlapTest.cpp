@@ -134,6 +134,39 @@ TEST(Overlap, WhatFillsACavityHangsTogether)
   EXPECT_FALSE(fillsCavity<2>(mesh, cavity, joined));
 }
 
+TEST(Overlap, WhatHangsTogetherAtAPointStaysSo)
+{
+  // two cells of a fan; the other filling leaves two rings around its point that only touch
+  MeshInput<2> in;
+  in.points.push_back(Vec<2>::Zero());
+  for (int k = 0; k < 6; ++k)
+  {
+    in.points.push_back(Vec<2>(std::cos(k * Pi / 3), std::sin(k * Pi / 3)));
+    in.cells.push_back({ 0, k + 1, (k + 1) % 6 + 1 });
+  }
+  const SimplexMesh<2> mesh = buildMesh(in);
+  const std::vector<Index> cavity{ 0, 3 };
+  EXPECT_FALSE(
+    fillsCavity<2>(mesh, cavity, { { 0, 1, 5 }, { 0, 4, 2 }, { 1, 5, 4 }, { 1, 4, 2 } }));
+  // all of the fan but one cell: the point stays at the boundary of the cavity
+  EXPECT_TRUE(fillsCavity<2>(
+    mesh, { 0, 1, 2, 3, 4 }, { { 0, 1, 3 }, { 0, 3, 6 }, { 1, 2, 3 }, { 3, 4, 5 }, { 3, 5, 6 } }));
+}
+
+TEST(Overlap, CrumpledGridsAreNotPinched)
+{
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(3, 2.0, seed));
+    const long euler = mesh.eulerCharacteristic();
+    NodalMetric<3> metric;
+    const Report report = optimize<3>(mesh, metric, {}, {});
+    EXPECT_TRUE(mesh.audit(report.invertedAfter == 0).empty()) << seed;
+    EXPECT_EQ(mesh.eulerCharacteristic(), euler) << seed;
+    EXPECT_TRUE(pinchedPoints<3>(mesh).empty()) << seed;
+  }
+}
+
 TEST(Overlap, NoEdgeGetsAThirdCellAtPinchedPoints)
 {
   optimizeAllWays(fanAndTriangle());

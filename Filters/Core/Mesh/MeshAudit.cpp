@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The audit: everything that must hold of a SimplexMesh, checked without trusting any of it.
+#include "Mesh/EulerCharacteristic.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <algorithm>
@@ -174,29 +175,15 @@ std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
 template <int D>
 long SimplexMesh<D>::eulerCharacteristic() const
 {
-  std::set<std::array<Index, 2>> edges;
-  std::set<Facet<D>> facets;
+  std::vector<Simplex<D>> cells;
   for (Index c = 0; c < this->numberOfCellSlots(); ++c)
   {
-    if (!this->isAlive(c))
+    if (this->isAlive(c))
     {
-      continue;
-    }
-    for (const auto& e : Local<D>::edges)
-    {
-      const Index a = this->nodes(c)[e[0]], b = this->nodes(c)[e[1]];
-      edges.insert({ std::min(a, b), std::max(a, b) });
-    }
-    for (int i = 0; i <= D; ++i)
-    {
-      Facet<D> f = this->facet(c, i);
-      std::sort(f.begin(), f.end());
-      facets.insert(f);
+      cells.push_back(this->nodes(c));
     }
   }
-  const long v = this->countPoints(), e = static_cast<long>(edges.size());
-  const long f = static_cast<long>(facets.size()), c = this->countCells();
-  return D == 3 ? v - e + f - c : v - e + c;
+  return meshopt::eulerCharacteristic<D>(cells);
 }
 
 template std::vector<std::string> SimplexMesh<2>::audit(bool) const;
