@@ -708,6 +708,21 @@ TYPED_TEST(Editor, OwnersKeepToTheirPart)
   EXPECT_TRUE(start == Snapshot<D>(editor));
 }
 
+// Other threads read owners: to write the same value again would be a race, too.
+TYPED_TEST(Editor, UndoDoesNotWriteTheOwner)
+{
+  constexpr int D = TypeParam::dimension;
+  SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(2, 0.1));
+  MeshEditor<D> editor(mesh);
+  const Vec<D> x = mesh.point(0);
+  const std::size_t place = editor.begin();
+  editor.movePoint(0, x + Vec<D>::Constant(0.01));
+  editor.setPointOwner(0, 7);
+  editor.rollback(place);
+  EXPECT_EQ(mesh.point(0), x);
+  EXPECT_EQ(mesh.pointData(0).owner, 7);
+}
+
 /// An undo must not put back what another editor has changed meanwhile across the border.
 TYPED_TEST(Editor, UndoLeavesTheOtherOwnersWorkAlone)
 {

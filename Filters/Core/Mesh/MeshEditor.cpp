@@ -224,7 +224,7 @@ void MeshEditor<D>::rollback(std::size_t place)
       case Entry::PointChanged:
       {
         const PointRecord r = pop(this->pointRecords_);
-        this->mesh_->points_[r.id] = r.point;
+        this->mesh_->points_[r.id].restore(r.point);
         break;
       }
       case Entry::CellTaken:

@@ -113,6 +113,17 @@ public:
     std::uint32_t moveFailed = 0; ///< free for algorithms: last failed try to move it
     Index owner = 0;              ///< chunk that may edit around the point (parallel rounds)
     std::uint8_t flags = 0;
+
+    /// Takes over all of `old` but the owner, which threads of other chunks may read at this moment.
+    void restore(const Point& old)
+    {
+      static_cast<CurvePlace<D>&>(*this) = old;
+      this->x = old.x;
+      this->cell = old.cell;
+      this->stamp = old.stamp;
+      this->moveFailed = old.moveFailed;
+      this->flags = old.flags;
+    }
   };
 
   /// Builds the mesh; linear in the size of the input. A malformed input (a point id out of range, a point

@@ -266,13 +266,13 @@ struct SineKernel<2>
   }
   static double value(const Corners<2>& x, double weight)
   {
-    double factor;
+    double factor = 0.0;
     least(x, weight, factor);
     return volumeDeterminant(x) * std::sqrt(factor);
   }
   static double gradient(const Corners<2>& x, double weight, std::array<Vec<2>, 3>& g)
   {
-    double factor;
+    double factor = 0.0;
     const int i = least(x, weight, factor);
     if (i < 0)
     {
@@ -327,13 +327,13 @@ struct SineKernel<3>
   }
   static double value(const Corners<3>& x, double weight)
   {
-    double factor;
+    double factor = 0.0;
     least(x, weight, factor);
     return volumeDeterminant(x) * std::sqrt(factor);
   }
   static double gradient(const Corners<3>& x, double weight, std::array<Vec<3>, 4>& g)
   {
-    double factor;
+    double factor = 0.0;
     const int e = least(x, weight, factor);
     if (e < 0)
     {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -45,19 +46,29 @@ bool IsReversed(vtkUnstructuredGrid* grid, vtkIdType cell, const meshopt::Simple
 }
 
 /**
+ * Which points the cells in `isInside` have.
+ */
+template <int D>
+std::vector<char> MarkPoints(const SimplexMesh<D>& mesh, const std::vector<char>& isInside)
+{
+  std::vector<char> isMarked(mesh.numberOfPointSlots(), 0);
+  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  {
+    for (Index p : mesh.nodes(k))
+    {
+      isMarked[p] |= isInside[k];
+    }
+  }
+  return isMarked;
+}
+
+/**
  * Adds the cells that share a node with those in `isInside`. Returns whether there were any.
  */
 template <int D>
 bool AddLayer(const SimplexMesh<D>& mesh, std::vector<char>& isInside)
 {
-  std::vector<char> isTouched(mesh.numberOfPointSlots(), 0);
-  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
-  {
-    for (Index p : mesh.nodes(k))
-    {
-      isTouched[p] |= isInside[k];
-    }
-  }
+  const std::vector<char> isTouched = MarkPoints(mesh, isInside);
   bool added = false;
   for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
   {
@@ -76,24 +87,20 @@ LeftOut SumUp(const SimplexMesh<D>& mesh, const std::vector<double>& qualities, 
 {
   LeftOut rest;
   rest.Worst = std::numeric_limits<double>::infinity();
-  std::vector<char> isInner(mesh.numberOfPointSlots(), 0), isOuter(mesh.numberOfPointSlots(), 0);
+  std::vector<char> isKnown = MarkPoints(mesh, isInside);
   for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
   {
-    for (Index p : mesh.nodes(k))
-    {
-      (isInside[k] ? isInner : isOuter)[p] = 1;
-    }
     if (!isInside[k])
     {
+      for (Index p : mesh.nodes(k))
+      {
+        rest.NumberOfPoints += !std::exchange(isKnown[p], 1);
+      }
       ++rest.NumberOfCells;
       rest.BelowTarget += qualities[k] < target;
       rest.Worst = std::min(rest.Worst, qualities[k]);
       rest.Sum += qualities[k];
     }
-  }
-  for (std::size_t p = 0; p < isOuter.size(); ++p)
-  {
-    rest.NumberOfPoints += isOuter[p] && !isInner[p];
   }
   return rest;
 }
