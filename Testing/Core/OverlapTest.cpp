@@ -153,8 +153,9 @@ TEST(Overlap, WhatHangsTogetherAtAPointStaysSo)
     mesh, { 0, 1, 2, 3, 4 }, { { 0, 1, 3 }, { 0, 3, 6 }, { 1, 2, 3 }, { 3, 4, 5 }, { 3, 5, 6 } }));
 }
 
-TEST(Overlap, CrumpledGridsAreNotPinched)
+TEST(Overlap, CrumpledGridsAreUntangledAndNotPinched)
 {
+  long inverted = 0;
   for (unsigned seed = 1; seed <= 40; ++seed)
   {
     SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(3, 2.0, seed));
@@ -164,7 +165,9 @@ TEST(Overlap, CrumpledGridsAreNotPinched)
     EXPECT_TRUE(mesh.audit(report.invertedAfter == 0).empty()) << seed;
     EXPECT_EQ(mesh.eulerCharacteristic(), euler) << seed;
     EXPECT_TRUE(pinchedPoints<3>(mesh).empty()) << seed;
+    inverted += report.invertedAfter;
   }
+  EXPECT_LE(inverted, 5); // more than 200 where single nodes move first
 }
 
 TEST(Overlap, NoEdgeGetsAThirdCellAtPinchedPoints)

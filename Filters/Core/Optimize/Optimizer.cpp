@@ -18,6 +18,8 @@ namespace
 {
 /// What may be added once the number of elements is what the sizes ask for.
 constexpr double GrowthAfterSizes = 0.05;
+/// Inverted cells are worked on until the worst cell is as good as that: just positive is soon tangled again.
+constexpr double UntangledQuality = 0.3;
 /// Progress when the mesh is untangled, and when it has its sizes.
 constexpr double Untangled = 0.2, Sized = 0.6;
 
@@ -88,6 +90,49 @@ void judgeByWantedSizes(
   }
 }
 
+/// What is left of the time limit, of which so much is spent.
+double timeLeft(const Options& options, std::chrono::steady_clock::time_point begin)
+{
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  return options.timeLimit > 0.0 ? std::max(options.timeLimit - spent.count(), 1e-9) : 0.0;
+}
+
+/// Inverted cells are left to the clusters of 1996: moves of single nodes, which come first in the fast
+/// engine, press tangled cells flat rather than part them. One row of the history; false if that was all
+/// there is time for.
+template <int D>
+bool untangle(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
+  const Control& control, Report& report)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  bool isLate = false;
+  const Control untangling = partOf(control, 0.0, Untangled);
+  Control limited = control;
+  limited.progress = [&](double fraction, const std::string& text)
+  {
+    isLate = options.timeLimit > 0.0 && timeLeft(options, begin) <= 1e-9;
+    return !isLate && (!untangling.progress || untangling.progress(fraction, text));
+  };
+  Options first = options;
+  first.targetQuality = std::min(options.targetQuality, UntangledQuality);
+  first.lookAhead = false;
+  const std::size_t rows = report.history.size();
+  optimizePaper1996<D>(editor, metric, first, limited, report);
+  PassRecord row = summarize(editor.mesh(), options.targetQuality);
+  row.stage = "untangling";
+  row.pass = static_cast<int>(rows);
+  for (; report.history.size() > rows; report.history.pop_back())
+  {
+    row.addWork(report.history.back());
+  }
+  report.history.push_back(row);
+  if (report.stopReason == StopReason::Aborted && isLate)
+  {
+    report.stopReason = StopReason::TimeLimit;
+  }
+  return report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit;
+}
+
 /// Sizes first, then the worst elements. Should the worst be lower in the end than it was and than is
 /// wanted, all is undone, and the mesh is optimized with its sizes as they are.
 template <int D>
@@ -95,18 +140,16 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   const Control& control, Report& report, const BoundaryCurves* curves)
 {
   const auto begin = std::chrono::steady_clock::now();
-  const auto timeLeft = [&] // for what is still to be done
+  const auto optionsLeft = [&] // for what is still to be done
   {
     Options left = options;
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    left.timeLimit = options.timeLimit > 0.0 ? std::max(options.timeLimit - spent.count(), 1e-9)
-                                             : 0.0;
+    left.timeLimit = timeLeft(options, begin);
     return left;
   };
   if (report.invertedBefore > 0) // where cells overlap, lengths say little: untangle first
   {
     const Control untangling = partOf(control, 0.0, Untangled);
-    optimizeWorstFirst<D>(editor, metric, timeLeft(), untangling, report, curves);
+    optimizeWorstFirst<D>(editor, metric, optionsLeft(), untangling, report, curves);
     long inverted = 0;
     summarize(editor.mesh(), options.targetQuality, &inverted);
     if (inverted > 0 || report.stopReason == StopReason::Aborted ||
@@ -124,17 +167,17 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
     editor.mesh(), metric, options, curves, report);
   NodalMetric<D>& followed = raised ? *raised : metric;
   const bool more = followSizes<D>(
-    editor, followed, report.sizes.predictedCells, timeLeft(), sizing, curves, report);
+    editor, followed, report.sizes.predictedCells, optionsLeft(), sizing, curves, report);
   computeQualities<D>(editor, followed, options.measure, options.beta);
   if (more)
   {
-    Options rest = timeLeft();
+    Options rest = optionsLeft();
     rest.growthBudget = std::min(rest.growthBudget, GrowthAfterSizes);
     optimizeWorstFirst<D>(editor, followed, rest, improving, report, curves);
   }
   else
   {
-    const bool isLate = options.timeLimit > 0.0 && timeLeft().timeLimit <= 1e-9;
+    const bool isLate = options.timeLimit > 0.0 && timeLeft(options, begin) <= 1e-9;
     report.stopReason = isLate ? StopReason::TimeLimit : StopReason::Aborted;
   }
   if (raised)
@@ -152,7 +195,8 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
     report.sizes.worstWithSizes = worst;
     if (report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit)
     {
-      optimizeWorstFirst<D>(editor, metric, timeLeft(), partOf(control, 1.0, 1.0), report, curves);
+      optimizeWorstFirst<D>(
+        editor, metric, optionsLeft(), partOf(control, 1.0, 1.0), report, curves);
     }
   }
 }
@@ -176,17 +220,25 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   {
     report.stopReason = StopReason::NothingToDo;
   }
-  else if (options.algorithm == Algorithm::WorstFirst && wantsSizes(metric, options, curves))
+  else if (options.algorithm == Algorithm::Paper1996)
   {
-    optimizeSizesToo<D>(editor, metric, options, control, report, curves);
-  }
-  else if (options.algorithm == Algorithm::WorstFirst)
-  {
-    optimizeWorstFirst<D>(editor, metric, options, control, report, curves);
+    optimizePaper1996<D>(editor, metric, options, control, report);
   }
   else
   {
-    optimizePaper1996<D>(editor, metric, options, control, report);
+    const bool isTangled = report.invertedBefore > 0;
+    const bool more = !isTangled || untangle<D>(editor, metric, options, control, report);
+    const Control rest = isTangled ? partOf(control, Untangled, 1.0) : control;
+    Options left = options;
+    left.timeLimit = timeLeft(options, begin);
+    if (more && wantsSizes(metric, options, curves))
+    {
+      optimizeSizesToo<D>(editor, metric, left, rest, report, curves);
+    }
+    else if (more)
+    {
+      optimizeWorstFirst<D>(editor, metric, left, rest, report, curves);
+    }
   }
 
   const PassRecord output = summarize(mesh, options.targetQuality, &report.invertedAfter);

@@ -97,12 +97,23 @@ const char* toString(Operation op);
 struct PassRecord
 {
   int pass = 0;
-  std::string stage; ///< what was done in it: "input", "reconnection", "repositioning", ...
+  std::string stage; ///< what was done in it: "input", "untangling", "reconnection", ...
   std::array<long, NumberOfOperations> tried{}, done{};
   double worst = 0.0, mean = 0.0; ///< after the pass
   long belowTarget = 0;           ///< cells under targetQuality after the pass
   long cells = 0, points = 0;     ///< live ones after the pass
   double seconds = 0.0;           ///< not part of any output array
+
+  /// Takes over the work of another row, where the two become one.
+  void addWork(const PassRecord& other)
+  {
+    for (int op = 0; op < NumberOfOperations; ++op)
+    {
+      this->tried[op] += other.tried[op];
+      this->done[op] += other.done[op];
+    }
+    this->seconds += other.seconds;
+  }
 };
 
 /// What became of the wanted sizes; all 0 where they were not followed.

@@ -109,6 +109,7 @@ private:
   int rank(int level) const { return level + (this->guard_ ? 0 : 4); }
   bool keepGoing(double target);
   bool outOfTime() const;
+  void setInverted(long cells);
   void record(double target, int pass);
   StopReason reason();
 
@@ -204,13 +205,18 @@ void WorstFirst<D, Shape>::run()
   this->mostGrowth_ = this->model_.plain
     ? this->growth_ + static_cast<long>(ShrinkBudget * this->mesh().countCells())
     : std::numeric_limits<long>::max();
-  this->inverted_ = this->report_.invertedBefore > 0;
-  this->tangled_ = this->inverted_;
+  this->tangled_ = this->report_.invertedBefore > 0;
   if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // else it costs time
   {
     this->pinched_ = pinchedPoints<D>(this->mesh());
     this->tangled_ = this->tangled_ || !this->pinched_.empty();
   }
+  long inverted = 0;
+  if (this->tangled_)
+  {
+    summarize(this->mesh(), this->options_.targetQuality, &inverted);
+  }
+  this->setInverted(inverted);
   const double highest = this->options_.effort == Effort::Best
     ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
     : this->options_.targetQuality;
@@ -379,6 +385,21 @@ bool WorstFirst<D, Shape>::keepGoing(double target)
   return this->progress_.report(this->stageDone_, text) && !this->outOfTime();
 }
 
+/// So many cells are inverted; where none is any more, cells may lie on each other all the same.
+template <int D, class Shape>
+void WorstFirst<D, Shape>::setInverted(long cells)
+{
+  this->inverted_ = cells > 0;
+  if (this->tangled_ && !this->inverted_)
+  {
+    if (!this->overlaps_)
+    {
+      this->overlaps_ = mayOverlap<D>(this->mesh(), this->pinched_);
+    }
+    this->tangled_ = *this->overlaps_;
+  }
+}
+
 template <int D, class Shape>
 void WorstFirst<D, Shape>::record(double target, int pass)
 {
@@ -387,15 +408,7 @@ void WorstFirst<D, Shape>::record(double target, int pass)
   this->weigh(false);
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
   this->weigh(weighed);
-  this->inverted_ = inverted > 0;
-  if (this->tangled_ && !this->inverted_)
-  {
-    if (!this->overlaps_) // cells may lie on each other all the same
-    {
-      this->overlaps_ = mayOverlap<D>(this->mesh(), this->pinched_);
-    }
-    this->tangled_ = *this->overlaps_;
-  }
+  this->setInverted(inverted);
   char name[32];
   std::snprintf(name, sizeof name, this->guard_ ? "towards %.2f, pass %d" : "polish towards %.2f",
     this->guard_ ? target : this->polishTarget_, pass + 1);
@@ -408,12 +421,7 @@ void WorstFirst<D, Shape>::record(double target, int pass)
   std::vector<PassRecord>& history = this->report_.history;
   if (history.back().stage == row.stage) // the many short passes of one polish make one row
   {
-    for (int op = 0; op < NumberOfOperations; ++op)
-    {
-      row.tried[op] += history.back().tried[op];
-      row.done[op] += history.back().done[op];
-    }
-    row.seconds += history.back().seconds;
+    row.addWork(history.back());
     history.pop_back();
   }
   row.pass = static_cast<int>(history.size());
