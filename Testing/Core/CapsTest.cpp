@@ -103,6 +103,21 @@ TEST(Caps, WeighWhatLiesOnTinyFacets)
   EXPECT_FALSE(caps.hasTiny());
 }
 
+/// Where two points coincide caps are nothing but rounding, and weights would make qualities of it.
+TEST(Caps, FacetsWithoutAreaHaveNoEndlessGains)
+{
+  for (double gap : { 0.0, 1e-15 })
+  {
+    SimplexMesh<3> mesh = buildMesh(withNeedles(4, gap));
+    Options options;
+    options.timeLimit = 30.0;
+    NodalMetric<3> metric;
+    const Report report = optimize<3>(mesh, metric, options, {});
+    EXPECT_NE(report.stopReason, StopReason::TimeLimit);
+    EXPECT_TRUE(mesh.audit(false).empty());
+  }
+}
+
 TEST(Caps, WithoutTinyFacetsAllWeighTheSame)
 {
   SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(3, 0.2));

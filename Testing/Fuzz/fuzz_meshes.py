@@ -99,7 +99,7 @@ def base(random, dimension):
     most = 5 if dimension == 3 else 9
     shape = [int(s) for s in random.integers(1, most, size=dimension)]
     points, cells = kuhn_grid(shape)
-    amount = random.choice([0.0, 0.1, 0.25, 0.5, 1.0])
+    amount = random.choice([0.0, 0.1, 0.25, 0.5, 1.0, 2.0])
     jitter(random, points, dimension, amount, random.random() < 0.15)
     return points, cells, f"grid {shape}, jitter {amount}"
 

@@ -55,7 +55,9 @@ double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
   }
   std::sort(f.begin(), f.end());
   const auto found = this->facets_.find(f);
-  return found == this->facets_.end() || found->second >= Tiny ? 1.0 : this->full_ / found->second;
+  return found == this->facets_.end() || found->second >= Tiny
+    ? 1.0
+    : this->full_ / std::max(found->second, Rounding);
 }
 
 template <int D>

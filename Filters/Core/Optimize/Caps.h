@@ -30,8 +30,9 @@ public:
 
   /// A facet with a cap under Tiny makes a bad cell whatever is done, and its best fourth node, far
   /// away, makes the neighbours bad, too. To spare these, cells there can be judged by what they
-  /// could have: weighed with 1 / cap, such that `full` is at the cap.
-  static constexpr double Tiny = 0.2;
+  /// could have: weighed with 1 / cap, such that `full` is at the cap. But not with more than
+  /// 1 / Rounding: what is less is mostly rounding, and would make gains without end.
+  static constexpr double Tiny = 0.2, Rounding = 1e-6;
   bool hasTiny() const { return this->hasTiny_; }
   void setFull(double quality) { this->full_ = quality; }
   /// The weight of a facet, 1 unless its cap is tiny; the greatest one of a cell's facets.
