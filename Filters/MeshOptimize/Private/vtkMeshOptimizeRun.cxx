@@ -22,6 +22,9 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -105,12 +108,26 @@ std::string OptimizeSimplices(vtkUnstructuredGrid* input, Cells& cells, const In
   }
   outcome.NumberOfReorientedCells = mesh.numberOfReorientedCells();
   LeftOut rest;
+  std::vector<meshopt::Simplex<D>> others;
   if (request.OptimizeBelow > 0.0)
   {
     rest = RestrictToZone(input, arrays, frame, metric, request.Options, request.OptimizeBelow,
-      request.NumberOfLayers, cells, mesh);
+      request.NumberOfLayers, cells, mesh, others);
+  }
+  std::optional<std::pair<meshopt::SimplexMesh<D>, meshopt::NodalMetric<D>>> before;
+  if (!others.empty())
+  {
+    before.emplace(mesh, metric);
   }
   Optimize(mesh, metric, request, curves, outcome);
+  if (before && outcome.Report.invertedBefore > 0 && !FitsTogether(mesh, others))
+  {
+    std::tie(mesh, metric) = *before;
+    Request moving = request; // which always fits
+    moving.Options.reconnect = moving.Options.insertNodes = moving.Options.removeNodes = false;
+    outcome.NumberOfOperations = 0;
+    Optimize(mesh, metric, moving, curves, outcome);
+  }
   AddLeftOut(rest, outcome);
   Export(input, cells, frame, mesh, metric, request, output, outcome);
   return {};

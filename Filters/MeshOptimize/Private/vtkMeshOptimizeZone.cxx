@@ -130,7 +130,7 @@ void BuildZone(vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays&
 template <int D>
 LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, const Frame<D>& frame,
   const meshopt::NodalMetric<D>& metric, const meshopt::Options& options, double threshold,
-  int layers, Cells& cells, SimplexMesh<D>& mesh)
+  int layers, Cells& cells, SimplexMesh<D>& mesh, std::vector<meshopt::Simplex<D>>& others)
 {
   const std::vector<double> qualities = Qualities(mesh, metric, options);
   std::vector<char> isInside(qualities.size());
@@ -146,12 +146,40 @@ LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, con
     grows = AddLayer(mesh, isInside);
   }
   const LeftOut rest = SumUp(mesh, qualities, options.targetQuality, isInside);
-  if (rest.NumberOfCells > 0)
+  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  {
+    if (!isInside[k])
+    {
+      others.push_back(mesh.nodes(k));
+    }
+  }
+  if (!others.empty())
   {
     KeepSimplices(grid, isInside, cells);
     BuildZone(grid, cells, arrays, frame, isInside, mesh);
   }
   return rest;
+}
+
+template <int D>
+bool FitsTogether(const SimplexMesh<D>& zone, const std::vector<meshopt::Simplex<D>>& others)
+{
+  meshopt::MeshInput<D> input;
+  input.cells = others;
+  input.isOriented = true;
+  for (Index p = 0; p < zone.numberOfPointSlots(); ++p)
+  {
+    input.points.push_back(zone.point(p));
+  }
+  for (Index c = 0; c < zone.numberOfCellSlots(); ++c)
+  {
+    if (zone.isAlive(c))
+    {
+      input.cells.push_back(zone.nodes(c));
+    }
+  }
+  SimplexMesh<D> whole;
+  return !SimplexMesh<D>::build(input, whole);
 }
 
 void AddLeftOut(const LeftOut& rest, Outcome& outcome)
@@ -186,8 +214,12 @@ void AddLeftOut(const LeftOut& rest, Outcome& outcome)
 }
 
 template LeftOut RestrictToZone<2>(vtkUnstructuredGrid*, const InputArrays&, const Frame<2>&,
-  const meshopt::NodalMetric<2>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<2>&);
+  const meshopt::NodalMetric<2>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<2>&,
+  std::vector<meshopt::Simplex<2>>&);
+template bool FitsTogether<2>(const SimplexMesh<2>&, const std::vector<meshopt::Simplex<2>>&);
 template LeftOut RestrictToZone<3>(vtkUnstructuredGrid*, const InputArrays&, const Frame<3>&,
-  const meshopt::NodalMetric<3>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<3>&);
+  const meshopt::NodalMetric<3>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<3>&,
+  std::vector<meshopt::Simplex<3>>&);
+template bool FitsTogether<3>(const SimplexMesh<3>&, const std::vector<meshopt::Simplex<3>>&);
 
 } // namespace vtkMeshOptimizeBridge

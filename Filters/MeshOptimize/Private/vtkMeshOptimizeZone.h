@@ -14,6 +14,8 @@
 #include "Metric/NodalMetric.h"
 #include "Optimize/Options.h"
 
+#include <vector>
+
 class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
@@ -37,13 +39,23 @@ struct LeftOut
  * cells in place. Cells that were numbered the wrong way round count as inverted ones, which they
  * were in the grid: none is left out.
  *
- * `mesh` comes with all simplices of `cells`, and `metric` is its. Qualities are those of
+ * `mesh` comes with all simplices of `cells`, and `metric` is its; `others` gets those that are left out.
+ * Qualities are those of
  * `options`. What is left out is linear in the size of the mesh to find, and so is each layer.
  */
 template <int D>
 LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, const Frame<D>& frame,
   const meshopt::NodalMetric<D>& metric, const meshopt::Options& options, double threshold,
-  int layers, Cells& cells, meshopt::SimplexMesh<D>& mesh);
+  int layers, Cells& cells, meshopt::SimplexMesh<D>& mesh,
+  std::vector<meshopt::Simplex<D>>& others);
+
+/**
+ * Whether the zone and the others are a mesh. Where cells overlap a new cell of the zone can have a facet
+ * that is there among the others.
+ */
+template <int D>
+bool FitsTogether(
+  const meshopt::SimplexMesh<D>& zone, const std::vector<meshopt::Simplex<D>>& others);
 
 /**
  * Makes an outcome of the zone one of all simplices: minima, means, counts, and a bound that holds
