@@ -6,6 +6,8 @@
 #include "Optimize/Optimizer.h"
 #include "PlaneMeshes.h"
 
+#include <Eigen/Geometry>
+
 using namespace meshopt;
 
 namespace
@@ -168,6 +170,33 @@ TEST(Overlap, CrumpledGridsAreUntangledAndNotPinched)
     inverted += report.invertedAfter;
   }
   EXPECT_LE(inverted, 5); // more than 200 where single nodes move first
+}
+
+TEST(Overlap, NodesDoNotFlyOff)
+{
+  // a surface that passes through itself: some cells stay inverted, and the farther a node, the flatter they are
+  TestRandom random(1);
+  for (int k = 0; k < 10; ++k)
+  {
+    MeshInput<3> in = jitteredGrid<3>(4, 0.0);
+    Eigen::AlignedBox<double, 3> box;
+    for (Vec<3>& x : in.points)
+    {
+      x += 0.5 * Vec<3>(random(), random(), random());
+      box.extend(x);
+    }
+    SimplexMesh<3> mesh = buildMesh(in);
+    Options options;
+    options.algorithm = k % 4 < 2 ? Algorithm::WorstFirst : Algorithm::Paper1996;
+    options.reconnect = options.insertNodes = options.removeNodes = k % 2 == 0;
+    NodalMetric<3> metric;
+    const Report report = optimize<3>(mesh, metric, options, {});
+    EXPECT_GT(report.invertedAfter, 0);
+    for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+    {
+      EXPECT_LE(box.exteriorDistance(mesh.point(p)), 1e-9) << p;
+    }
+  }
 }
 
 TEST(Overlap, NoEdgeGetsAThirdCellAtPinchedPoints)

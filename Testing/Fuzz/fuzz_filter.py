@@ -64,6 +64,9 @@ def random_options(random, mesh):
         arrays["SizeArray"] = "size"
     if random.random() < 0.1:
         arrays["MetricArray"] = "metric"
+        if "DesiredSize" in options:
+            arrays.pop("SizeArray", None)  # has the units of the coordinates
+            options["DesiredSize"] = 0.2  # a length in the metric, in which the mesh has some 1
     return options, arrays
 
 

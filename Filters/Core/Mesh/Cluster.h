@@ -12,6 +12,8 @@
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <vector>
 
@@ -37,6 +39,15 @@ struct Cluster
       c[i] = this->x[this->nodes[k][i]];
     }
     return c;
+  }
+  /// Whether the moving nodes are in the box of the others, as they are where no cell is inverted.
+  bool isAmidPoints() const
+  {
+    Eigen::AlignedBox<double, D> box;
+    std::for_each(this->x.begin() + this->numberOfMoving, this->x.end(),
+      [&](const Vec<D>& p) { box.extend(p); });
+    return std::all_of(this->x.begin(), this->x.begin() + this->numberOfMoving,
+      [&](const Vec<D>& p) { return box.contains(p); });
   }
   /// Mean length of the edges of all cells (an edge counts once per cell): the L of (2.5).
   double meanEdge() const;

@@ -288,7 +288,7 @@ bool Improver<D, Shape>::moveNode(Index v)
   Vec<D> x = mesh.point(v);
   const double now = this->problem_.maximize(
     x, std::max(this->enough(), old + 2 * gain(old)), 0.5 * gain(old));
-  const bool better = now > old + gain(old);
+  const bool better = now > old + gain(old) && (now > 0.0 || this->problem_.isAmidPoints(x));
   this->count(Operation::NodeMotion, better);
   if (!better)
   {

@@ -42,7 +42,7 @@ bool Improver<D, Shape>::moveCluster(Index t)
   }
   const double now = this->clusterProblem_.maximize(this->moving_, this->model_->quality, metrics,
     std::max(this->enough(), old + 2 * gain(old)), 0.5 * gain(old));
-  bool better = now > old + gain(old);
+  bool better = now > old + gain(old) && (now > 0.0 || this->moving_.isAmidPoints());
   if (better)
   {
     const Place start = this->begin();

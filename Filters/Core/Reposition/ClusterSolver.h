@@ -91,7 +91,8 @@ bool ClusterSolver<D, Shape>::solve(Index cell, int level, const std::vector<std
   }
   this->setMetrics();
   const LocalResult result = this->local_.solve(this->cluster_, this->metrics_);
-  if (!this->isGain(result.before, result.after))
+  if (!this->isGain(result.before, result.after) ||
+    !(result.after > 0.0 || this->cluster_.isAmidPoints()))
   {
     return false;
   }

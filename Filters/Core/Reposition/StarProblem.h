@@ -14,6 +14,8 @@
 #include "Quality/ElementQuality.h"
 #include "Reposition/ProximalStep.h"
 
+#include <Eigen/Geometry>
+
 namespace meshopt
 {
 template <int D, class Shape>
@@ -42,6 +44,18 @@ public:
       this->ring_.push_back({ x, 0.0 });
     }
     return k;
+  }
+
+  /// Whether x is in the box of the points. Outside there is no place without an inverted element, but one
+  /// that gets flatter the farther away the node is, and seems better.
+  bool isAmidPoints(const Vec<D>& x) const
+  {
+    Eigen::AlignedBox<double, D> box;
+    for (const auto& p : this->ring_)
+    {
+      box.extend(p.x);
+    }
+    return box.contains(x);
   }
 
   /// Facet of local point numbers; (facet, node) is positive for a node inside. The quality of its
