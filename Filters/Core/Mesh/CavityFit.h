@@ -5,7 +5,7 @@
 #define meshopt_Mesh_CavityFit_h
 
 #include "Mesh/EulerCharacteristic.h"
-#include "Mesh/SimplexMesh.h"
+#include "Mesh/MeshEditor.h"
 
 #include <algorithm>
 #include <functional>
@@ -62,70 +62,14 @@ std::vector<std::size_t> parts(
   }
   return part;
 }
-}
 
-/// Whether `cells` may come for those of the cavity, where that does not follow from geometry since
-/// cells overlap. O(n^2) in the number of cells, of which there are few. True if
-/// - every facet of the cavity's boundary is a facet of one of `cells`, and all their other facets
-///   are there in pairs: what MeshEditor::replace() asks for;
-/// - they hang together: a new node that is joined to the outside of a cavity and to an inverted cell
-///   that the cavity surrounds would close a bubble around that cell;
-/// - their Euler characteristic is that of the cavity: a node joined to all of a ring makes no ring;
-/// - so do, at every point (D = 3: and edge) of the boundary, those that did before: otherwise the
-///   mesh could be pinched there, and a star be found in part only.
+/// Whether, at every point (D = 3: and edge) of the boundary, cells that hang together there before do so
+/// after. `outer`: the boundary, with the old cells; `within`: the new cells, in the same order.
 template <int D>
-bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
-  const std::vector<Simplex<D>>& cells)
+bool staysTogether(const std::vector<Simplex<D>>& old, const std::vector<Simplex<D>>& cells,
+  const Facets<D>& outer, const std::vector<std::size_t>& within)
 {
-  const auto inCavity = [&](Index handle)
-  {
-    return handle != None &&
-      std::find(cavity.begin(), cavity.end(), mesh.cellOf(handle)) != cavity.end();
-  };
-  fitting::Facets<D> outer;
-  std::vector<Simplex<D>> old;
-  for (Index c : cavity)
-  {
-    for (int i = 0; i <= D; ++i)
-    {
-      if (!inCavity(mesh.adjacent(c, i)))
-      {
-        outer.push_back({ mesh.facet(c, i), old.size() });
-        std::sort(outer.back().first.begin(), outer.back().first.end());
-      }
-    }
-    old.push_back(mesh.nodes(c));
-  }
-  std::sort(outer.begin(), outer.end());
-  const fitting::Facets<D> facets = fitting::facetsOf<D>(cells);
-  std::vector<std::size_t> within; // for each facet of the boundary, the new cell that has it
-  const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
-  for (std::size_t k = 0; k < facets.size();)
-  {
-    std::size_t n = 1;
-    while (k + n < facets.size() && facets[k + n].first == facets[k].first)
-    {
-      ++n;
-    }
-    const auto [a, b] = std::equal_range(outer.begin(), outer.end(), facets[k], less);
-    if (b - a > 1 || n != (b == a ? 2 : 1))
-    {
-      return false;
-    }
-    if (b != a)
-    {
-      within.push_back(facets[k].second);
-    }
-    k += n;
-  }
-  const std::vector<std::size_t> whole = fitting::parts<D>(facets, cells.size(), {});
-  if (within.size() != outer.size() ||
-    std::adjacent_find(whole.begin(), whole.end(), std::not_equal_to<>()) != whole.end() ||
-    eulerCharacteristic<D>(cells) != eulerCharacteristic<D>(old))
-  {
-    return false;
-  }
-  const fitting::Facets<D> oldFacets = fitting::facetsOf<D>(old);
+  const Facets<D> oldFacets = facetsOf<D>(old), newFacets = facetsOf<D>(cells);
   std::vector<std::vector<Index>> faces;
   for (const auto& f : outer)
   {
@@ -142,12 +86,12 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   for (const std::vector<Index>& face : faces)
   {
-    const std::vector<std::size_t> before = fitting::parts<D>(oldFacets, old.size(), face);
-    const std::vector<std::size_t> after = fitting::parts<D>(facets, cells.size(), face);
+    const std::vector<std::size_t> before = parts<D>(oldFacets, old.size(), face);
+    const std::vector<std::size_t> after = parts<D>(newFacets, cells.size(), face);
     std::vector<std::size_t> now(old.size(), None); // the part after, for each part before
     for (std::size_t k = 0; k < outer.size(); ++k)
     {
-      if (fitting::has<D>(outer[k].first, face))
+      if (has<D>(outer[k].first, face))
       {
         std::size_t& part = now[before[outer[k].second]];
         if (part != std::size_t(None) && part != after[within[k]])
@@ -159,6 +103,72 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     }
   }
   return true;
+}
+}
+
+/// Whether `cells` may come for those of the cavity, where that does not follow from geometry since
+/// cells overlap. O(n^2) in the number of cells, of which there are few. True if
+/// - every facet of the cavity's boundary is a facet of one of `cells`, and all their other facets
+///   are there in pairs: what MeshEditor::replace() asks for; but for kept facets that `change` has come or go;
+/// - they hang together: a new node that is joined to the outside of a cavity and to an inverted cell
+///   that the cavity surrounds would close a bubble around that cell;
+/// - at every point (D = 3: and edge) of the boundary those hang together that did before: otherwise the
+///   mesh could be pinched there, and a star be found in part only;
+/// - their Euler characteristic is that of the cavity: a node joined to all of a ring makes no ring.
+template <int D>
+bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells, const KeptChange<D>* change = nullptr)
+{
+  const auto inCavity = [&](Index handle)
+  {
+    return handle != None &&
+      std::find(cavity.begin(), cavity.end(), mesh.cellOf(handle)) != cavity.end();
+  };
+  const auto isAmong = [](const std::vector<Facet<D>>& facets, const Facet<D>& f)
+  {
+    return std::any_of(facets.begin(), facets.end(),
+      [&](const Facet<D>& g) { return std::is_permutation(g.begin(), g.end(), f.begin()); });
+  };
+  fitting::Facets<D> outer;
+  std::vector<Simplex<D>> old;
+  for (Index c : cavity)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      Facet<D> f = mesh.facet(c, i);
+      if (!inCavity(mesh.adjacent(c, i)) && !(change && isAmong(change->gone, f)))
+      {
+        std::sort(f.begin(), f.end());
+        outer.push_back({ f, old.size() });
+      }
+    }
+    old.push_back(mesh.nodes(c));
+  }
+  std::sort(outer.begin(), outer.end());
+  const fitting::Facets<D> facets = fitting::facetsOf<D>(cells);
+  std::vector<std::size_t> within; // for each facet of the boundary, the new cell that has it
+  const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+  for (std::size_t k = 0; k < facets.size();)
+  {
+    const auto [first, last] = std::equal_range(facets.begin(), facets.end(), facets[k], less);
+    const auto [a, b] = std::equal_range(outer.begin(), outer.end(), facets[k], less);
+    const auto n = last - first;
+    const bool comes = change && b == a && n == 1 && isAmong(change->come, facets[k].first);
+    if (b - a > 1 || (n != (b == a ? 2 : 1) && !comes))
+    {
+      return false;
+    }
+    if (b != a)
+    {
+      within.push_back(facets[k].second);
+    }
+    k += static_cast<std::size_t>(n);
+  }
+  const std::vector<std::size_t> whole = fitting::parts<D>(facets, cells.size(), {});
+  return within.size() == outer.size() &&
+    std::adjacent_find(whole.begin(), whole.end(), std::not_equal_to<>()) == whole.end() &&
+    eulerCharacteristic<D>(cells) == eulerCharacteristic<D>(old) &&
+    fitting::staysTogether<D>(old, cells, outer, within);
 }
 }
 

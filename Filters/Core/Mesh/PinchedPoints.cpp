@@ -26,7 +26,7 @@ std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh)
       pinched[p] = star.size() < uses[p];
     }
   }
-  if (std::count(pinched.begin(), pinched.end(), 1) < 2)
+  if (std::count(pinched.begin(), pinched.end(), 1) == 0)
   {
     pinched.clear();
   }

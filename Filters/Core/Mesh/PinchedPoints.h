@@ -11,10 +11,10 @@
 namespace meshopt
 {
 /// Nonzero for the points of which SimplexMesh::star() finds some cells only, since the others are not
-/// reached over facets. One entry per point slot, or none at all if there are not two such points. Linear.
+/// reached over facets. One entry per point slot, or none at all if there is no such point. Linear.
 ///
-/// Parts of a mesh that are joined in two such points may lie on each other although no cell is
-/// inverted, and then one can get the edge between the two points that the other has.
+/// Parts of a mesh that are joined in such points may lie on each other although no cell is inverted, and
+/// then one can get an edge from such a point that the other has.
 template <int D>
 std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh);
 

@@ -85,9 +85,14 @@ public:
     this->pinched_ = &pinched;
   }
 
-  /// Whether `cells`, in place of the cavity, would have an edge or a facet that is there already
-  /// outside of it. Where no cells overlap that cannot be. After setTangled().
-  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
+  /// Whether `cells` may come for the cavity in a mesh whose cells overlap: see fillsCavity(); and none
+  /// has an edge or a facet that is there already outside of the cavity. After setTangled().
+  bool fits(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
+    const KeptChange<D>* kept) const
+  {
+    return fillsCavity<D>(this->editor_->mesh(), cavity, cells, kept) &&
+      !this->conflicts(cavity, cells);
+  }
 
   std::array<long, NumberOfOperations> tried{}, done{};
 
@@ -139,6 +144,7 @@ private:
   bool insertHere(Index p, const Vec<D>& x);
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
     const KeptChange<D>* kept = nullptr);
+  bool conflicts(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells) const;
   void loadStar(Index v);
   double enough() const { return this->target_ + 0.02; }
   int badness(double q) const

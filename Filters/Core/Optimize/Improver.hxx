@@ -103,10 +103,7 @@ template <int D, class Shape>
 bool Improver<D, Shape>::replace(
   const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells, const KeptChange<D>* kept)
 {
-  // With `kept` the cells need not fill the cavity as it was.
-  if (this->tangled_ &&
-    ((!kept && !fillsCavity<D>(this->editor_->mesh(), cavity, cells)) ||
-      this->conflicts(cavity, cells)))
+  if (this->tangled_ && !this->fits(cavity, cells, kept))
   {
     return false;
   }

@@ -261,7 +261,8 @@ bool SizeStage<D>::contractEdge(Index v, Index u, double& above, EdgeChange<D>& 
   const double least = std::max(
     above, std::max(0.0, std::min(this->mesh().worstQuality(this->change_.cavity), GoodEnough)));
   if (!this->measure(this->change_.cells, least) ||
-    (this->overlaps_ && this->improver_.conflicts(this->change_.cavity, this->change_.cells)))
+    (this->overlaps_ &&
+      !this->improver_.fits(this->change_.cavity, this->change_.cells, this->change_.keptChange())))
   {
     return false;
   }
