@@ -55,12 +55,13 @@ public:
   /// Node motion stops a little above `quality`: what is more than enough is not paid for.
   /// Insertion must not make more bad cells than it removes: otherwise many cells that are hardly
   /// better come for one that is worst. A cell under `guard` counts once, under two thirds of it
-  /// twice, under one third of it three times. -1: no such guard. Where qualities are weighed no
-  /// other change may do so, either, unless it takes an inverted cell out.
-  void setTarget(double quality, double guard)
+  /// twice, under one third of it three times. -1: no such guard. guardsAll: no other change may do
+  /// so, either, unless it takes an inverted cell out.
+  void setTarget(double quality, double guard, bool guardsAll = false)
   {
     this->target_ = quality;
     this->guard_ = guard;
+    this->guardsAll_ = guardsAll;
   }
   /// Least gain that makes a change worth it: this much, less where all is tiny.
   void setGain(double gain)
@@ -166,6 +167,7 @@ private:
   const BoundaryCurves* curves_;
   double target_ = 1.0;
   double guard_ = -1.0;
+  bool guardsAll_ = false;
   double gain_ = 1e-3;
   std::uint32_t failuresSince_ = 0; ///< failures to move a node before that were with another gain
   long bad_ = 0;                    ///< badness() of all cells made, less that of those removed

@@ -127,7 +127,7 @@ bool Improver<D, Shape>::replace(
     bad -= this->badness(this->editor_->mesh().quality(c));
   }
   // The guard of swaps; what happens within a transaction is judged at its end.
-  if (this->model_->weights && bad > 0 && !this->editor_->inTransaction() &&
+  if (this->guardsAll_ && bad > 0 && !this->editor_->inTransaction() &&
     this->editor_->mesh().worstQuality(cavity) > 0.0)
   {
     return false;
@@ -322,7 +322,7 @@ bool Improver<D, Shape>::settleStar(double old)
     bad -= this->badness(this->editor_->mesh().quality(c));
     this->editor_->setQuality(c, q);
   }
-  if (this->model_->weights && bad > 0 && old > 0.0)
+  if (this->guardsAll_ && bad > 0 && old > 0.0)
   {
     return false;
   }

@@ -62,8 +62,8 @@ void WorstFirst<D, Shape>::distribute(double target, int level, const std::vecto
     w.improver.setGrowth((this->growth_ - reserve) / n, most);
     w.improver.setTangled(this->tangled_, this->inverted_, this->pinched_);
     w.improver.setGain(this->gain_);
-    w.improver.setTarget(target, guard);
-    w.kept = w.tries = 0;
+    w.improver.setTarget(target, guard, this->model_.weights || many);
+    w.kept = w.tries = w.bad = 0;
     w.limit = limit;
     w.isPatient = true;
   }
@@ -77,6 +77,7 @@ void WorstFirst<D, Shape>::distribute(double target, int level, const std::vecto
     if (this->workers_[k]->editor.owns(c))
     {
       this->workers_[k]->queue.emplace(this->mesh().quality(c), c);
+      ++this->workers_[k]->bad;
     }
   }
 }
@@ -152,8 +153,11 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
     w.queue.pop();
     // Without patience cells are still tried cheaply: a border may have kept them from it before.
     const long more = this->model_.plain ? 1 : Hurry;
+    const long patient = level == Improver<D, Shape>::Insertion
+      ? std::max(PatientTries, w.bad / PatientPart)
+      : PatientTries;
     w.isPatient = w.isPatient && w.tries < w.limit &&
-      (w.tries * more < PatientTries || w.kept * Patience[level] >= w.tries * more);
+      (w.tries * more < patient || w.kept * Patience[level] >= w.tries * more);
     level = w.isPatient ? level : Improver<D, Shape>::Topology;
     if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
       this->caps_.isCapped(mesh, c))
@@ -161,7 +165,10 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
       continue;
     }
     --tries;
-    ++w.tries;
+    if (++w.tries > Creeping * w.bad && this->guard_)
+    {
+      w.improver.setGain(std::max(this->gain_, CoarseGain));
+    }
     w.editor.resetBlocked();
     if (w.improver.improve(c, level))
     {

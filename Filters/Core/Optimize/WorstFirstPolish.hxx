@@ -28,11 +28,15 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
   {
     const double worstOfAll = this->findWorst(target, wanted, worst);
     // Where a cap is what limits the worst cell, the next ones are worth it only if they are bad.
-    if (worst.empty() || (!finely && worst[0].first > std::max(worstOfAll, Stages[1])))
+    if (worst.empty() || worst[0].first > std::max(worstOfAll, Stages[1]))
     {
       break;
     }
     const double before = this->report_.history.back().worst;
+    if (worst[0].first > worstOfAll)
+    {
+      this->gain_ = CoarseGain; // it is the next ones that are lifted
+    }
     more = this->stage(std::nextafter(worst.back().first, 1.0));
     if (this->report_.history.back().worst > before + RoundGain * this->gain_ * std::fabs(before))
     {

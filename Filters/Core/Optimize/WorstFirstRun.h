@@ -52,10 +52,17 @@ constexpr double CoarseGain = 1e-2;
 /// Insertion and look-ahead are given up for a pass of which less than one in so many tries helps.
 constexpr long Patience[] = { std::numeric_limits<int>::max(), 50, 20, 20 };
 constexpr long PatientTries = 200; // before that is looked at
+/// For insertion it is looked at after one in so many bad cells: the first ones are the most stuck.
+constexpr long PatientPart = 5;
 /// So many of the cells may go, unless sizes are wanted, before nodes are kept.
 constexpr double ShrinkBudget = 0.12;
 /// On the way to the target look-ahead is for the worst few cells of a pass: so many of a thousand.
 constexpr long FewCells = 200, FewCellsPerMille = 10; // at least; of all cells
+/// After so many tries for each cell that was bad at first nodes only creep, and a pass asks for
+/// CoarseGain.
+constexpr long Creeping = 5;
+/// A stage ends where a pass leaves more than this part of many bad cells and does not lift the worst.
+constexpr double HardlyFewer = 0.99;
 /// Where the metric or a wanted size varies a try costs many times more: it counts as so many.
 constexpr long Hurry = 5;
 /// Tries of one chunk between two looks at progress, by level: some tenth of a second.
@@ -81,6 +88,7 @@ private:
     Queue queue;
     long kept = 0, tries = 0; // in this pass
     long limit = 0;           // of such tries
+    long bad = 0;             // cells at its begin
     bool isPatient = true;    // likewise
 
     Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Caps<D>& caps,
@@ -100,7 +108,7 @@ private:
   double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
   bool liftAround(const std::vector<Entry>& cells, int layers);
   void pass(double target, int level, const std::vector<Index>& bad);
-  void collect(double target, int level, std::vector<Index>& bad) const;
+  long collect(double target, int level, std::vector<Index>& bad) const;
   void distribute(double target, int level, const std::vector<Index>& bad);
   void work(Worker& worker, double target, int level);
   void gather();
@@ -304,11 +312,15 @@ bool WorstFirst<D, Shape>::stage(double target)
 {
   std::vector<Index> bad;
   const int highest = this->highestLevel();
+  long below = 0;
+  bool raised = false;
   for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
   {
     const int level = std::min(pass, highest);
-    this->collect(target, level, bad);
-    if (bad.empty() && level == highest)
+    const long belowBefore = std::exchange(below, this->collect(target, level, bad));
+    const bool idle = this->guard_ && pass > highest && !raised && below > FewCells &&
+      below > HardlyFewer * belowBefore;
+    if ((bad.empty() && level == highest) || idle)
     {
       break;
     }
@@ -323,8 +335,9 @@ bool WorstFirst<D, Shape>::stage(double target)
     {
       return false;
     }
+    raised = this->report_.history.back().worst > before + this->gain_;
     if (level == highest && this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / 2000) &&
-      this->report_.history.back().worst < before + this->gain_)
+      !raised)
     {
       break;
     }
@@ -351,17 +364,23 @@ bool WorstFirst<D, Shape>::worthTrying(Index c, int level) const
 }
 
 template <int D, class Shape>
-void WorstFirst<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
+long WorstFirst<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
 {
   bad.clear();
+  long below = 0;
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
     if (this->mesh().quality(c) < target && this->mesh().isAlive(c) &&
-      this->worthTrying(c, level) && !this->caps_.isCapped(this->mesh(), c))
+      !this->caps_.isCapped(this->mesh(), c))
     {
-      bad.push_back(c);
+      ++below;
+      if (this->worthTrying(c, level))
+      {
+        bad.push_back(c);
+      }
     }
   }
+  return below;
 }
 
 template <int D, class Shape>
