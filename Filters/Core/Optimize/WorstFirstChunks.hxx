@@ -10,7 +10,8 @@ namespace worstfirst
 {
 /// Chunks, their queues and slots: a function of the mesh and of the bad cells only.
 template <int D, class Shape>
-void WorstFirst<D, Shape>::distribute(double target, int level, const std::vector<Index>& bad)
+void WorstFirst<D, Shape>::distribute(
+  double target, int level, const std::vector<Index>& bad, long below)
 {
   const Index cells = this->mesh().numberOfCellSlots();
   const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
@@ -41,12 +42,12 @@ void WorstFirst<D, Shape>::distribute(double target, int level, const std::vecto
     from.resize(from.size() - count);
   };
   const bool onTheWay = this->guard_ && !(target > this->options_.targetQuality);
-  const long few = std::max<long>(FewCells, cells * FewCellsPerMille / 1000);
+  const long few = this->fewCells();
   const long limit = onTheWay && level == Improver<D, Shape>::LookAhead
     ? few / n
     : std::numeric_limits<long>::max();
   // While many cells are stuck it does not pay to lift one of them by making others bad.
-  const bool many = onTheWay && level > 0 && static_cast<long>(bad.size()) > few;
+  const bool many = onTheWay && level > 0 && below > few;
   const long reserve = this->guard_ ? this->reserve_ : 0;
   const long most = this->guard_ ? (this->mostGrowth_ - reserve) / n
                                  : std::numeric_limits<long>::max();
@@ -112,12 +113,12 @@ void WorstFirst<D, Shape>::gather()
 }
 
 template <int D, class Shape>
-void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Index>& bad)
+void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Index>& bad, long below)
 {
   this->kept_ = 0;
   this->tried_.fill(0);
   this->done_.fill(0);
-  this->distribute(target, level, bad);
+  this->distribute(target, level, bad, below);
   const auto body = [&](int k) { this->work(*this->workers_[k], target, level); };
   bool more = true;
   while (more && this->keepGoing(target))

@@ -16,8 +16,9 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
 {
   this->guard_ = false;
   this->polishTarget_ = target;
-  this->gain_ = finely ? FineGain : this->usualGain_;
-  this->caps_.setReached(finely ? CapReachedFinely : CapReached);
+  const double leastGain = finely ? FineGain : this->usualGain_;
+  const double reached = finely ? CapReachedFinely : CapReached;
+  this->caps_.setReached(reached);
   const bool past = finely || target > this->options_.targetQuality + 1e-9;
   bool more = true;
   std::vector<Entry> worst;
@@ -27,23 +28,25 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
   {
     const double worstOfAll = this->findWorst(target, wanted, worst);
-    // Where a cap is what limits the worst cell, the next ones are worth it only if they are bad.
+    // Where a cap is what limits the worst cell, the next ones are worth it only if they are bad and
+    // gain much.
     if (worst.empty() || worst[0].first > std::max(worstOfAll, Stages[1]))
     {
       break;
     }
     const double before = this->report_.history.back().worst;
-    if (worst[0].first > worstOfAll)
-    {
-      this->gain_ = CoarseGain; // it is the next ones that are lifted
-    }
+    this->gain_ = worst[0].first > worstOfAll ? CoarseGain : leastGain;
+    // Near its cap a cell is not worth the work around it.
+    this->caps_.setReached(CapReached);
+    const bool nearCap = this->caps_.isCapped(this->mesh(), worst[0].second);
+    this->caps_.setReached(reached);
     more = this->stage(std::nextafter(worst.back().first, 1.0));
     if (this->report_.history.back().worst > before + RoundGain * this->gain_ * std::fabs(before))
     {
       layers = 0;
       wanted = PolishedCells;
     }
-    else if (!widens)
+    else if (!widens || nearCap)
     {
       break;
     }
@@ -138,7 +141,7 @@ bool WorstFirst<D, Shape>::liftAround(const std::vector<Entry>& cells, int layer
         bad.push_back(c);
       }
     }
-    this->pass(target, level, bad);
+    this->pass(target, level, bad, static_cast<long>(bad.size()));
     this->record(target, 0);
     more = this->keepGoing(target);
   }

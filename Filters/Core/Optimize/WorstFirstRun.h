@@ -56,8 +56,8 @@ constexpr long PatientTries = 200; // before that is looked at
 constexpr long PatientPart = 5;
 /// So many of the cells may go, unless sizes are wanted, before nodes are kept.
 constexpr double ShrinkBudget = 0.12;
-/// On the way to the target look-ahead is for the worst few cells of a pass: so many of a thousand.
-constexpr long FewCells = 200, FewCellsPerMille = 10; // at least; of all cells
+/// On the way to the target look-ahead is for the worst few cells of a pass: see fewCells().
+constexpr long FewCells = 200, FewestCells = 20;
 /// After so many tries for each cell that was bad at first nodes only creep, and a pass asks for
 /// CoarseGain.
 constexpr long Creeping = 5;
@@ -107,9 +107,10 @@ private:
   bool polish(double target, bool finely);
   double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
   bool liftAround(const std::vector<Entry>& cells, int layers);
-  void pass(double target, int level, const std::vector<Index>& bad);
+  void pass(double target, int level, const std::vector<Index>& bad, long below);
   long collect(double target, int level, std::vector<Index>& bad) const;
-  void distribute(double target, int level, const std::vector<Index>& bad);
+  void distribute(double target, int level, const std::vector<Index>& bad, long below);
+  long fewCells() const;
   void work(Worker& worker, double target, int level);
   void gather();
   bool worthTrying(Index c, int level) const;
@@ -248,7 +249,7 @@ void WorstFirst<D, Shape>::run()
       if (more && !past)
       {
         this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
-        more = this->weighedStage(std::min(stages[k], Stages[0]));
+        more = this->weighedStage(stages[k]);
       }
     }
     // Past the target, two stages that did not lift the worst cell are the end.
@@ -257,7 +258,7 @@ void WorstFirst<D, Shape>::run()
   }
   if (more && this->options_.effort == Effort::Best && this->polish(stages.back(), true))
   {
-    this->weighedStage(Stages[0]);
+    this->weighedStage(this->options_.targetQuality);
   }
   this->report_.stopReason = this->reason();
 }
@@ -318,7 +319,7 @@ bool WorstFirst<D, Shape>::stage(double target)
   {
     const int level = std::min(pass, highest);
     const long belowBefore = std::exchange(below, this->collect(target, level, bad));
-    const bool idle = this->guard_ && pass > highest && !raised && below > FewCells &&
+    const bool idle = this->guard_ && pass > highest && !raised && below > this->fewCells() &&
       below > HardlyFewer * belowBefore;
     if ((bad.empty() && level == highest) || idle)
     {
@@ -329,15 +330,15 @@ bool WorstFirst<D, Shape>::stage(double target)
     {
       continue;
     }
-    this->pass(target, level, bad);
+    this->pass(target, level, bad, below);
     this->record(target, pass);
     if (!this->keepGoing(target))
     {
       return false;
     }
     raised = this->report_.history.back().worst > before + this->gain_;
-    if (level == highest && this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / 2000) &&
-      !raised)
+    const bool hardlyAny = this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / 2000);
+    if (level == highest && !raised && (hardlyAny || this->gain_ < Gain))
     {
       break;
     }
@@ -361,6 +362,14 @@ bool WorstFirst<D, Shape>::worthTrying(Index c, int level) const
     }
   }
   return false;
+}
+
+/// One cell in a hundred, in small meshes more.
+template <int D, class Shape>
+long WorstFirst<D, Shape>::fewCells() const
+{
+  const long cells = this->mesh().numberOfCellSlots();
+  return std::max({ FewestCells, std::min(FewCells, cells / 20), cells / 100 });
 }
 
 template <int D, class Shape>
