@@ -82,6 +82,7 @@
  * @sa
  * vtkMeshQualityMinMax vtkMeshQuality vtkConstrainedSmoothingFilter
  */
+// Over 500 lines, as every property stands here with its documentation; the work is in Private/.
 #ifndef vtkMeshOptimizeFilter_h
 #define vtkMeshOptimizeFilter_h
 

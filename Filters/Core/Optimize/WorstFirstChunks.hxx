@@ -8,6 +8,14 @@ namespace meshopt
 {
 namespace worstfirst
 {
+/// One cell in a hundred, in small meshes more.
+template <int D, class Shape>
+long WorstFirst<D, Shape>::fewCells() const
+{
+  const long cells = this->mesh().numberOfCellSlots();
+  return std::max({ FewestCells, std::min(FewCells, cells / 20), cells / 100 });
+}
+
 /// Chunks, their queues and slots: a function of the mesh and of the bad cells only.
 template <int D, class Shape>
 void WorstFirst<D, Shape>::distribute(

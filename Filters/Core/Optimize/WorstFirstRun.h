@@ -364,14 +364,6 @@ bool WorstFirst<D, Shape>::worthTrying(Index c, int level) const
   return false;
 }
 
-/// One cell in a hundred, in small meshes more.
-template <int D, class Shape>
-long WorstFirst<D, Shape>::fewCells() const
-{
-  const long cells = this->mesh().numberOfCellSlots();
-  return std::max({ FewestCells, std::min(FewCells, cells / 20), cells / 100 });
-}
-
 template <int D, class Shape>
 long WorstFirst<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
 {
