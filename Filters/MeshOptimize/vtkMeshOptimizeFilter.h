@@ -299,8 +299,10 @@ public:
 
   ///@{
   /**
-   * How much WorstFirst may let the number of cells grow, as a fraction of the input's. Range >= 0,
-   * default 0.1. It removes no more nodes once 12 % of the cells are gone, unless sizes are asked for.
+   * How much WorstFirst may let the number of cells grow, as a fraction of the input's; unless it is
+   * 0, at least 30 cells may come. Range >= 0, default 0.15. A mesh with hardly any interior nodes
+   * may need 1: where the budget stops it, the stop reason is GrowthLimit. No more nodes are removed
+   * once 12 % of the cells are gone, unless sizes are asked for.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);
@@ -427,7 +429,8 @@ public:
     IterationLimit = 4,
     TimeLimitReached = 5,
     Aborted = 6,
-    NothingToDo = 7 ///< no triangles or tetrahedra, or none under OptimizeBelow
+    NothingToDo = 7, ///< no triangles or tetrahedra, or none under OptimizeBelow
+    GrowthLimit = 8  ///< what would help needs more cells than GrowthBudget allows
   };
 
   ///@{
@@ -525,7 +528,7 @@ private:
   bool LookAhead = true;
   int Effort = Default;
   int NumberOfThreads = 0;
-  double GrowthBudget = 0.1;
+  double GrowthBudget = 0.15;
   double OptimizeBelow = 0.0;
   int NumberOfLayers = 2;
   double TimeLimit = 0.0;

@@ -75,8 +75,11 @@ public:
   {
     this->growth_ = cells;
     this->mostGrowth_ = most;
+    this->isShort_ = false;
   }
   long growth() const { return this->growth_; }
+  /// Whether something was left out since then for want of growth.
+  bool isShortOfGrowth() const { return this->isShort_; }
   /// Guards against inputs whose cells overlap, where the usual geometric reasons do not hold:
   /// `tangled`, if they may; `inverted`, if some are inverted. `pinched`: see PinchedPoints.h.
   void setTangled(bool tangled, bool inverted, const std::vector<std::uint8_t>& pinched)
@@ -172,6 +175,7 @@ private:
   std::uint32_t failuresSince_ = 0; ///< failures to move a node before that were with another gain
   long bad_ = 0;                    ///< badness() of all cells made, less that of those removed
   long growth_ = 0, mostGrowth_ = 0;
+  bool isShort_ = false;
   bool tangled_ = false, inverted_ = false;
   const std::vector<std::uint8_t>* pinched_ = nullptr; // where tangled_
 

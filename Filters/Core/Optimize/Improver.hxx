@@ -46,6 +46,7 @@ bool Improver<D, Shape>::improve(Index t, int level)
   }
   if (this->growth_ <= 0)
   {
+    this->isShort_ |= level >= Insertion && this->options_->insertNodes;
     return false; // what is left nearly always adds cells
   }
   if (level >= Insertion && this->options_->insertNodes && this->insert(t))
@@ -110,6 +111,7 @@ bool Improver<D, Shape>::replace(
   const long growth = static_cast<long>(cells.size()) - static_cast<long>(cavity.size());
   if (growth > 0 && growth > this->growth_)
   {
+    this->isShort_ = true;
     return false;
   }
   this->qualities_.clear();

@@ -20,6 +20,8 @@ namespace
 constexpr double GrowthAfterSizes = 0.05;
 /// Inverted cells are worked on until the worst cell is as good as that: just positive is soon tangled again.
 constexpr double UntangledQuality = 0.3;
+/// Less is rounding: a cell that is flat, in a mesh that need not be tangled.
+constexpr double FlatQuality = 1e-9;
 /// Progress when the mesh is untangled, and when it has its sizes.
 constexpr double Untangled = 0.2, Sized = 0.6;
 
@@ -98,11 +100,11 @@ double timeLeft(const Options& options, std::chrono::steady_clock::time_point be
 }
 
 /// Inverted cells are left to the clusters of 1996: moves of single nodes, which come first in the fast
-/// engine, press tangled cells flat rather than part them. One row of the history; false if that was all
-/// there is time for.
+/// engine, press tangled cells flat rather than part them. At most `growth` cells may come. One row of
+/// the history; false if that was all there is time for.
 template <int D>
 bool untangle(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report)
+  const Control& control, Report& report, long growth)
 {
   const auto begin = std::chrono::steady_clock::now();
   bool isLate = false;
@@ -117,7 +119,7 @@ bool untangle(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& opti
   first.targetQuality = std::min(options.targetQuality, UntangledQuality);
   first.lookAhead = false;
   const std::size_t rows = report.history.size();
-  optimizePaper1996<D>(editor, metric, first, limited, report);
+  optimizePaper1996<D>(editor, metric, first, limited, report, growth);
   PassRecord row = summarize(editor.mesh(), options.targetQuality);
   row.stage = "untangling";
   row.pass = static_cast<int>(rows);
@@ -146,11 +148,12 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
     left.timeLimit = timeLeft(options, begin);
     return left;
   };
-  if (report.invertedBefore > 0) // where cells overlap, lengths say little: untangle first
+  long inverted = 0;
+  summarize(editor.mesh(), options.targetQuality, &inverted);
+  if (inverted > 0) // where cells overlap, lengths say little: these first
   {
     const Control untangling = partOf(control, 0.0, Untangled);
     optimizeWorstFirst<D>(editor, metric, optionsLeft(), untangling, report, curves);
-    long inverted = 0;
     summarize(editor.mesh(), options.targetQuality, &inverted);
     if (inverted > 0 || report.stopReason == StopReason::Aborted ||
       report.stopReason == StopReason::TimeLimit)
@@ -226,11 +229,15 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   }
   else
   {
-    const bool isTangled = report.invertedBefore > 0;
-    const bool more = !isTangled || untangle<D>(editor, metric, options, control, report);
+    const bool isTangled = input.worst < -FlatQuality;
+    const long most = input.cells + growthOf(options, input.cells);
+    const bool more = !isTangled ||
+      untangle<D>(editor, metric, options, control, report, most - input.cells);
     const Control rest = isTangled ? partOf(control, Untangled, 1.0) : control;
     Options left = options;
     left.timeLimit = timeLeft(options, begin);
+    const auto cells = static_cast<double>(mesh.countCells());
+    left.growthBudget = std::max(0.0, static_cast<double>(most) - cells) / cells;
     if (more && wantsSizes(metric, options, curves))
     {
       optimizeSizesToo<D>(editor, metric, left, rest, report, curves);

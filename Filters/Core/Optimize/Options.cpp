@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimize/Options.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace meshopt
@@ -119,10 +120,18 @@ const char* toString(StopReason reason)
       return "aborted";
     case StopReason::NothingToDo:
       return "nothing to do: no triangles or tetrahedra";
+    case StopReason::GrowthLimit:
+      return "growth budget used up: what would help needs more cells";
     case StopReason::NotRun:
       break;
   }
   return "not run";
+}
+
+long growthOf(const Options& options, long cells)
+{
+  const double most = std::floor(options.growthBudget * static_cast<double>(cells));
+  return options.growthBudget > 0.0 ? std::max(LeastGrowth, static_cast<long>(most)) : 0;
 }
 
 const char* toString(Operation op)

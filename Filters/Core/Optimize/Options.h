@@ -54,9 +54,11 @@ struct Options
 
   // --- the fast engine's
   Effort effort = Effort::Default;
-  int numberOfThreads = 0;   ///< 0: all
-  double growthBudget = 0.1; ///< greatest net growth of the number of cells, as a fraction
-  double timeLimit = 0.0;    ///< seconds, 0: none. Results are then not reproducible.
+  int numberOfThreads = 0; ///< 0: all
+  /// Greatest net growth of the number of cells, as a fraction. Unless it is 0, at least LeastGrowth
+  /// cells may come: see growthOf().
+  double growthBudget = 0.15;
+  double timeLimit = 0.0; ///< seconds, 0: none. Results are then not reproducible.
 
   /// A sentence that says which option is unusable and why; empty if all are fine.
   std::string check(bool hasSizes) const;
@@ -70,12 +72,18 @@ enum class StopReason
   NoFurtherGain,   ///< no operation improves the worst cells any more
   IterationLimit,
   TimeLimit,
-  Aborted,    ///< by the caller; the mesh is valid, and as good as it was by then
-  NothingToDo ///< no triangles or tetrahedra
+  Aborted,     ///< by the caller; the mesh is valid, and as good as it was by then
+  NothingToDo, ///< no triangles or tetrahedra
+  GrowthLimit  ///< what would help needs more cells than growthBudget allows
 };
 
 /// A sentence for the user.
 const char* toString(StopReason reason);
+
+/// In a mesh of a few cells a fraction of them is not even room for one node.
+inline constexpr long LeastGrowth = 30;
+/// How many cells may come to so many.
+long growthOf(const Options& options, long cells);
 
 /// Kinds of operations, as counted in the history.
 enum class Operation

@@ -23,11 +23,12 @@ class Paper1996
 {
 public:
   Paper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-    const Control& control, Report& report)
+    const Control& control, Report& report, long growth)
     : editor_(editor)
     , metric_(metric)
     , options_(options)
     , report_(report)
+    , growth_(growth)
     , progress_(control)
   {
   }
@@ -51,6 +52,7 @@ private:
   NodalMetric<D>& metric_;
   const Options& options_;
   Report& report_;
+  long growth_; // cells that may still come
   Progress progress_;
   ReconnectionMemory<D> memory_;
   bool limitReached_ = false;
@@ -114,6 +116,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   ReconnectionParameters parameters;
   parameters.target = o.targetQuality;
   parameters.naiveSearch = o.naiveSearch;
+  parameters.growth = this->growth_;
   parameters.lookAhead = o.moveNodes && o.lookAhead ? lookAhead : 0;
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
@@ -128,6 +131,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   const ReconnectionResult result = reconnect<D>(this->editor_, this->metric_, o.measure, o.beta,
     parameters, this->memory_,
     [this, stage](double worst) { return this->keepGoing(stage, worst); });
+  this->growth_ -= result.growth;
   Counts tried{}, done{};
   for (int k = 0; k < NumberOfFillings; ++k)
   {
@@ -273,14 +277,14 @@ StopReason Paper1996<D>::iterate()
 
 template <int D>
 void optimizePaper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report)
+  const Control& control, Report& report, long growth)
 {
-  Paper1996<D> paper(editor, metric, options, control, report);
+  Paper1996<D> paper(editor, metric, options, control, report, growth);
   report.stopReason = paper.run();
 }
 
 template void optimizePaper1996<2>(
-  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&);
+  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, long);
 template void optimizePaper1996<3>(
-  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&);
+  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&, long);
 }

@@ -16,18 +16,20 @@
 #include "Metric/NodalMetric.h"
 #include "Optimize/Options.h"
 
+#include <limits>
+
 namespace meshopt
 {
 /// Optimizes the mesh, whose qualities must be up to date (and are kept so); appends two rows per
-/// alternation to report.history and sets report.stopReason.
+/// alternation to report.history and sets report.stopReason. At most `growth` cells may come.
 template <int D>
 void optimizePaper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report);
+  const Control& control, Report& report, long growth = std::numeric_limits<long>::max());
 
 extern template void optimizePaper1996<2>(
-  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&);
+  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, long);
 extern template void optimizePaper1996<3>(
-  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&);
+  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&, long);
 }
 
 #endif

@@ -109,6 +109,7 @@ void WorstFirst<D, Shape>::gather()
     this->editor_.setClock(std::max(this->editor_.clock(), w.editor.clock()));
     this->editor_.setLastMark(std::max(this->editor_.lastMark(), w.editor.lastMark()));
     left += w.improver.growth();
+    this->isShort_ |= w.improver.isShortOfGrowth();
     this->kept_ += w.kept;
     for (int op = 0; op < NumberOfOperations; ++op)
     {

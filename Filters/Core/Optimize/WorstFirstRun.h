@@ -56,6 +56,9 @@ constexpr long PatientTries = 200; // before that is looked at
 constexpr long PatientPart = 5;
 /// So many of the cells may go, unless sizes are wanted, before nodes are kept.
 constexpr double ShrinkBudget = 0.12;
+/// The growth budget is used up where no more than this part of it is left, or one node's cells.
+constexpr double UsedUp = 0.1;
+constexpr long OneNode = 10;
 /// On the way to the target look-ahead is for the worst few cells of a pass: see fewCells().
 constexpr long FewCells = 200, FewestCells = 20;
 /// After so many tries for each cell that was bad at first nodes only creep, and a pass asks for
@@ -146,7 +149,9 @@ private:
   std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
   std::optional<bool> overlaps_;      ///< see mayOverlap(): known once no cell is inverted
   long growth_ = 0, mostGrowth_ = 0, kept_ = 0;
-  long reserve_ = 0; ///< of the growth, for polish()
+  long allowed_ = 0;     ///< growth_ at first
+  long reserve_ = 0;     ///< of the growth, for polish()
+  bool isShort_ = false; ///< a change has been left out since it was not left
   std::array<long, NumberOfOperations> tried_{}, done_{};
   double stageDone_ = 0.0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -208,8 +213,9 @@ int WorstFirst<D, Shape>::highestLevel() const
 template <int D, class Shape>
 void WorstFirst<D, Shape>::run()
 {
-  this->growth_ = static_cast<long>(
+  this->growth_ = std::lround(
     this->options_.growthBudget * static_cast<double>(this->mesh().countCells()));
+  this->allowed_ = this->growth_;
   this->reserve_ = this->growth_ / 10;
   this->mostGrowth_ = this->model_.plain
     ? this->growth_ + static_cast<long>(ShrinkBudget * this->mesh().countCells())
@@ -469,8 +475,11 @@ StopReason WorstFirst<D, Shape>::reason()
   {
     return StopReason::TimeLimit;
   }
+  const double nothing = UsedUp * static_cast<double>(this->allowed_) + OneNode;
+  const bool isUsedUp = this->isShort_ && static_cast<double>(this->growth_) <= nothing;
   return below == 0                      ? StopReason::TargetReached
     : below == this->report_.cappedCells ? StopReason::CappedBySurface
+    : isUsedUp                           ? StopReason::GrowthLimit
                                          : StopReason::NoFurtherGain;
 }
 }

@@ -41,6 +41,12 @@ public:
   void giveUp(const Part<D>& part, const Apex<D>& apex);
 
   const std::vector<Index>& made() const { return this->made_; }
+  /// Cells that the filling last tried has more than its cluster; after isBetter() was true.
+  long growth(const Part<D>& part) const
+  {
+    return static_cast<long>(this->fan_.cells.size()) -
+      static_cast<long>(part.cluster.cells.size());
+  }
 
 private:
   bool keepsWhatItMust(const Part<D>& part, const Apex<D>& apex);

@@ -43,10 +43,7 @@ private:
   bool lookAheadAt(Index c);
   void touch(const std::vector<Index>& cells, const std::vector<Index>& points);
 
-  bool isAllowed(Filling kind) const
-  {
-    return this->parameters_.allowed[static_cast<int>(kind)];
-  }
+  bool isAllowed(Filling kind) const { return this->parameters_.allowed[static_cast<int>(kind)]; }
   bool isFresh(Index c) const
   {
     return this->memory_.hasChanged(this->mesh_, c, this->memory_.failed[c]);
@@ -110,11 +107,13 @@ bool Reconnection<D, Shape>::improveCell(Index c)
       ++this->result_.tried[static_cast<int>(kind)];
       const double worst = part.cluster.worst;
       const double required = worst + this->parameters_.leastGain * std::abs(worst);
-      if (!this->trial_.isBetter(part, apex, required))
+      if (!this->trial_.isBetter(part, apex, required) ||
+        this->trial_.growth(part) > this->parameters_.growth - this->result_.growth)
       {
         this->trial_.giveUp(part, apex);
         return false;
       }
+      this->result_.growth += this->trial_.growth(part);
       this->trial_.make(part, apex);
       this->touch(this->trial_.made(), part.cluster.points);
       ++this->result_.done[static_cast<int>(kind)];
@@ -190,8 +189,7 @@ void Reconnection<D, Shape>::listWorst()
   const auto count = std::min<std::size_t>(this->parameters_.lookAhead, this->candidates_.size());
   std::partial_sort(this->candidates_.begin(), this->candidates_.begin() + count,
     this->candidates_.end(),
-    [&](Index a, Index b)
-    {
+    [&](Index a, Index b) {
       return std::make_pair(this->mesh_.quality(a), a) < std::make_pair(this->mesh_.quality(b), b);
     });
   this->candidates_.resize(count);

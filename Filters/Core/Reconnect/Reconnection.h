@@ -42,6 +42,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 
 namespace meshopt
 {
@@ -54,6 +55,8 @@ struct ReconnectionParameters
   /// When all is set aside: so many of the worst elements get a look-ahead (LookAhead.h), and the
   /// iteration goes on if one gains. 0: none, as in the paper.
   int lookAhead = 0;
+  /// Net number of cells that may come; the look-ahead takes no notice of it.
+  long growth = std::numeric_limits<long>::max();
 };
 
 struct ReconnectionResult
@@ -61,6 +64,7 @@ struct ReconnectionResult
   /// By Filling: fillings tried virtually, and really made.
   std::array<long, NumberOfFillings> tried{}, done{};
   long aheadTried = 0, aheadDone = 0; ///< fillings tried, and kept, by the look-ahead
+  long growth = 0; ///< net number of cells that have come, but for the look-ahead
   bool cancelled = false;
   long total() const
   {

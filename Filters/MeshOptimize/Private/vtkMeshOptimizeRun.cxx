@@ -149,10 +149,12 @@ int Strength(meshopt::StopReason reason)
   switch (reason)
   {
     case StopReason::Aborted:
-      return 7;
+      return 8;
     case StopReason::TimeLimit:
-      return 6;
+      return 7;
     case StopReason::IterationLimit:
+      return 6;
+    case StopReason::GrowthLimit:
       return 5;
     case StopReason::NoFurtherGain:
       return 4;

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The fast engine as a whole: what it may do, and why it stops.
+#include "WorstFirstRuns.h"
+
+using namespace meshopt;
+
+template <class T>
+class WorstFirstStops : public ::testing::Test
+{
+};
+TYPED_TEST_SUITE(WorstFirstStops, Dimensions);
+
+// ---- options -------------------------------------------------------------------------------------
+
+TYPED_TEST(WorstFirstStops, KindsOfOperationsCanBeSwitchedOff)
+{
+  constexpr int D = TypeParam::dimension;
+  const MeshInput<D> in = testMesh<D>(0.32, 2);
+  for (int off = 0; off < 5; ++off) // 4: nothing is off
+  {
+    Options options = target(0.9); // beyond reach: all is tried
+    options.timeLimit = 0.0;
+    options.effort = off == 4 ? Effort::Quick : Effort::Default;
+    options.moveNodes = off != 0;
+    options.reconnect = off != 1;
+    options.insertNodes = off != 2;
+    options.removeNodes = off != 3;
+    SimplexMesh<D> mesh = buildMesh(in);
+    const Report report = run<D>(mesh, options);
+    EXPECT_EQ(count(report, Operation::NodeMotion) == 0, off == 0) << off;
+    EXPECT_EQ(count(report, Operation::EdgeRemoval) == 0, off == 1) << off;
+    EXPECT_TRUE(off != 1 || count(report, Operation::FaceRemoval) == 0);
+    EXPECT_EQ(count(report, Operation::NodeInsertion) == 0, off == 2) << off;
+    EXPECT_TRUE(off != 2 || count(report, Operation::LookAhead) == 0);
+    EXPECT_TRUE(off != 3 || count(report, Operation::EdgeContraction) == 0);
+    Index moved = 0, gone = 0;
+    for (Index p = 0; p < mesh.numberOfInputPoints(); ++p)
+    {
+      gone += !mesh.isPointAlive(p);
+      moved += mesh.isPointAlive(p) && mesh.point(p) != in.points[p];
+    }
+    EXPECT_EQ(moved == 0, off == 0) << off;
+    EXPECT_TRUE(off != 2 || mesh.countPoints() <= mesh.numberOfInputPoints());
+    EXPECT_TRUE(off != 3 || gone == 0) << gone << " points are gone";
+  }
+}
+
+TYPED_TEST(WorstFirstStops, GrowthBudgetIsHonoured)
+{
+  constexpr int D = TypeParam::dimension;
+  for (double jitter : { 0.32, 0.8 }) // the latter is tangled: it is untangled first
+  {
+    const MeshInput<D> in = testMesh<D>(jitter, 2);
+    for (double budget : { 0.0, 0.02, 0.1 })
+    {
+      Options options = target(0.9);
+      options.growthBudget = budget;
+      options.effort = Effort::Quick;
+      SimplexMesh<D> mesh = buildMesh(in);
+      run<D>(mesh, options); // looks at the number of cells
+    }
+  }
+}
+
+TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
+{
+  Options options;
+  options.growthBudget = 0.1;
+  EXPECT_EQ(growthOf(options, 12), LeastGrowth);
+  EXPECT_EQ(growthOf(options, 10007), 1000);
+  options.growthBudget = 0.0;
+  EXPECT_EQ(growthOf(options, 12), 0);
+}
+
+// ---- why it stops --------------------------------------------------------------------------------
+
+TEST(WorstFirstStops3D, StopsWhereTheSurfaceCaps)
+{
+  // a cube with one flat corner facet: a point of the surface close to an edge of it
+  MeshInput<3> in = jitteredGrid<3>(4, 0.2);
+  for (Vec<3>& x : in.points)
+  {
+    if (x == Vec<3>(0.25, 0.5, 0.0))
+    {
+      x = Vec<3>(0.02, 0.5, 0.0);
+    }
+  }
+  SimplexMesh<3> mesh = buildMesh(in);
+  const Report report = run<3>(mesh, target(0.45));
+  EXPECT_LT(report.bound, 0.45);
+  EXPECT_LT(report.worstAfter, 0.45);
+  if (report.stopReason == StopReason::CappedBySurface)
+  {
+    EXPECT_GT(report.cappedCells, 0);
+    EXPECT_EQ(report.cappedCells, report.history.back().belowTarget);
+  }
+  EXPECT_NE(report.stopReason, StopReason::TargetReached);
+  EXPECT_GT(report.worstAfter, 0.9 * report.bound);
+}
+
+TEST(WorstFirstStops3D, SaysWhereTheGrowthBudgetIsUsedUp)
+{
+  // a finely divided cube's surface, all joined to one node
+  const SimplexMesh<3> cube = buildMesh(jitteredGrid<3>(8, 0.0));
+  MeshInput<3> in;
+  for (Index p = 0; p < cube.numberOfPointSlots(); ++p)
+  {
+    in.points.push_back(cube.point(p));
+  }
+  in.points.push_back(Vec<3>(0.5, 0.5, 0.5));
+  for (Index c = 0; c < cube.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      if (cube.isConstrained(c, i))
+      {
+        const Facet<3> f = cube.facet(c, i);
+        in.cells.push_back({ f[0], f[1], f[2], static_cast<Index>(in.points.size()) - 1 });
+      }
+    }
+  }
+  Options options = target(0.6);
+  options.growthBudget = 0.1;
+  SimplexMesh<3> tight = buildMesh(in), roomy = buildMesh(in);
+  const Report little = run<3>(tight, options);
+  EXPECT_EQ(little.stopReason, StopReason::GrowthLimit) << little.worstAfter;
+  options.growthBudget = 4.0;
+  const Report much = run<3>(roomy, options);
+  EXPECT_NE(much.stopReason, StopReason::GrowthLimit);
+  EXPECT_GT(much.worstAfter, little.worstAfter + 0.1);
+}
+
+TYPED_TEST(WorstFirstStops, StopsWithoutFurtherGain)
+{
+  constexpr int D = TypeParam::dimension;
+  MeshInput<D> in = jitteredGrid<D>(3, 0.2);
+  in.fixedPoints.assign(in.points.size(), 1);
+  Options options = target(0.99);
+  options.reconnect = options.insertNodes = options.removeNodes = false;
+  SimplexMesh<D> mesh = buildMesh(in);
+  const MeshBits<D> before = bitsOf(mesh);
+  const Report report = run<D>(mesh, options);
+  EXPECT_EQ(bitsOf(mesh), before);
+  EXPECT_TRUE(report.stopReason == StopReason::NoFurtherGain ||
+    report.stopReason == StopReason::CappedBySurface);
+}
+
+TYPED_TEST(WorstFirstStops, CanBeAborted)
+{
+  constexpr int D = TypeParam::dimension;
+  SimplexMesh<D> mesh = buildMesh(testMesh<D>());
+  int calls = 0;
+  double last = 0.0;
+  Control control;
+  control.progress = [&](double fraction, const std::string& text)
+  {
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1.0);
+    EXPECT_FALSE(text.empty());
+    last = fraction;
+    return ++calls < 1;
+  };
+  const Report report = run<D>(mesh, target(0.9), control);
+  EXPECT_EQ(report.stopReason, StopReason::Aborted);
+  EXPECT_EQ(calls, 1); // not asked again
+}
+
+TEST(WorstFirstStops3D, KeepsItsTimeLimit)
+{
+  SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(12, 0.25));
+  Options options = target(0.95);
+  options.timeLimit = 0.2;
+  const Report report = run<3>(mesh, options);
+  EXPECT_EQ(report.stopReason, StopReason::TimeLimit);
+  EXPECT_LT(report.seconds, 10.0); // the machine may be busy
+}
