@@ -300,9 +300,9 @@ public:
   ///@{
   /**
    * How much WorstFirst may let the number of cells grow, as a fraction of the input's; unless it is
-   * 0, at least 30 cells may come. Range >= 0, default 0.15. A mesh with hardly any interior nodes
-   * may need 1: where the budget stops it, the stop reason is GrowthLimit. No more nodes are removed
-   * once 12 % of the cells are gone, unless sizes are asked for.
+   * 0, at least 30 tetrahedra or 10 triangles may come. Range >= 0, default 0.15. A mesh with hardly
+   * any interior nodes may need 1: where the budget stops it, the stop reason is GrowthLimit. No more
+   * nodes are removed once 12 % of the cells are gone, unless sizes are asked for.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);

@@ -33,7 +33,7 @@ Report run(
   EXPECT_NEAR(mesh.volume(), volume, 1e-11 * std::max(1.0, std::abs(volume)));
   EXPECT_EQ(mesh.eulerCharacteristic(), euler);
   const bool hasSizes = options.beta > 0.0 && (options.desiredSize > 0.0 || metric.hasSizes());
-  EXPECT_TRUE(hasSizes || mesh.countCells() <= cells + growthOf(options, cells))
+  EXPECT_TRUE(hasSizes || mesh.countCells() <= cells + growthOf(options, cells, D))
     << cells << " -> " << mesh.countCells();
   for (std::size_t k = 1; k < report.history.size(); ++k)
   {

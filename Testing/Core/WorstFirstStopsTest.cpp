@@ -66,10 +66,10 @@ TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
 {
   Options options;
   options.growthBudget = 0.1;
-  EXPECT_EQ(growthOf(options, 12), LeastGrowth);
-  EXPECT_EQ(growthOf(options, 10007), 1000);
+  EXPECT_EQ(growthOf(options, 12, 3), 30);
+  EXPECT_EQ(growthOf(options, 10007, 3), 1000);
   options.growthBudget = 0.0;
-  EXPECT_EQ(growthOf(options, 12), 0);
+  EXPECT_EQ(growthOf(options, 12, 2), 0);
 }
 
 // ---- why it stops --------------------------------------------------------------------------------

@@ -69,6 +69,38 @@ TYPED_TEST(WorstFirst, EveryMeasureRaisesItsWorst)
   }
 }
 
+TEST(WorstFirst3D, TriesCellsAcrossEveryBorder)
+{
+  // Enough cells for several chunks; and octahedra as wide as all of them, which every border cuts.
+  MeshInput<3> in = jitteredGrid<3>(20, 0.1);
+  const double r = std::sqrt(0.5);
+  const Vec<3> axes[] = { Vec<3>(r, r, 0.0), Vec<3>(r, -r, 0.0), Vec<3>(0.0, 0.0, 1.0) };
+  const Vec<3> centre = Vec<3>::Constant(0.5);
+  for (int octahedron = 0; octahedron < 100; ++octahedron)
+  {
+    const Index first = static_cast<Index>(in.points.size());
+    const double radius = 0.8 + 0.001 * octahedron;
+    for (int k = 0; k < 6; ++k)
+    {
+      in.points.push_back(centre + (k % 2 ? radius : -radius) * axes[k / 2]);
+    }
+    // its middle, close to a face that reaches to both sides
+    in.points.push_back(centre + 0.3 * radius * (axes[0] - axes[1] + axes[2]));
+    for (int octant = 0; octant < 8; ++octant)
+    {
+      const Index x = first + (octant & 1), y = first + 2 + ((octant >> 1) & 1);
+      const Index z = first + 4 + ((octant >> 2) & 1);
+      const bool odd = ((octant ^ (octant >> 1) ^ (octant >> 2)) & 1) != 0;
+      in.cells.push_back({ x, odd ? y : z, odd ? z : y, first + 6 });
+    }
+  }
+  ASSERT_GE(in.cells.size(), 48000u);
+  SimplexMesh<3> mesh = buildMesh(in);
+  const Report report = run<3>(mesh, target(0.3));
+  EXPECT_LT(report.worstBefore, 0.15);
+  EXPECT_EQ(report.stopReason, StopReason::TargetReached) << report.worstAfter;
+}
+
 // ---- what it keeps -------------------------------------------------------------------------------
 
 TYPED_TEST(WorstFirst, KeepsWhatMustStay)

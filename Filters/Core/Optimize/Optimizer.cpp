@@ -230,7 +230,7 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   else
   {
     const bool isTangled = input.worst < -FlatQuality;
-    const long most = input.cells + growthOf(options, input.cells);
+    const long most = input.cells + growthOf(options, input.cells, D);
     const bool more = !isTangled ||
       untangle<D>(editor, metric, options, control, report, most - input.cells);
     const Control rest = isTangled ? partOf(control, Untangled, 1.0) : control;

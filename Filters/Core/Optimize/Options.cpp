@@ -128,10 +128,11 @@ const char* toString(StopReason reason)
   return "not run";
 }
 
-long growthOf(const Options& options, long cells)
+long growthOf(const Options& options, long cells, int dimension)
 {
+  const long least = dimension == 3 ? 30 : 10;
   const double most = std::floor(options.growthBudget * static_cast<double>(cells));
-  return options.growthBudget > 0.0 ? std::max(LeastGrowth, static_cast<long>(most)) : 0;
+  return options.growthBudget > 0.0 ? std::max(least, static_cast<long>(most)) : 0;
 }
 
 const char* toString(Operation op)

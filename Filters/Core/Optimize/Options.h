@@ -55,8 +55,7 @@ struct Options
   // --- the fast engine's
   Effort effort = Effort::Default;
   int numberOfThreads = 0; ///< 0: all
-  /// Greatest net growth of the number of cells, as a fraction. Unless it is 0, at least LeastGrowth
-  /// cells may come: see growthOf().
+  /// Greatest net growth of the number of cells, as a fraction; growthOf() for small meshes.
   double growthBudget = 0.15;
   double timeLimit = 0.0; ///< seconds, 0: none. Results are then not reproducible.
 
@@ -80,10 +79,9 @@ enum class StopReason
 /// A sentence for the user.
 const char* toString(StopReason reason);
 
-/// In a mesh of a few cells a fraction of them is not even room for one node.
-inline constexpr long LeastGrowth = 30;
-/// How many cells may come to so many.
-long growthOf(const Options& options, long cells);
+/// So many cells may come to so many. In a mesh of a few a fraction of them is not even room for one
+/// node: it may have some.
+long growthOf(const Options& options, long cells, int dimension);
 
 /// Kinds of operations, as counted in the history.
 enum class Operation

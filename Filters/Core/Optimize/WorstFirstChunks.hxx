@@ -19,13 +19,13 @@ long WorstFirst<D, Shape>::fewCells() const
 /// Chunks, their queues and slots: a function of the mesh and of the bad cells only.
 template <int D, class Shape>
 void WorstFirst<D, Shape>::distribute(
-  double target, int level, const std::vector<Index>& bad, long below)
+  double target, int level, const std::vector<Index>& bad, long below, int mostChunks)
 {
   const Index cells = this->mesh().numberOfCellSlots();
   const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
   int n = static_cast<int>(
     std::min<long>(cells / CellsPerChunk, static_cast<long>(bad.size()) / each));
-  n = this->tangled_ ? 1 : std::min(std::max(n, 1), MaximumChunks); // tangled: checks look anywhere
+  n = this->tangled_ ? 1 : std::min(std::max(n, 1), mostChunks); // tangled: checks look anywhere
   this->numberOfChunks_ = n;
   if (n > 1)
   {
@@ -72,6 +72,7 @@ void WorstFirst<D, Shape>::distribute(
     w.improver.setTangled(this->tangled_, this->inverted_, this->pinched_);
     w.improver.setGain(this->gain_);
     w.improver.setTarget(target, guard, this->model_.weights || many);
+    w.heldUp.clear();
     w.kept = w.tries = w.bad = 0;
     w.limit = limit;
     w.isPatient = true;
@@ -80,6 +81,7 @@ void WorstFirst<D, Shape>::distribute(
   {
     this->metric_.reserve(this->mesh().numberOfPointSlots() + (n > 1 ? 0 : 1));
   }
+  this->heldUp_.clear();
   for (Index c : bad)
   {
     const int k = n > 1 ? this->mesh().pointData(this->mesh().nodes(c)[0]).owner : 0;
@@ -87,6 +89,10 @@ void WorstFirst<D, Shape>::distribute(
     {
       this->workers_[k]->queue.emplace(this->mesh().quality(c), c);
       ++this->workers_[k]->bad;
+    }
+    else
+    {
+      this->heldUp_.push_back(c);
     }
   }
 }
@@ -110,6 +116,7 @@ void WorstFirst<D, Shape>::gather()
     this->editor_.setLastMark(std::max(this->editor_.lastMark(), w.editor.lastMark()));
     left += w.improver.growth();
     this->isShort_ |= w.improver.isShortOfGrowth();
+    this->heldUp_.insert(this->heldUp_.end(), w.heldUp.begin(), w.heldUp.end());
     this->kept_ += w.kept;
     for (int op = 0; op < NumberOfOperations; ++op)
     {
@@ -127,7 +134,26 @@ void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Inde
   this->kept_ = 0;
   this->tried_.fill(0);
   this->done_.fill(0);
-  this->distribute(target, level, bad, below);
+  this->drain(target, level, bad, below, MaximumChunks);
+  // Long cells lie across some border each time: they must not wait for better borders.
+  const bool onTheWay = this->guard_ && !(target > this->options_.targetQuality);
+  const auto heldUp = static_cast<long>(this->heldUp_.size());
+  const bool many = onTheWay && heldUp > static_cast<long>(bad.size()) / HeldUpPart;
+  if (heldUp > 0 && (many || this->hardlyAny(bad)))
+  {
+    std::vector<Index> rest;
+    std::copy_if(this->heldUp_.begin(), this->heldUp_.end(), std::back_inserter(rest),
+      [&](Index c) { return this->mesh().isAlive(c) && this->mesh().quality(c) < target; });
+    this->drain(target, level, rest, below, 1);
+  }
+}
+
+/// Shares the bad cells out and tries each until none gains.
+template <int D, class Shape>
+void WorstFirst<D, Shape>::drain(
+  double target, int level, const std::vector<Index>& bad, long below, int mostChunks)
+{
+  this->distribute(target, level, bad, below, mostChunks);
   const auto body = [&](int k) { this->work(*this->workers_[k], target, level); };
   bool more = true;
   while (more && this->keepGoing(target))
@@ -194,6 +220,10 @@ void WorstFirst<D, Shape>::work(Worker& w, double target, int level)
     else if (!w.editor.blocked())
     {
       w.editor.setFailed(c, w.editor.clock(), this->rank(level));
+    }
+    else
+    {
+      w.heldUp.push_back(c);
     }
   }
 }

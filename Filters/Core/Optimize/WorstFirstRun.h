@@ -33,6 +33,11 @@ constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
 constexpr int PolishedPerChunk = 4;    // the same where each is tried long
 constexpr int MaximumChunks = 256;
 constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of their borders, by turns
+/// On the way to the target: where borders hold up more than one in so many bad cells of a pass, these
+/// get a pass without borders.
+constexpr long HeldUpPart = 3;
+/// A pass of which less than one in so many bad cells gains is the last one of a stage.
+constexpr long HardlyAny = 2000;
 constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 constexpr int PolishRounds = 50;
 constexpr double RoundGain =
@@ -89,10 +94,11 @@ private:
     MeshEditor<D> editor;
     Improver<D, Shape> improver;
     Queue queue;
-    long kept = 0, tries = 0; // in this pass
-    long limit = 0;           // of such tries
-    long bad = 0;             // cells at its begin
-    bool isPatient = true;    // likewise
+    std::vector<Index> heldUp; // cells that need cells of other chunks
+    long kept = 0, tries = 0;  // in this pass
+    long limit = 0;            // of such tries
+    long bad = 0;              // cells at its begin
+    bool isPatient = true;     // likewise
 
     Worker(MeshEditor<D>& root, const QualityModel<D, Shape>& model, const Caps<D>& caps,
       const Options& options, const BoundaryCurves* curves)
@@ -111,8 +117,14 @@ private:
   double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
   bool liftAround(const std::vector<Entry>& cells, int layers);
   void pass(double target, int level, const std::vector<Index>& bad, long below);
+  void drain(double target, int level, const std::vector<Index>& bad, long below, int mostChunks);
+  bool hardlyAny(const std::vector<Index>& bad) const
+  {
+    return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
+  }
   long collect(double target, int level, std::vector<Index>& bad) const;
-  void distribute(double target, int level, const std::vector<Index>& bad, long below);
+  void distribute(
+    double target, int level, const std::vector<Index>& bad, long below, int mostChunks);
   long fewCells() const;
   void work(Worker& worker, double target, int level);
   void gather();
@@ -139,6 +151,7 @@ private:
   Chunks<D> chunks_;
   std::vector<std::unique_ptr<Worker>> workers_;
   int numberOfChunks_ = 0;
+  std::vector<Index> heldUp_; ///< cells that borders have kept from being tried, in this pass
   int variant_ = 0;
   bool guard_ = true;
   double usualGain_; ///< least gain of a change
@@ -343,8 +356,7 @@ bool WorstFirst<D, Shape>::stage(double target)
       return false;
     }
     raised = this->report_.history.back().worst > before + this->gain_;
-    const bool hardlyAny = this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / 2000);
-    if (level == highest && !raised && (hardlyAny || this->gain_ < Gain))
+    if (level == highest && !raised && (this->hardlyAny(bad) || this->gain_ < Gain))
     {
       break;
     }
