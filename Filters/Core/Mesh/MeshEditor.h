@@ -76,8 +76,12 @@ public:
     this->mesh_->cellData_[c].level = static_cast<std::uint8_t>(level);
   }
 
-  /// Point::moveFailed; not journalled.
+  /// Point::moveFailed and removeFailed; not journalled.
   void setMoveFailed(Index p, std::uint32_t stamp) { this->mesh_->points_[p].moveFailed = stamp; }
+  void setRemoveFailed(Index p, std::uint32_t stamp)
+  {
+    this->mesh_->points_[p].removeFailed = stamp;
+  }
 
   /// The time of the latest edit. Points around an edit carry it as their stamp.
   std::uint32_t clock() const { return this->clock_; }

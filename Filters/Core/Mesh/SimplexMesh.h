@@ -108,10 +108,11 @@ public:
   struct Point : CurvePlace<D>
   {
     Vec<D> x;
-    Index cell = None;            ///< a cell that uses the point
-    std::uint32_t stamp = 0;      ///< last change in the star of the point
-    std::uint32_t moveFailed = 0; ///< free for algorithms: last failed try to move it
-    Index owner = 0;              ///< chunk that may edit around the point (parallel rounds)
+    Index cell = None;              ///< a cell that uses the point
+    std::uint32_t stamp = 0;        ///< last change in the star of the point
+    std::uint32_t moveFailed = 0;   ///< free for algorithms: last failed try to move it
+    std::uint32_t removeFailed = 0; ///< likewise: to remove it
+    Index owner = 0;                ///< chunk that may edit around the point (parallel rounds)
     std::uint8_t flags = 0;
 
     /// Takes over all of `old` but the owner, which threads of other chunks may read at this moment.
@@ -122,6 +123,7 @@ public:
       this->cell = old.cell;
       this->stamp = old.stamp;
       this->moveFailed = old.moveFailed;
+      this->removeFailed = old.removeFailed;
       this->flags = old.flags;
     }
   };

@@ -123,6 +123,11 @@ private:
   bool reconnect(Index t);
   bool move(Index t);
   bool moveNode(Index v);
+  /// Whether a try that failed at that time would fail again: nothing has changed since `stamp`.
+  bool failedAsItIs(std::uint32_t failed, std::uint32_t stamp) const
+  {
+    return failed >= stamp && failed > this->failuresSince_;
+  }
   bool settleStar(double old);
   bool moveCluster(Index t);
   bool mayRemoveNodes() const
@@ -172,7 +177,7 @@ private:
   double guard_ = -1.0;
   bool guardsAll_ = false;
   double gain_ = 1e-3;
-  std::uint32_t failuresSince_ = 0; ///< failures to move a node before that were with another gain
+  std::uint32_t failuresSince_ = 0; ///< failures at a node before that were with another gain
   long bad_ = 0;                    ///< badness() of all cells made, less that of those removed
   long growth_ = 0, mostGrowth_ = 0;
   bool isShort_ = false;

@@ -277,8 +277,7 @@ bool Improver<D, Shape>::moveNode(Index v)
 {
   const SimplexMesh<D>& mesh = this->editor_->mesh();
   const auto& data = mesh.pointData(v);
-  const bool failedAsItIs = data.moveFailed >= data.stamp && data.moveFailed > this->failuresSince_;
-  if (failedAsItIs || !this->editor_->star(v, this->star_))
+  if (this->failedAsItIs(data.moveFailed, data.stamp) || !this->editor_->star(v, this->star_))
   {
     return false;
   }
@@ -355,7 +354,8 @@ template <int D, class Shape>
 bool Improver<D, Shape>::removeNode(Index v)
 {
   const SimplexMesh<D>& mesh = this->editor_->mesh();
-  if (!this->editor_->star(v, this->star_))
+  const auto& data = mesh.pointData(v);
+  if (this->failedAsItIs(data.removeFailed, data.stamp) || !this->editor_->star(v, this->star_))
   {
     return false;
   }
@@ -398,6 +398,10 @@ bool Improver<D, Shape>::removeNode(Index v)
     }
   }
   this->count(Operation::EdgeContraction, !this->bestCells_.empty());
+  if (this->bestCells_.empty() && !this->editor_->inTransaction())
+  {
+    this->editor_->setRemoveFailed(v, this->editor_->clock());
+  }
   return !this->bestCells_.empty() && this->replace(this->star_, this->bestCells_);
 }
 }
