@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The paper's mode as a whole: what it must reach, keep, and give again.
+#include "Optimize/Paper1996.h"
 #include "Boundary/SurfaceBound.h"
 #include "Optimize/Optimizer.h"
 #include "Optimize/Statistics.h"
@@ -275,6 +276,31 @@ TYPED_TEST(Paper, UntanglesInvertedCells)
     expectSound(mesh);
     EXPECT_NEAR(absoluteVolume(mesh), 1.0, 1e-11);
   }
+}
+
+TYPED_TEST(Paper, GrowthIsLimitedOnRequest)
+{
+  constexpr int D = TypeParam::dimension;
+  const MeshInput<D> in = testMesh<D>(0.32, 2);
+  std::vector<MeshBits<D>> bits;
+  for (const long growth : { AnyGrowth, 1000000L, 0L, 20L })
+  {
+    SimplexMesh<D> mesh = buildMesh(in);
+    const long cells = mesh.countCells();
+    MeshEditor<D> editor(mesh);
+    NodalMetric<D> metric;
+    const Options options = target(0.9);
+    computeQualities<D>(editor, metric, options.measure, options.beta);
+    Report report;
+    report.history.push_back(summarize(mesh, options.targetQuality));
+    Options plain = options;
+    plain.lookAhead = false; // it takes no notice of the limit
+    optimizePaper1996<D>(editor, metric, plain, {}, report, growth);
+    EXPECT_LE(mesh.countCells() - cells, growth);
+    bits.push_back(bitsOf(mesh));
+  }
+  EXPECT_TRUE(bits[0] == bits[1]); // no limit is no limit, also after cells have gone
+  EXPECT_TRUE(D == 2 || !(bits[0] == bits[2]));
 }
 
 TYPED_TEST(Paper, EveryMeasureImprovesInItsOwnTerms)

@@ -15,8 +15,7 @@
 #include "Mesh/MeshEditor.h"
 #include "Metric/NodalMetric.h"
 #include "Optimize/Options.h"
-
-#include <limits>
+#include "Reconnect/Reconnection.h"
 
 namespace meshopt
 {
@@ -24,7 +23,7 @@ namespace meshopt
 /// alternation to report.history and sets report.stopReason. At most `growth` cells may come.
 template <int D>
 void optimizePaper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report, long growth = std::numeric_limits<long>::max());
+  const Control& control, Report& report, long growth = AnyGrowth);
 
 extern template void optimizePaper1996<2>(
   MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, long);

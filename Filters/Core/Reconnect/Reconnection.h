@@ -46,6 +46,9 @@
 
 namespace meshopt
 {
+/// As a number of cells that may come: no limit. Such numbers are added and subtracted.
+inline constexpr long AnyGrowth = std::numeric_limits<long>::max() / 2;
+
 struct ReconnectionParameters
 {
   double target = 1.0;     ///< elements of this quality or a better one are left alone
@@ -56,7 +59,7 @@ struct ReconnectionParameters
   /// iteration goes on if one gains. 0: none, as in the paper.
   int lookAhead = 0;
   /// Net number of cells that may come; the look-ahead takes no notice of it.
-  long growth = std::numeric_limits<long>::max();
+  long growth = AnyGrowth;
 };
 
 struct ReconnectionResult
