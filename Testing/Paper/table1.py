@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The paper's table 1: what optimizing a mesh does to the stresses of a hot cylinder and to the solver, beside the paper's numbers.
 
-    /usr/bin/python3 table1.py FOLDER [--meshes A B C D] [--ways "target .4" default best]
+    /usr/bin/python3 table1.py FOLDER [--meshes A B C D] [--ways "target .4" best default]
 
 Writes FOLDER/table1.csv and FOLDER/table1.md. The exit status is 1 if a claim does not hold with the last of --ways. Needs the package
 meshoptimize (./bootstrap.sh env); takes three to five minutes.

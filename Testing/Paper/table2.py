@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The paper's table 2: what optimizing does to the meshes of three cracked fuel pellets, beside the paper's numbers.
 
-    /usr/bin/python3 table2.py FOLDER [--meshes crack20 crack40 crack60] [--ways "target .4" default best]
+    /usr/bin/python3 table2.py FOLDER [--meshes crack20 crack40 crack60] [--ways "target .4" best default]
 
 Writes FOLDER/table2.csv and FOLDER/table2.md. The exit status is 1 if a claim does not hold with the last of --ways. Needs the package
 meshoptimize (./bootstrap.sh env); takes one to two minutes.
