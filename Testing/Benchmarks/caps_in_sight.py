@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How good the elements on the worst boundary facets could be if nothing but the surface stood in the way.
 
-    /usr/bin/python3 caps_in_sight.py MESH.vtu [--facets N]
+    /usr/bin/python3 caps_in_sight.py MESH.vtu [--facets N] [--prove Q]
 
 Each boundary facet belongs to one element, whose fourth node must be seen from all of the facet. The cap that Mesh Quality Min Max
 certifies lets that node be anywhere; where another part of the surface is near, as in thin walls, it is far too high. Here the node is sought by
 chance, then by ever smaller steps, among places that the facet's corners and its middle see: an estimate (in sight of four points only,
-so that it may be too high; sought by chance, so that it may be too low), no certificate. Needs a Python with VTK.
+so that it may be too high; sought by chance, so that it may be too low), no certificate. --prove gives one: it looks for a facet that cannot have an
+element of quality Q, as wherever the fourth node is, the element is worse or has a facet of the surface inside. Places from which a given
+facet is in the way form a convex set; so a box of places is ruled out once one facet is in the way of its eight corners, or else divided.
+Needs a Python with VTK.
 """
 import argparse
 import collections
@@ -77,11 +80,74 @@ def best(facet, inside, locator, random):
     return climb(lambda x: True), climb(lambda x: all(sees(locator, p, x) for p in (*facet, middle)))
 
 
+def is_in_the_way(triangle, tetrahedron):
+    """True if part of the triangle lies inside the tetrahedron, off its faces by more than rounding."""
+    size = np.ptp(tetrahedron, axis=0).max()
+    polygon = triangle
+    for k in range(4):
+        a, b, c = tetrahedron[[i for i in range(4) if i != k]]
+        normal = np.cross(b - a, c - a)
+        length = np.linalg.norm(normal)
+        if length < 1e-14 * size**2:
+            return False
+        normal *= np.sign((tetrahedron[k] - a) @ normal) / length
+        d = (polygon - a) @ normal - 1e-9 * size
+        kept = []
+        for i in range(len(polygon)):
+            if d[i - 1] * d[i] < 0:
+                kept.append(polygon[i - 1] + d[i - 1] / (d[i - 1] - d[i]) * (polygon[i] - polygon[i - 1]))
+            if d[i] > 0:
+                kept.append(polygon[i])
+        if not kept:
+            return False
+        polygon = np.array(kept)
+    return True
+
+
+def blockers(locator, triangles, facet, x):
+    """Facets that lie between x and some points of the facet."""
+    t, sub, where, pc, cell = mutable(0.0), mutable(0), [0.0] * 3, [0.0] * 3, mutable(0)
+    found = []
+    for weights in ((1, 1, 1), (4, 1, 1), (1, 4, 1), (1, 1, 4)):
+        y = np.array(weights) @ facet / sum(weights)
+        if locator.IntersectWithLine(y + 1e-6 * (x - y), x, 0.0, t, where, pc, sub, cell):
+            if int(cell) not in found:
+                found.append(int(cell))
+    return [triangles[c] for c in found]
+
+
+def is_impossible(facet, inside, q, locator, triangles, most_boxes=20000):
+    """True if it is proved that no element on the facet has the quality q in sight of the surface."""
+    normal = np.cross(facet[1] - facet[0], facet[2] - facet[0])
+    normal *= np.sign((inside - facet[0]) @ normal)
+    edges = sum(np.linalg.norm(facet[i] - facet[i - 1]) for i in range(3))
+    # S >= q bounds the perimeter: V <= |normal| h / 6 with h at most the longest edge to the node
+    reach = np.sqrt(6 * np.sqrt(2) * np.linalg.norm(normal) / 6 * 6**3 / q / 9) + edges
+    middle = facet.mean(axis=0)
+    boxes = [(middle, reach)]  # centre and half width
+    signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, 8).T
+    for _ in range(most_boxes):
+        if not boxes:
+            return True
+        centre, half = boxes.pop()
+        corners = centre + half * signs
+        volume = ((corners - facet[0]) @ normal / 6).max()  # affine: greatest at a corner
+        to_facet = sum(max(np.linalg.norm(centre - p) - np.sqrt(3) * half, 0.0) for p in facet)
+        if volume <= 0 or 6 * np.sqrt(2) * volume / ((edges + to_facet) / 6) ** 3 < q:
+            continue
+        if any(all(is_in_the_way(triangle, np.vstack([facet, x])) for x in corners)
+               for triangle in blockers(locator, triangles, facet, centre)):
+            continue
+        boxes += [(centre + half / 2 * s, half / 2) for s in signs]
+    return False
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mesh")
     parser.add_argument("--facets", type=int, default=1500, help="so many of the narrowest facets")
     parser.add_argument("--listed", type=int, default=10)
+    parser.add_argument("--prove", type=float, metavar="Q", help="that no mesh with this surface has a worst quality of Q")
     arguments = parser.parse_args()
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(arguments.mesh)
@@ -102,6 +168,16 @@ def main():
         return np.linalg.norm(np.cross(p[1] - p[0], p[2] - p[0])) / longest**2
 
     facets = sorted(boundary(cells), key=width)[:arguments.facets]
+    if arguments.prove:
+        shown = surface.GetOutput()
+        corners = vtk_to_numpy(shown.GetPoints().GetData()).astype(float)
+        triangles = corners[vtk_to_numpy(shown.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+        for facet, fourth in facets[:arguments.listed]:
+            if is_impossible(points[facet], points[fourth], arguments.prove, locator, triangles):
+                print(f"Proved: no element on the facet {' '.join(map(str, facet))} has the quality {arguments.prove}.")
+                return
+        print("Not proved.")
+        return
     random = np.random.default_rng(1)
     rows = [(facet, *best(points[facet], points[fourth], locator, random)) for facet, fourth in facets]
     rows.sort(key=lambda row: row[2])
