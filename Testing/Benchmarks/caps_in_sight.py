@@ -119,10 +119,13 @@ def blockers(locator, triangles, facet, x):
 def is_impossible(facet, inside, q, locator, triangles, most_boxes=20000):
     """True if it is proved that no element on the facet has the quality q in sight of the surface."""
     normal = np.cross(facet[1] - facet[0], facet[2] - facet[0])
-    normal *= np.sign((inside - facet[0]) @ normal)
     edges = sum(np.linalg.norm(facet[i] - facet[i - 1]) for i in range(3))
-    # S >= q bounds the perimeter: V <= |normal| h / 6 with h at most the longest edge to the node
-    reach = np.sqrt(6 * np.sqrt(2) * np.linalg.norm(normal) / 6 * 6**3 / q / 9) + edges
+    side = (inside - facet[0]) @ normal
+    if abs(side) < 1e-12 * np.linalg.norm(normal) * edges:
+        return False  # the element there is flat: on which side the mesh lies is not known
+    normal *= np.sign(side)
+    # At the distance d from the facet V <= |normal| d / 6, and the edges sum to at least 3 d: S <= 8 sqrt(2) |normal| / d^2.
+    reach = np.sqrt(8 * np.sqrt(2) * np.linalg.norm(normal) / q) + edges
     middle = facet.mean(axis=0)
     boxes = [(middle, reach)]  # centre and half width
     signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, 8).T

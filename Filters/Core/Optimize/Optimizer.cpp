@@ -230,14 +230,14 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   else
   {
     const bool isTangled = input.worst < -FlatQuality;
-    const long most = input.cells + growthOf(options, input.cells, D);
-    const bool more = !isTangled ||
-      untangle<D>(editor, metric, options, control, report, most - input.cells);
+    const long growth = growthOf(options, input.cells, D);
+    const bool more = !isTangled || untangle<D>(editor, metric, options, control, report, growth);
     const Control rest = isTangled ? partOf(control, Untangled, 1.0) : control;
     Options left = options;
     left.timeLimit = timeLeft(options, begin);
-    const auto cells = static_cast<double>(mesh.countCells());
-    left.growthBudget = std::max(0.0, static_cast<double>(most) - cells) / cells;
+    const long cells = report.history.back().cells;
+    const long room = std::max(0L, input.cells + growth - cells);
+    left.growthBudget = static_cast<double>(room) / static_cast<double>(cells);
     if (more && wantsSizes(metric, options, curves))
     {
       optimizeSizesToo<D>(editor, metric, left, rest, report, curves);
