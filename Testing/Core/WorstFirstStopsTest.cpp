@@ -45,6 +45,30 @@ TYPED_TEST(WorstFirstStops, KindsOfOperationsCanBeSwitchedOff)
   }
 }
 
+/// A finely divided cube's surface, all joined to one node: it takes many more nodes to make that good.
+MeshInput<3> conedCube(const Vec<3>& apex)
+{
+  const SimplexMesh<3> cube = buildMesh(jitteredGrid<3>(8, 0.0));
+  MeshInput<3> in;
+  for (Index p = 0; p < cube.numberOfPointSlots(); ++p)
+  {
+    in.points.push_back(cube.point(p));
+  }
+  in.points.push_back(apex);
+  for (Index c = 0; c < cube.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      if (cube.isConstrained(c, i))
+      {
+        const Facet<3> f = cube.facet(c, i);
+        in.cells.push_back({ f[0], f[1], f[2], static_cast<Index>(in.points.size()) - 1 });
+      }
+    }
+  }
+  return in;
+}
+
 TYPED_TEST(WorstFirstStops, GrowthBudgetIsHonoured)
 {
   constexpr int D = TypeParam::dimension;
@@ -60,6 +84,15 @@ TYPED_TEST(WorstFirstStops, GrowthBudgetIsHonoured)
       run<D>(mesh, options); // looks at the number of cells
     }
   }
+}
+
+TEST(WorstFirstStops3D, GrowthBudgetIsHonouredWhileUntangling)
+{
+  Options options = target(0.6);
+  options.growthBudget = 0.05;
+  SimplexMesh<3> mesh = buildMesh(conedCube(Vec<3>(0.5, 0.5, 1.3))); // the node is outside
+  const Report report = run<3>(mesh, options);                       // looks at the number of cells
+  EXPECT_GT(report.invertedBefore, 0);
 }
 
 TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
@@ -100,25 +133,7 @@ TEST(WorstFirstStops3D, StopsWhereTheSurfaceCaps)
 
 TEST(WorstFirstStops3D, SaysWhereTheGrowthBudgetIsUsedUp)
 {
-  // a finely divided cube's surface, all joined to one node
-  const SimplexMesh<3> cube = buildMesh(jitteredGrid<3>(8, 0.0));
-  MeshInput<3> in;
-  for (Index p = 0; p < cube.numberOfPointSlots(); ++p)
-  {
-    in.points.push_back(cube.point(p));
-  }
-  in.points.push_back(Vec<3>(0.5, 0.5, 0.5));
-  for (Index c = 0; c < cube.numberOfCellSlots(); ++c)
-  {
-    for (int i = 0; i < 4; ++i)
-    {
-      if (cube.isConstrained(c, i))
-      {
-        const Facet<3> f = cube.facet(c, i);
-        in.cells.push_back({ f[0], f[1], f[2], static_cast<Index>(in.points.size()) - 1 });
-      }
-    }
-  }
+  const MeshInput<3> in = conedCube(Vec<3>::Constant(0.5));
   Options options = target(0.6);
   options.growthBudget = 0.1;
   SimplexMesh<3> tight = buildMesh(in), roomy = buildMesh(in);
