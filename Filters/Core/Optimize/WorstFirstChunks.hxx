@@ -25,6 +25,7 @@ void WorstFirst<D, Shape>::distribute(
   const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
   int n = static_cast<int>(
     std::min<long>(cells / CellsPerChunk, static_cast<long>(bad.size()) / each));
+  n -= n % 2; // the odd one would be left to one of two threads
   n = this->tangled_ ? 1 : std::min(std::max(n, 1), mostChunks); // tangled: checks look anywhere
   this->numberOfChunks_ = n;
   if (n > 1)
@@ -135,11 +136,12 @@ void WorstFirst<D, Shape>::pass(double target, int level, const std::vector<Inde
   this->tried_.fill(0);
   this->done_.fill(0);
   this->drain(target, level, bad, below, MaximumChunks);
-  // Long cells lie across some border each time: they must not wait for better borders.
-  const bool onTheWay = this->guard_ && !(target > this->options_.targetQuality);
+  // Long cells lie across some border each time: they must not wait for better borders. Past the target
+  // there is time for that: stages are many, and one by one costs more than threads bring.
+  const bool past = this->guard_ && target > this->options_.targetQuality;
   const auto heldUp = static_cast<long>(this->heldUp_.size());
-  const bool many = onTheWay && heldUp > static_cast<long>(bad.size()) / HeldUpPart;
-  if (heldUp > 0 && (many || this->hardlyAny(bad)))
+  const bool many = this->guard_ && heldUp > static_cast<long>(bad.size()) / HeldUpPart;
+  if (heldUp > 0 && !past && (many || this->hardlyAny(bad)))
   {
     std::vector<Index> rest;
     std::copy_if(this->heldUp_.begin(), this->heldUp_.end(), std::back_inserter(rest),
@@ -154,7 +156,12 @@ void WorstFirst<D, Shape>::drain(
   double target, int level, const std::vector<Index>& bad, long below, int mostChunks)
 {
   this->distribute(target, level, bad, below, mostChunks);
-  const auto body = [&](int k) { this->work(*this->workers_[k], target, level); };
+  // The most work first, so that the threads end at about the same time; the result is the same.
+  std::vector<int> order(this->numberOfChunks_);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&](int a, int b) { return this->workers_[a]->bad > this->workers_[b]->bad; });
+  const auto body = [&](int k) { this->work(*this->workers_[order[k]], target, level); };
   bool more = true;
   while (more && this->keepGoing(target))
   {
