@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certified bound: against brute force, against the table of known values, and against meshes that exist.
+// The certified bound of a surface, against meshes that exist.
 #include "Boundary/SurfaceBound.h"
 #include "Boundary/ApexBound.h"
 #include "Quality/Shape.h"
@@ -15,35 +15,6 @@ using namespace meshopt;
 namespace
 {
 constexpr double pi = 3.14159265358979323846;
-
-/// Best S over the apex, by trying ever smaller steps: a lower bound of the cap.
-double bruteFacet(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c)
-{
-  const Vec<3> n = (b - a).cross(c - a);
-  const double l = std::max((b - a).norm(), std::max((c - b).norm(), (a - c).norm()));
-  Vec<3> p = (a + b + c) / 3.0 + n.normalized() * (0.6 * l);
-  double q = MeanEdgeShape<3>::value({ a, b, c, p });
-  for (double h = 0.3 * l; h > 1e-9 * l; h *= 0.5)
-  {
-    for (bool better = true; better;)
-    {
-      better = false;
-      for (int d = 0; d < 6; ++d)
-      {
-        Vec<3> r = p;
-        r[d / 2] += d % 2 ? h : -h;
-        const double s = MeanEdgeShape<3>::value({ a, b, c, r });
-        if (s > q)
-        {
-          q = s;
-          p = r;
-          better = true;
-        }
-      }
-    }
-  }
-  return q;
-}
 
 /// A cube of n^3 small ones with 6 tetrahedra each; inner nodes are moved at random.
 MeshInput<3> cube(int n, double move, unsigned seed)
@@ -98,122 +69,6 @@ double worst(const SimplexMesh<3>& mesh)
   }
   return q;
 }
-
-/// Two facets that share an edge of length 1, regular, at the angle theta.
-SurfaceBound<3> hinge(double theta, double off = std::sqrt(0.75))
-{
-  const Vec<3> points[4] = { Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), Vec<3>(0.5, off, 0),
-    Vec<3>(0.5, off * std::cos(theta), off * std::sin(theta)) };
-  return surfaceBound<3>(points, { { { 0, 1, 2 }, 0, 0, true }, { { 1, 0, 3 }, 0, 0, true } });
-}
-}
-
-TEST(FacetCap, AgainstBruteForce)
-{
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  for (int k = 0; k < 300; ++k)
-  {
-    Vec<3> x[3];
-    for (Vec<3>& p : x)
-    {
-      p = Vec<3>(u(random), u(random), u(random));
-    }
-    if (k % 3 == 0) // needles, down to 1 : 1000
-    {
-      x[1] = x[0] + std::pow(10.0, -1.5 + 1.5 * u(random)) * (x[1] - x[0]);
-    }
-    if (k % 3 == 1) // caps
-    {
-      x[2] = 0.4 * x[0] + 0.6 * x[1] + std::pow(10.0, -1.5 + 1.5 * u(random)) * (x[2] - x[0]);
-    }
-    const double brute = bruteFacet(x[0], x[1], x[2]);
-    Vec<3> apex;
-    const double cap = facetCap(x[0], x[1], x[2], std::numeric_limits<double>::infinity(), &apex);
-    EXPECT_GE(cap, brute * (1.0 - 1e-12)) << "not an upper bound";
-    EXPECT_LE(cap, brute * (1.0 + 1e-5)) << "not sharp";
-    EXPECT_NEAR(MeanEdgeShape<3>::value({ x[0], x[1], x[2], apex }), cap, 1e-9);
-    EXPECT_NEAR(facetCap(x[2], x[1], x[0]), cap, 1e-9) << "order of nodes";
-    const double quick = facetCap(x[0], x[1], x[2], 0.5 * cap);
-    EXPECT_GE(quick, 0.5 * cap * (1.0 - 1e-12));
-    EXPECT_LE(quick, cap * (1.0 + 1e-12));
-  }
-}
-
-TEST(FacetCap, SpecialFacets)
-{
-  const Vec<3> a(0, 0, 0), b(1, 0, 0), c(0.5, std::sqrt(0.75), 0);
-  EXPECT_NEAR(facetCap(a, b, c), 1.0, 1e-12);
-  EXPECT_EQ(facetCap(a, b, a), 0.0);
-  EXPECT_EQ(facetCap(a, b, Vec<3>(3, 0, 0)), 0.0);
-  EXPECT_EQ(facetCap(a, b, Vec<3>(0, std::nan(""), 0)), 1.0) << "nothing known";
-  EXPECT_EQ(facetCap(Vec<3>(std::nan(""), 0, 0), b, c), 1.0);
-}
-
-TEST(EdgeBound, TableOfKnownValues)
-{
-  const double table[][2] = { { 5, .155 }, { 10, .295 }, { 20, .530 }, { 30, .712 }, { 45, .894 },
-    { 60, .983 }, { 70.5, 1.0 }, { 90, .951 }, { 110, .816 }, { 120, .725 }, { 140, .508 },
-    { 160, .261 }, { 170, .132 } };
-  for (const auto& row : table)
-  {
-    EXPECT_NEAR(angleCap(row[0] * pi / 180.0), row[1], 6e-4) << row[0] << " degrees";
-  }
-}
-
-TEST(EdgeBound, NoTetrahedronWithThisAngleIsBetter)
-{
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  double closest = 1.0;
-  for (int k = 0; k < 200000; ++k)
-  {
-    const double phi = 0.02 + 3.1 * std::fabs(u(random));
-    const double r = 0.9 + 0.5 * u(random), s = 0.9 + 0.5 * u(random);
-    const Vec<3> x[4] = { Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), Vec<3>(0.5 + 0.3 * u(random), r, 0),
-      Vec<3>(0.5 + 0.3 * u(random), s * std::cos(phi), s * std::sin(phi)) };
-    const double q = MeanEdgeShape<3>::value({ x[0], x[1], x[2], x[3] });
-    ASSERT_LE(q, angleCap(phi) * (1.0 + 1e-12));
-    closest = std::min(closest, angleCap(phi) - q);
-  }
-  EXPECT_LT(closest, 0.005);
-}
-
-TEST(EdgeBound, RegularFacetsGiveTheTable)
-{
-  // one tetrahedron fills a small angle best; at 141 degrees two regular ones fit exactly
-  for (double degrees : { 5.0, 10.0, 30.0, 60.0 })
-  {
-    EXPECT_NEAR(hinge(degrees * pi / 180.0).bound, angleCap(degrees * pi / 180.0), 5e-3);
-  }
-  EXPECT_NEAR(hinge(2.0 * std::acos(1.0 / 3.0)).bound, 1.0, 1e-6);
-  EXPECT_GT(hinge(350.0 * pi / 180.0).bound, 0.99);
-  EXPECT_EQ(hinge(0.0).bound, hinge(2.0 * pi).bound) << "folded onto each other: all around";
-}
-
-TEST(EdgeBound, NoFillingByOneOrTwoIsBetter)
-{
-  // brute force over the shared apex of two tetrahedra, and the one that both facets span
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> u(0.0, 1.0);
-  for (int k = 0; k < 15; ++k)
-  {
-    const double theta = 0.5 + u(random), r = 0.6 + 0.8 * u(random), s = 0.6 + 0.8 * u(random);
-    const Vec<3> a(0, 0, 0), b(1, 0, 0), c(u(random), r, 0);
-    const Vec<3> d(u(random), s * std::cos(theta), s * std::sin(theta));
-    double best = MeanEdgeShape<3>::value({ a, b, c, d });
-    for (int j = 0; j < 4000; ++j)
-    {
-      const double phi = theta * u(random), t = 0.4 + 1.2 * u(random);
-      const Vec<3> p(u(random), t * std::cos(phi), t * std::sin(phi));
-      best = std::max(best,
-        std::min(MeanEdgeShape<3>::value({ a, b, c, p }), MeanEdgeShape<3>::value({ a, b, p, d })));
-    }
-    const Vec<3> points[4] = { a, b, c, d };
-    const double bound =
-      surfaceBound<3>(points, { { { 0, 1, 2 }, 0, 0, true }, { { 1, 0, 3 }, 0, 0, true } }).bound;
-    EXPECT_GE(bound, best);
-  }
 }
 
 TEST(SurfaceBound, NoMeshIsAboveItsBound)

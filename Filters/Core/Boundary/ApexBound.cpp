@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/ApexBound.h"
 
+#include "Boundary/PairBound.h"
 #include "Quality/Shape.h"
 
 #include <Eigen/Cholesky>
@@ -296,30 +297,19 @@ bool EdgeView::level(double c, double& low, double& high, double width) const
 
 namespace
 {
-/// Is there a filling that is easily found? For the many edges that forbid nothing.
+/// Is there a filling by three or more that is easily found? For the many edges that forbid nothing.
 bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& last)
 {
   const auto between = [c](double angle, int n)
-  { return n == 0 || (angle > 0.0 && angle < n * pi && angleCap(angle / n) >= c); };
-  const auto ends = [c, &first, &last](double one, double other)
+  { return angle > 0.0 && angle < n * pi && angleCap(angle / n) >= c; };
+  const auto ends = [c, &first, &last](double angle)
+  { return angle < pi && first.cap(angle, c) >= c && last.cap(angle, c) >= c; };
+  const int most = std::max(
+    3, static_cast<int>(theta) + 1); // the next one has less than 57 degrees each
+  for (int k = most; k >= 3 && k >= most - 2; --k)
   {
-    return one > 0.0 && other > 0.0 && one < pi && other < pi && first.cap(one, c) >= c &&
-      last.cap(other, c) >= c;
-  };
-  const double rest = theta - first.best - last.best;
-  const int least = std::max(2, static_cast<int>(theta)); // elements of 57 degrees and more
-  for (int k = least; k >= 2 && k >= least - 1; --k)
-  {
-    if (k > 2
-        ? between(rest, k - 2)
-        : ends(0.5 * (theta + first.best - last.best), 0.5 * (theta + last.best - first.best)))
-    {
-      return true;
-    }
-  }
-  for (int k = least + 1; k >= 2 && k >= least - 1; --k)
-  {
-    if (between(theta * (k - 2) / k, k - 2) && ends(theta / k, theta / k))
+    if (between(theta - first.best - last.best, k - 2) ||
+      (between(theta * (k - 2) / k, k - 2) && ends(theta / k)))
     {
       return true;
     }
@@ -335,7 +325,9 @@ bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& 
   {
     return false;
   }
-  if (fillsSimply(c, theta, first, last))
+  // Two: V at the other facet is wrong by slack times the node's distance, and S by 1833 / 24 slack at most.
+  if (pairReaches(c * (1.0 - 8.0 * slack) - 100.0 * slack, theta, first, last) ||
+    fillsSimply(c, theta, first, last))
   {
     return false;
   }
@@ -347,10 +339,10 @@ bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& 
   {
     return false; // the best place is not known well enough
   }
-  // k - 2 tetrahedra between the first and the last; fewer than this many reach theta, and more
+  // k - 2 >= 1 tetrahedra between the first and the last; fewer than this many reach theta, and more
   // exceed it
-  const double between = std::ceil(std::max(0.0, theta - slack - u1 - u2) / high);
-  return l1 + l2 + between * low > theta + slack || theta - slack > u1 + u2 + between * high;
+  const double between = std::max(1.0, std::ceil((theta - slack - u1 - u2) / high));
+  return l1 + l2 + between * low > theta + slack;
 }
 
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,

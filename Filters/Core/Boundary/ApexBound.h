@@ -64,8 +64,9 @@ private:
 };
 
 /// The angle theta at a kept edge, between two kept facets, has to be filled by k >= 1 tetrahedra.
-/// The first and the last have a given facet, and k = 1 is the tetrahedron that both span, of
-/// quality `spanned` (<= 0 or so where theta >= pi). True if no way to fill it has a worst S of c
+/// The first and the last have a given facet; k = 1 is the tetrahedron that both span, of
+/// quality `spanned` (<= 0 or so where theta >= pi); k = 2 have a node in common, see pairReaches();
+/// of more only the angles are looked at. True if no way to fill it has a worst S of c
 /// or more; c must not be above what both facets allow. theta is known up to `slack`, and what is
 /// computed from the facets up to that relative error. The greater `width` (of the levels), the
 /// quicker, and the more edges seem to forbid nothing.
