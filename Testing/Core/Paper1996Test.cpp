@@ -43,23 +43,13 @@ double absoluteVolume(const SimplexMesh<D>& mesh)
   }
   return sum;
 }
-
-struct Two
-{
-  static constexpr int dimension = 2;
-};
-struct Three
-{
-  static constexpr int dimension = 3;
-};
 }
 
 template <class T>
 class Paper : public ::testing::Test
 {
 };
-using Dimensions = ::testing::Types<Two, Three>;
-TYPED_TEST_SUITE(Paper, Dimensions);
+TYPED_TEST_SUITE(Paper, TestDimensions);
 
 TYPED_TEST(Paper, RaisesTheWorstAndKeepsTheRest)
 {

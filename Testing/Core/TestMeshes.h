@@ -16,6 +16,14 @@
 
 namespace meshopt
 {
+/// For tests that are the same in 2D and 3D.
+template <int D>
+struct TestDimension
+{
+  static constexpr int dimension = D;
+};
+using TestDimensions = ::testing::Types<TestDimension<2>, TestDimension<3>>;
+
 /// Uniform in [-1, 1]; the same numbers with every standard library.
 class TestRandom
 {
@@ -115,6 +123,48 @@ void splitRegions(MeshInput<D>& in)
     }
     in.regions.push_back(x < 0.5 ? 0 : 1);
   }
+}
+
+/// The corner of the unit square or cube.
+template <int D>
+MeshInput<D> oneCell()
+{
+  MeshInput<D> in;
+  in.points.assign(D + 1, Vec<D>::Zero());
+  Simplex<D> cell;
+  for (int i = 0; i <= D; ++i)
+  {
+    cell[i] = i;
+    if (i > 0)
+    {
+      in.points[i][i - 1] = 1.0;
+    }
+  }
+  in.cells = { cell };
+  return in;
+}
+
+/// n tetrahedra around the edge (0, 1); the last `missing` ones are left out.
+inline MeshInput<3> ringOf(int n, int missing = 0)
+{
+  MeshInput<3> in;
+  in.points = { { 0, 0, -1 }, { 0, 0, 1 } };
+  for (int k = 0; k < n; ++k)
+  {
+    const double a = 2.0 * M_PI * k / n;
+    in.points.emplace_back(std::cos(a), std::sin(a), 0.0);
+    if (k + missing < n)
+    {
+      in.cells.push_back({ 0, 1, 2 + k, 2 + (k + 1) % n });
+    }
+  }
+  return in;
+}
+
+inline std::vector<Index> sorted(std::vector<Index> v)
+{
+  std::sort(v.begin(), v.end());
+  return v;
 }
 
 template <int D>

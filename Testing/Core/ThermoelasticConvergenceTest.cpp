@@ -114,7 +114,7 @@ template <class T>
 class ThermoelasticConvergence : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(ThermoelasticConvergence, Dimensions);
+TYPED_TEST_SUITE(ThermoelasticConvergence, TestDimensions);
 
 TYPED_TEST(ThermoelasticConvergence, slopes)
 {

@@ -11,7 +11,7 @@ template <class T>
 class Thermoelastic : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(Thermoelastic, Dimensions);
+TYPED_TEST_SUITE(Thermoelastic, TestDimensions);
 
 namespace
 {

@@ -12,16 +12,6 @@
 
 namespace meshopt::fem
 {
-struct Two
-{
-  static constexpr int dimension = 2;
-};
-struct Three
-{
-  static constexpr int dimension = 3;
-};
-using Dimensions = ::testing::Types<Two, Three>;
-
 template <int D>
 SimplexMesh<D> box(int n, double jitter, unsigned seed = 1)
 {
