@@ -74,7 +74,8 @@ TYPED_TEST(MeshAudit, FindsWhatIsBroken)
     std::function<void(M&)> damage;
   };
   const std::vector<Case> cases = {
-    { "not positive", [&](M& m) { std::swap(Access::cell(m, c).nodes[0], Access::cell(m, c).nodes[1]); } },
+    { "not positive",
+      [&](M& m) { std::swap(Access::cell(m, c).nodes[0], Access::cell(m, c).nodes[1]); } },
     { "dead point",
       [&](M& m) { Access::point(m, m.nodes(c)[0]).flags &= std::uint8_t(~M::PointAlive); } },
     { "dead point", [&](M& m) { Access::cell(m, c).nodes[0] = m.numberOfPointSlots(); } },
