@@ -8,12 +8,6 @@ using namespace meshopt;
 
 namespace
 {
-template <int N>
-struct Dimension
-{
-  static constexpr int D = N;
-};
-
 template <int D>
 double cellVolume(const MeshInput<D>& in, const Simplex<D>& cell)
 {
@@ -61,14 +55,13 @@ template <class T>
 class ErrorIndicator : public testing::Test
 {
 };
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(ErrorIndicator, Dimensions);
+TYPED_TEST_SUITE(ErrorIndicator, TestDimensions);
 
 /// The same density of error at all sizes asks for the same size everywhere, though the cells of
 /// the mesh differ.
 TYPED_TEST(ErrorIndicator, EvenDensityGivesEvenSizes)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(6, 0.25);
   for (const double order : { 1.0, 2.0 })
   {
@@ -89,7 +82,7 @@ TYPED_TEST(ErrorIndicator, EvenDensityGivesEvenSizes)
 /// Where the density of error is e, sizes go with e^(-2 / (2a + D)).
 TYPED_TEST(ErrorIndicator, SizesFollowTheError)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(8, 0.2);
   ErrorIndicatorOptions options;
   options.desiredCount = 3000.0;
@@ -110,7 +103,7 @@ TYPED_TEST(ErrorIndicator, SizesFollowTheError)
 /// Half the error with elements of order 1 on an even field: half the size, 2^D times the elements.
 TYPED_TEST(ErrorIndicator, WantedError)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(6, 0.0);
   ErrorIndicatorOptions options;
   for (const double order : { 1.0, 2.0 })
@@ -144,7 +137,7 @@ TYPED_TEST(ErrorIndicator, WantedError)
 
 TYPED_TEST(ErrorIndicator, Limits)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(8, 0.1);
   ErrorIndicatorOptions options;
   options.desiredCount = D == 2 ? 3000.0 : 20000.0;

@@ -49,23 +49,17 @@ SolutionMetric<D> metricOf(const MeshInput<D>& in, const SolutionMetricOptions& 
   return metric;
 }
 
-template <int N>
-struct Dimension
-{
-  static constexpr int D = N;
-};
 }
 
 template <class T>
 class Gradation : public testing::Test
 {
 };
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(Gradation, Dimensions);
+TYPED_TEST_SUITE(Gradation, TestDimensions);
 
 TYPED_TEST(Gradation, IntersectionIsAtLeastBoth)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   TestRandom random(3);
   for (int k = 0; k < 300; ++k)
   {
@@ -85,7 +79,7 @@ TYPED_TEST(Gradation, IntersectionIsAtLeastBoth)
 /// its neighbour's lengths.
 TYPED_TEST(Gradation, GradationHoldsOnEveryEdge)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(D == 2 ? 16 : 8, 0.25);
   const SimplexMesh<D> mesh = buildMesh(in);
   SolutionMetricOptions options;

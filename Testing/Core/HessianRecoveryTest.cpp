@@ -87,23 +87,17 @@ double energy(const MeshInput<D>& in, const std::vector<double>& f)
   return sum;
 }
 
-template <int N>
-struct Dimension
-{
-  static constexpr int D = N;
-};
 }
 
 template <class T>
 class HessianRecovery : public testing::Test
 {
 };
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(HessianRecovery, Dimensions);
+TYPED_TEST_SUITE(HessianRecovery, TestDimensions);
 
 TYPED_TEST(HessianRecovery, LinearGivesZero)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(5, 0.25);
   const Field<D> linear = [](const Vec<D>& x) { return 1000.0 + 7.0 * x[0] - 3.0 * x[1]; };
   for (const Recovery recovery : { Recovery::LumpedMass, Recovery::LeastSquares })
@@ -118,7 +112,7 @@ TYPED_TEST(HessianRecovery, LinearGivesZero)
 /// Also where cells are inverted: volumes have signs.
 TYPED_TEST(HessianRecovery, LinearGivesZeroOnATangledMesh)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(5, 0.8);
   const Field<D> linear = [](const Vec<D>& x) { return 7.0 * x[0] - 3.0 * x[1]; };
   for (const Tensor<D>& h : recover<D>(in, { linear }, Recovery::LumpedMass))
@@ -129,7 +123,7 @@ TYPED_TEST(HessianRecovery, LinearGivesZeroOnATangledMesh)
 
 TYPED_TEST(HessianRecovery, LeastSquaresIsExactOnQuadratics)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const Tensor<D> h = someTensor<D>();
   for (const Tensor<D>& found :
     recover<D>(jitteredGrid<D>(4, 0.25), { quadratic<D>(h) }, Recovery::LeastSquares))
@@ -141,7 +135,7 @@ TYPED_TEST(HessianRecovery, LeastSquaresIsExactOnQuadratics)
 /// Stretched by 1000 and turned, as adapted meshes are: as exact in the mesh's own scale.
 TYPED_TEST(HessianRecovery, LeastSquaresIsAffineInvariant)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   MeshInput<D> in = jitteredGrid<D>(4, 0.25);
   Tensor<D> map = Tensor<D>::Identity();
   map(0, 0) = 1000.0;
@@ -167,7 +161,7 @@ TYPED_TEST(HessianRecovery, LeastSquaresIsAffineInvariant)
 /// Patches that are symmetric about their point; from there the boundary gets the same constant.
 TYPED_TEST(HessianRecovery, LumpedMassIsExactOnSymmetricPatches)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const Tensor<D> h = someTensor<D>();
   for (const Tensor<D>& found :
     recover<D>(jitteredGrid<D>(4, 0.0), { quadratic<D>(h) }, Recovery::LumpedMass))
@@ -180,7 +174,7 @@ TYPED_TEST(HessianRecovery, LumpedMassIsExactOnSymmetricPatches)
 /// them lowers the energy.
 TYPED_TEST(HessianRecovery, BoundaryMinimizesTheEnergy)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(4, 0.2);
   const Field<D> f = [](const Vec<D>& x) { return std::sin(3.0 * x[0]) * std::exp(x[1]); };
   const std::vector<Tensor<D>> h = recover<D>(in, { f }, Recovery::LumpedMass);
@@ -206,7 +200,7 @@ TYPED_TEST(HessianRecovery, BoundaryMinimizesTheEnergy)
 
 TYPED_TEST(HessianRecovery, ComponentsDoNotMix)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(4, 0.2);
   const Field<D> f = [](const Vec<D>& x) { return std::sin(3.0 * x[0]) * std::exp(x[1]); };
   const Field<D> g = [](const Vec<D>& x) { return x[0] * x[0] * x[D - 1]; };
@@ -226,7 +220,7 @@ TYPED_TEST(HessianRecovery, ComponentsDoNotMix)
 /// Two parts that touch nowhere in the topology (a crack through and through): each its own field.
 TYPED_TEST(HessianRecovery, SidesOfACrackDoNotMix)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   MeshInput<D> in = jitteredGrid<D>(4, 0.0);
   const MeshInput<D> other = in;
   const Index n = static_cast<Index>(in.points.size());
@@ -263,7 +257,7 @@ TYPED_TEST(HessianRecovery, SidesOfACrackDoNotMix)
 /// the lumped mass matrix converges in the mean only).
 TYPED_TEST(HessianRecovery, LeastSquaresConverges)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const Field<D> f = [](const Vec<D>& x) { return std::sin(x[0] + 2.0 * x[1]); };
   double error[2];
   for (int k = 0; k < 2; ++k)

@@ -10,15 +10,6 @@ using namespace meshopt;
 
 namespace
 {
-struct Two
-{
-  static constexpr int dimension = 2;
-};
-struct Three
-{
-  static constexpr int dimension = 3;
-};
-
 /// Lengths along x count up to 60 times as much, by a sharp ridge at x = 1/2.
 template <int D>
 NodalMetric<D> ridge(const SimplexMesh<D>& mesh)
@@ -41,8 +32,7 @@ template <class T>
 class Improving : public ::testing::Test
 {
 };
-using Dimensions = ::testing::Types<Two, Three>;
-TYPED_TEST_SUITE(Improving, Dimensions);
+TYPED_TEST_SUITE(Improving, TestDimensions);
 
 /// An insertion that was judged by the metric at the place where the search had begun could lower
 /// the worst quality, and come again and again.

@@ -95,23 +95,17 @@ double countByQuadrature(const MeshInput<D>& in, const SolutionMetric<D>& metric
     std::pow(metric.desiredSize, D);
 }
 
-template <int N>
-struct Dimension
-{
-  static constexpr int D = N;
-};
 }
 
 template <class T>
 class SolutionMetricIn : public testing::Test
 {
 };
-using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
-TYPED_TEST_SUITE(SolutionMetricIn, Dimensions);
+TYPED_TEST_SUITE(SolutionMetricIn, TestDimensions);
 
 TYPED_TEST(SolutionMetricIn, AbsoluteValue)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   TestRandom random(1);
   for (int k = 0; k < 200; ++k)
   {
@@ -139,7 +133,7 @@ TYPED_TEST(SolutionMetricIn, AbsoluteValue)
 
 TYPED_TEST(SolutionMetricIn, CombinedHessianIsTheRootOfTheSumOfSquares)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   TestRandom random(2);
   for (const double scale : { 1.0, 1e-200, 1e200 })
   {
@@ -152,7 +146,7 @@ TYPED_TEST(SolutionMetricIn, CombinedHessianIsTheRootOfTheSumOfSquares)
 
 TYPED_TEST(SolutionMetricIn, MeanOfExponential)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   std::array<double, D + 1> a;
   a.fill(-3.0);
   EXPECT_NEAR(meanOfExponential<D>(a), std::exp(-3.0), 1e-16);
@@ -182,7 +176,7 @@ TYPED_TEST(SolutionMetricIn, MeanOfExponential)
 /// A quadratic has the same Hessian everywhere: h* in closed form.
 TYPED_TEST(SolutionMetricIn, CountOnAConstantMetric)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(4, 0.2);
   const std::vector<double> values = sample<D>(in,
     [](const Vec<D>& x) { return 8.0 * x[0] * x[0] - x[1] * x[1] + 2.0 * x[D - 1] * x[D - 1]; });
@@ -211,7 +205,7 @@ TYPED_TEST(SolutionMetricIn, CountOnAConstantMetric)
 
 TYPED_TEST(SolutionMetricIn, CountIsThatOfTheInterpolatedMetric)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(D == 2 ? 12 : 6, 0.2);
   SolutionMetricOptions options;
   options.desiredCount = 3000.0;
@@ -226,7 +220,7 @@ TYPED_TEST(SolutionMetricIn, CountIsThatOfTheInterpolatedMetric)
 
 TYPED_TEST(SolutionMetricIn, TheUnitOfTheFieldDoesNotMatter)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(6, 0.2);
   std::vector<double> values = sample<D>(in);
   SolutionMetricOptions options;
@@ -247,7 +241,7 @@ TYPED_TEST(SolutionMetricIn, TheUnitOfTheFieldDoesNotMatter)
 
 TYPED_TEST(SolutionMetricIn, SizesAreWithinTheirLimits)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(8, 0.2);
   SolutionMetricOptions options;
   options.desiredCount = 4000.0;
@@ -277,7 +271,7 @@ TYPED_TEST(SolutionMetricIn, SizesAreWithinTheirLimits)
 
 TYPED_TEST(SolutionMetricIn, ACountOutOfTheLimitsIsTold)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(6, 0.2);
   const double perVolume = D == 2 ? 4.0 / std::sqrt(3.0) : 6.0 * std::sqrt(2.0);
   SolutionMetricOptions options;
@@ -304,7 +298,7 @@ TYPED_TEST(SolutionMetricIn, ACountOutOfTheLimitsIsTold)
 
 TYPED_TEST(SolutionMetricIn, AnisotropyIsCapped)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(8, 0.2);
   SolutionMetricOptions options;
   options.desiredCount = 2000.0;
@@ -327,7 +321,7 @@ TYPED_TEST(SolutionMetricIn, AnisotropyIsCapped)
 /// det(G)^(-1 / (2p + D)) G at each point, where no limit is at work.
 TYPED_TEST(SolutionMetricIn, NormOrder)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(5, 0.2);
   const std::vector<double> values = sample<D>(in,
     [](const Vec<D>& x)
@@ -349,7 +343,7 @@ TYPED_TEST(SolutionMetricIn, NormOrder)
 
 TYPED_TEST(SolutionMetricIn, Vectors)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(6, 0.2);
   const std::vector<double> scalar = sample<D>(in);
   std::vector<double> vector;
@@ -371,7 +365,7 @@ TYPED_TEST(SolutionMetricIn, Vectors)
 /// Nothing to adapt to: the Euclidean metric, and the right number all the same.
 TYPED_TEST(SolutionMetricIn, LinearFields)
 {
-  constexpr int D = TypeParam::D;
+  constexpr int D = TypeParam::dimension;
   const MeshInput<D> in = jitteredGrid<D>(6, 0.2);
   SolutionMetricOptions options;
   options.desiredCount = 1000.0;

@@ -12,7 +12,7 @@ template <class T>
 class ThermoelasticError : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(ThermoelasticError, Dimensions);
+TYPED_TEST_SUITE(ThermoelasticError, TestDimensions);
 
 namespace
 {

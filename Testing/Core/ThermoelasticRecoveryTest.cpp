@@ -9,7 +9,7 @@ template <class T>
 class ThermoelasticRecovery : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(ThermoelasticRecovery, Dimensions);
+TYPED_TEST_SUITE(ThermoelasticRecovery, TestDimensions);
 
 namespace
 {

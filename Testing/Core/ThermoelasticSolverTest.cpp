@@ -14,7 +14,7 @@ template <class T>
 class ThermoelasticSolver : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(ThermoelasticSolver, Dimensions);
+TYPED_TEST_SUITE(ThermoelasticSolver, TestDimensions);
 
 namespace
 {

@@ -115,16 +115,6 @@ inline long count(const Report& report, Operation op)
   return n;
 }
 
-struct Two
-{
-  static constexpr int dimension = 2;
-};
-struct Three
-{
-  static constexpr int dimension = 3;
-};
-
-using Dimensions = ::testing::Types<Two, Three>;
 }
 
 #endif

@@ -9,7 +9,7 @@ template <class T>
 class WorstFirstSame : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(WorstFirstSame, Dimensions);
+TYPED_TEST_SUITE(WorstFirstSame, TestDimensions);
 
 TEST(WorstFirstSame3D, SameBitsForAnyNumberOfThreads)
 {

@@ -8,7 +8,7 @@ template <class T>
 class WorstFirstStops : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(WorstFirstStops, Dimensions);
+TYPED_TEST_SUITE(WorstFirstStops, TestDimensions);
 
 // ---- options -------------------------------------------------------------------------------------
 

@@ -8,7 +8,7 @@ template <class T>
 class WorstFirst : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(WorstFirst, Dimensions);
+TYPED_TEST_SUITE(WorstFirst, TestDimensions);
 
 // ---- what it reaches -----------------------------------------------------------------------------
 

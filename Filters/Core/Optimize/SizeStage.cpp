@@ -80,6 +80,8 @@ bool SizeStage<D>::run(double predicted)
   this->longest_ = std::max(Longest, 0.5 * this->longestEdge());
   int corrections = 0;
   int last = MaximumRounds;
+  long changesBefore = std::numeric_limits<long>::max();
+  int idle = 0; // rounds in a row that did not bring changes to an end
   for (this->round_ = 0; this->round_ < last; ++this->round_)
   {
     long changes = this->contract(); // first: what is too fine in one direction is split in another
@@ -98,10 +100,14 @@ bool SizeStage<D>::run(double predicted)
       continue;
     }
     const double cells = static_cast<double>(this->report_.history.back().cells);
-    if (static_cast<double>(changes) > FewChanges * cells)
+    // The same edges may be split and contracted again round by round: that is an end, too.
+    idle = static_cast<double>(changes) > Settling * static_cast<double>(changesBefore) ? idle + 1 : 0;
+    changesBefore = changes;
+    if (static_cast<double>(changes) > FewChanges * cells && idle < MaximumIdle)
     {
       continue;
     }
+    idle = 0;
     const double ratio = cells / predicted;
     if (std::fabs(ratio - 1.0) < CountTolerance || corrections++ == MaximumCorrections ||
       this->metric_.isRaised())

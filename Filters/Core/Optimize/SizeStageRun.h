@@ -29,6 +29,8 @@ constexpr int Sweeps = 3; // of node motion, each round
 constexpr double WorthMoving = 0.97;
 /// A round that changes fewer edges than this part of the cells is the last.
 constexpr double FewChanges = 0.005;
+constexpr double Settling = 0.8; // of the changes of a round before: more do not come to an end
+constexpr int MaximumIdle = 2;
 constexpr double CountTolerance = 0.03;
 constexpr int MaximumCorrections = 3;
 constexpr double GreatestScale = 1.25;
