@@ -94,7 +94,10 @@ def mesh_side(logarithm, loop, lift, axes):
         metric = np.tile(np.eye(3), (len(points), 1, 1))
         metric[:, :2, :2] = of_eigenvalues(logarithm(lift(points)), np.exp)[:, axes][:, :, axes]
         add_metric(grid, of_eigenvalues(metric, np.log))
+        before = points
         points, triangles = arrays_of(optimize(grid, 2.0).GetOutput())
+        if np.array_equal(points, before):
+            break
     if not np.array_equal(points[:len(loop)], loop):
         raise RuntimeError("the boundary of a side has changed")
     return points, triangles

@@ -86,3 +86,20 @@ TEST(SizeLimits, SplittingHasABrake)
   EXPECT_LT(run.report.sizes.cellsAtBrake, most + 10.0);
   EXPECT_LT(run.cells, 1.1 * most);
 }
+
+// In a mesh of some ten triangles one node is a fifth of them: to correct the number to a few percent
+// made the worst element bad, and then the sizes were given up.
+TEST(SizeLimits, SmallMeshesGetTheirSizes)
+{
+  for (unsigned seed : { 3, 18, 28 })
+  {
+    TestRandom random(seed);
+    const double h = (1.0 + 0.3 * random()) / 3.0, along = 1.0 + 0.5 * random();
+    Tensor<2> metric = Tensor<2>::Identity();
+    metric(0, 0) = along * along;
+    const Result<2> run = optimized<2>(
+      jitteredGrid<2>(3, 0.2, seed), constantMetric<2>(metric, h), options(2.0), false);
+    EXPECT_FALSE(run.report.sizes.isGivenUp) << seed;
+    EXPECT_NEAR(static_cast<double>(run.cells), run.predicted, 5.0) << seed;
+  }
+}

@@ -18,6 +18,8 @@ namespace
 {
 /// What may be added once the number of elements is what the sizes ask for.
 constexpr double GrowthAfterSizes = 0.05;
+template <int D>
+constexpr double CellsOfTwoNodes = D == 2 ? 4.0 : 12.0; // in small meshes that much
 /// Inverted cells are worked on until the worst cell is as good as that: just positive is soon tangled again.
 constexpr double UntangledQuality = 0.3;
 /// Less is rounding: a cell that is flat, in a mesh that need not be tangled.
@@ -175,7 +177,9 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   if (more)
   {
     Options rest = optionsLeft();
-    rest.growthBudget = std::min(rest.growthBudget, GrowthAfterSizes);
+    const auto cells = static_cast<double>(report.history.back().cells);
+    rest.growthBudget =
+      std::min(rest.growthBudget, std::max(GrowthAfterSizes, CellsOfTwoNodes<D> / cells));
     optimizeWorstFirst<D>(editor, followed, rest, improving, report, curves);
   }
   else

@@ -109,8 +109,8 @@ bool SizeStage<D>::run(double predicted)
     }
     idle = 0;
     const double ratio = cells / predicted;
-    if (std::fabs(ratio - 1.0) < CountTolerance || corrections++ == MaximumCorrections ||
-      this->metric_.isRaised())
+    if (std::fabs(cells - predicted) < std::max(CountTolerance * predicted, CountSlack<D>) ||
+      corrections++ == MaximumCorrections || this->metric_.isRaised())
     {
       break;
     }
