@@ -112,15 +112,12 @@ private:
     for (int halving = 0; halving < 40; ++halving, t *= 0.5)
     {
       const Vec<3> next = p + t * step;
-      if (this->isInside(next))
+      const double value = this->isInside(next) ? this->mean(next, weight) : 0.0;
+      if (value > lambda)
       {
-        const double value = this->mean(next, weight);
-        if (value > lambda)
-        {
-          p = next;
-          lambda = value;
-          return true;
-        }
+        p = next;
+        lambda = value;
+        return true;
       }
     }
     return false;

@@ -16,10 +16,8 @@ namespace meshopt
 {
 namespace
 {
-/// What may be added once the number of elements is what the sizes ask for.
+/// What may be added once the number of elements is what the sizes ask for; in small meshes CellsOfTwoNodes.
 constexpr double GrowthAfterSizes = 0.05;
-template <int D>
-constexpr double CellsOfTwoNodes = D == 2 ? 4.0 : 12.0; // in small meshes that much
 /// Inverted cells are worked on until the worst cell is as good as that: just positive is soon tangled again.
 constexpr double UntangledQuality = 0.3;
 /// Less is rounding: a cell that is flat, in a mesh that need not be tangled.
@@ -178,8 +176,8 @@ void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Optio
   {
     Options rest = optionsLeft();
     const auto cells = static_cast<double>(report.history.back().cells);
-    rest.growthBudget =
-      std::min(rest.growthBudget, std::max(GrowthAfterSizes, CellsOfTwoNodes<D> / cells));
+    rest.growthBudget = std::min(
+      rest.growthBudget, std::max(GrowthAfterSizes, CellsOfTwoNodes<D> / cells));
     optimizeWorstFirst<D>(editor, followed, rest, improving, report, curves);
   }
   else

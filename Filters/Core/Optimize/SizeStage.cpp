@@ -101,7 +101,8 @@ bool SizeStage<D>::run(double predicted)
     }
     const double cells = static_cast<double>(this->report_.history.back().cells);
     // The same edges may be split and contracted again round by round: that is an end, too.
-    idle = static_cast<double>(changes) > Settling * static_cast<double>(changesBefore) ? idle + 1 : 0;
+    idle = static_cast<double>(changes) > Settling * static_cast<double>(changesBefore) ? idle + 1
+                                                                                        : 0;
     changesBefore = changes;
     if (static_cast<double>(changes) > FewChanges * cells && idle < MaximumIdle)
     {
@@ -109,8 +110,10 @@ bool SizeStage<D>::run(double predicted)
     }
     idle = 0;
     const double ratio = cells / predicted;
-    if (std::fabs(cells - predicted) < std::max(CountTolerance * predicted, CountSlack<D>) ||
-      corrections++ == MaximumCorrections || this->metric_.isRaised())
+    // half a cell, as the prediction is no whole number
+    const double slack = std::max(CountTolerance * predicted, CellsOfTwoNodes<D> + 0.5);
+    if (std::fabs(cells - predicted) < slack || corrections++ == MaximumCorrections ||
+      this->metric_.isRaised())
     {
       break;
     }

@@ -11,11 +11,15 @@
 
 namespace meshopt
 {
+/// In small meshes so many cells more or less, those that two nodes inside bring, are no wrong number.
+template <int D>
+inline constexpr double CellsOfTwoNodes = D == 2 ? 4.0 : 12.0;
+
 /// Splits edges longer than sqrt(2) h*, the longest first, and contracts those shorter than
 /// h* / sqrt(2), the shortest first; lengths are those of EdgeLengths.h. In between, edges are swapped where that
 /// raises the worse quality, and nodes move to where their edges have the wanted length. Once nothing
-/// is left to do, h* is scaled a little such that the number of elements is the `predicted` one (5.3): not
-/// if the metric is raised, which then fills fewer. Where there are several times as many, as where
+/// is left to do, or the same edges are split and contracted in turn, h* is scaled a little such that the number of
+/// elements is the `predicted` one (5.3), to 3 % or CellsOfTwoNodes: not if the metric is raised, which then fills fewer. Where there are several times as many, as where
 /// lengths change faster than edges can follow, splitting ends (report.sizes.cellsAtBrake).
 ///
 /// Precondition: no cell is inverted or flat. The surface is kept but for what may slide along `curves`

@@ -32,9 +32,6 @@ constexpr double FewChanges = 0.005;
 constexpr double Settling = 0.8; // of the changes of a round before: more do not come to an end
 constexpr int MaximumIdle = 2;
 constexpr double CountTolerance = 0.03;
-/// In small meshes two nodes' cells more or less are no reason to change all sizes.
-template <int D>
-constexpr double CountSlack = D == 2 ? 4.5 : 12.5;
 constexpr int MaximumCorrections = 3;
 constexpr double GreatestScale = 1.25;
 /// Splitting ends for good when there are so many times as many cells as predicted, or as in the

@@ -43,10 +43,7 @@ private:
   bool lookAheadAt(Index c);
   void touch(const std::vector<Index>& cells, const std::vector<Index>& points);
 
-  bool isAllowed(Filling kind) const
-  {
-    return this->parameters_.allowed[static_cast<int>(kind)];
-  }
+  bool isAllowed(Filling kind) const { return this->parameters_.allowed[static_cast<int>(kind)]; }
   bool isFresh(Index c) const
   {
     return this->memory_.hasChanged(this->mesh_, c, this->memory_.failed[c]);
@@ -192,8 +189,7 @@ void Reconnection<D, Shape>::listWorst()
   const auto count = std::min<std::size_t>(this->parameters_.lookAhead, this->candidates_.size());
   std::partial_sort(this->candidates_.begin(), this->candidates_.begin() + count,
     this->candidates_.end(),
-    [&](Index a, Index b)
-    {
+    [&](Index a, Index b) {
       return std::make_pair(this->mesh_.quality(a), a) < std::make_pair(this->mesh_.quality(b), b);
     });
   this->candidates_.resize(count);
