@@ -1,5 +1,5 @@
 # One function per kind of test. Each test stands on a line of its own in the CMakeLists.txt of its folder:
-#   meshopt_core_test(SimplexMeshTest)          Testing/Core/SimplexMeshTest.cpp, GoogleTest, no VTK
+#   meshopt_core_test(Mesh/SimplexMeshTest)     Testing/Core/Mesh/SimplexMeshTest.cpp, GoogleTest, no VTK
 #   meshopt_cxx_test(TestMeshOptimizeFilter)    Testing/Cxx/TestMeshOptimizeFilter.cxx, a main(argc, argv), VTK
 #   meshopt_python_test(TestMeasures)           Testing/Python/TestMeasures.py, by python3 and by pvpython if there is one
 #   meshopt_pvpython_test(TestProxies [PVBATCH] [MPI n] [RENDERS] [LOADS_PLUGIN])   Testing/ParaView/TestProxies.py
@@ -36,9 +36,11 @@ function (_meshopt_test_properties name label)
     ENVIRONMENT_MODIFICATION "${MESHOPTIMIZE_TEST_ENVIRONMENT}")
 endfunction ()
 
-function (meshopt_core_test name)
+function (meshopt_core_test path)
   cmake_parse_arguments(arg "" "TIMEOUT" "ARGS" ${ARGN})
-  add_executable(${name} "${name}.cpp")
+  get_filename_component(name "${path}" NAME)
+  add_executable(${name} "${path}.cpp")
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/Testing/Core")
   target_link_libraries(${name} PRIVATE MeshOptimizeCore MeshOptimizeWarnings GTest::gtest GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE MESHOPTIMIZE_DATA_DIR="${MESHOPTIMIZE_DATA_DIR}")
   add_test(NAME core.${name} COMMAND ${name} ${arg_ARGS})

@@ -11,10 +11,10 @@
 #include "../Core/TestMeshes.h"
 #include "BarePass.h"
 
-#include "Optimize/Statistics.h"
-#include "Reconnect/Cavity.h"
-#include "Reconnect/EdgeRemoval.h"
-#include "Reconnect/FaceRemoval.h"
+#include "Run/Summary.h"
+#include "Operations/Cavity.h"
+#include "Operations/EdgeRemoval.h"
+#include "Operations/FaceRemoval.h"
 #include "Reposition/StarProblem.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // Nanoseconds per element of each measure: value and gradient, in 2D and 3D. Google Benchmark.
 #include "Quality/ElementQuality.h"
-#include "Quality/Predicates.h"
+#include "Mesh/Predicates.h"
 
 #include <benchmark/benchmark.h>
 

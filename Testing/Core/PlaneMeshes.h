@@ -3,7 +3,7 @@
 #ifndef meshopt_Testing_PlaneMeshes_h
 #define meshopt_Testing_PlaneMeshes_h
 
-#include "Boundary/BoundaryCurves.h"
+#include "Surface/BoundaryCurves.h"
 #include "TestMeshes.h"
 
 #include <functional>

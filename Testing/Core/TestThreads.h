@@ -3,7 +3,7 @@
 #ifndef meshopt_Testing_TestThreads_h
 #define meshopt_Testing_TestThreads_h
 
-#include "Optimize/Options.h"
+#include "Base/Control.h"
 
 #include <atomic>
 #include <random>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Metric/Background.h"
 
-#include "Quality/ShapeGeometry.h"
+#include "Mesh/SimplexGeometry.h"
 
 #include <Eigen/LU>
 

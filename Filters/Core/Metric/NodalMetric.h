@@ -7,7 +7,7 @@
 #include "Mesh/SimplexMesh.h"
 #include "Metric/Background.h"
 #include "Metric/SizeFloor.h"
-#include "Quality/Measure.h"
+#include "Metric/ElementMetric.h"
 
 #include <memory>
 #include <string>

@@ -2,11 +2,11 @@
 #include "Optimize/Optimizer.h"
 
 #include "Mesh/MeshEditor.h"
-#include "Optimize/KeptSizes.h"
-#include "Optimize/Paper1996.h"
-#include "Optimize/SizeStage.h"
-#include "Optimize/Statistics.h"
-#include "Optimize/WorstFirst.h"
+#include "Surface/KeptSizes.h"
+#include "Paper1996/Paper1996.h"
+#include "Sizes/SizeStage.h"
+#include "Run/Summary.h"
+#include "WorstFirst/WorstFirst.h"
 
 #include <algorithm>
 #include <chrono>

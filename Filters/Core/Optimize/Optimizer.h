@@ -4,10 +4,12 @@
 #ifndef meshopt_Optimize_Optimizer_h
 #define meshopt_Optimize_Optimizer_h
 
-#include "Boundary/BoundaryCurves.h"
+#include "Surface/BoundaryCurves.h"
 #include "Mesh/SimplexMesh.h"
 #include "Metric/NodalMetric.h"
-#include "Optimize/Options.h"
+#include "Base/Control.h"
+#include "Run/Options.h"
+#include "Run/Report.h"
 
 namespace meshopt
 {

@@ -6,6 +6,7 @@
 #ifndef meshopt_Quality_ElementQuality_h
 #define meshopt_Quality_ElementQuality_h
 
+#include "Metric/ElementMetric.h"
 #include "Quality/Measure.h"
 #include "Quality/Shape.h"
 

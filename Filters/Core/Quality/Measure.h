@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Measure.h
-/// Names of the quality measures, and the element quality that is optimized.
+/// Names of the quality measures.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), equations (2.1)-(2.3).
 #ifndef meshopt_Quality_Measure_h
 #define meshopt_Quality_Measure_h
-
-#include "Mesh/Types.h"
 
 namespace meshopt
 {
@@ -40,16 +38,6 @@ constexpr double regularValue(Measure measure)
       return 1.0;
   }
 }
-
-/// What an element's size is measured against (2.2), and in which metric. One per element; frozen
-/// within one local solve.
-template <int D>
-struct ElementMetric
-{
-  bool euclidean = true;
-  Tensor<D> map = Tensor<D>::Identity(); ///< M^(1/2): coordinates are mapped by it first
-  double desiredSize = 0.0;              ///< h*, in the metric; used when beta > 0
-};
 }
 
 #endif

@@ -9,7 +9,7 @@
 #define meshopt_Thermoelastic_Assembly_h
 
 #include "Mesh/SimplexMesh.h"
-#include "Optimize/Options.h"
+#include "Base/Control.h"
 #include "Thermoelastic/Problem.h"
 
 #include <Eigen/SparseCore>

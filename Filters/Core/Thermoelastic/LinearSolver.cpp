@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Thermoelastic/LinearSolver.h"
 
-#include "Optimize/Progress.h"
+#include "Base/Progress.h"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>

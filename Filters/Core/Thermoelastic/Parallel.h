@@ -5,7 +5,7 @@
 #define meshopt_Thermoelastic_Parallel_h
 
 #include "Mesh/Types.h"
-#include "Optimize/Options.h"
+#include "Base/Control.h"
 
 #include <algorithm>
 

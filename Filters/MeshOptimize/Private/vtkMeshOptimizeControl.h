@@ -4,7 +4,7 @@
 #ifndef vtkMeshOptimizeControl_h
 #define vtkMeshOptimizeControl_h
 
-#include "Optimize/Options.h"
+#include "Base/Control.h"
 
 #include <chrono>
 

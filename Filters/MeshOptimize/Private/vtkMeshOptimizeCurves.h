@@ -7,7 +7,7 @@
 #include "vtkMeshOptimizeArrays.h"
 #include "vtkMeshOptimizeFrame.h"
 
-#include "Boundary/BoundaryCurves.h"
+#include "Surface/BoundaryCurves.h"
 
 #include <string>
 

@@ -7,7 +7,7 @@
 #include "vtkMeshOptimizeExport.h"
 
 #include "Metric/NodalMetric.h"
-#include "Optimize/Options.h"
+#include "Run/Options.h"
 
 class vtkUnstructuredGrid;
 

@@ -4,9 +4,11 @@
 #ifndef vtkMeshOptimizeRun_h
 #define vtkMeshOptimizeRun_h
 
-#include "Boundary/BoundaryCurves.h"
-#include "Optimize/EdgeLengths.h"
-#include "Optimize/Options.h"
+#include "Surface/BoundaryCurves.h"
+#include "Metric/EdgeLengths.h"
+#include "Base/Control.h"
+#include "Run/Options.h"
+#include "Run/Report.h"
 
 #include "vtkType.h"
 

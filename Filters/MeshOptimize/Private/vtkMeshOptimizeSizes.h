@@ -7,7 +7,7 @@
 #include "vtkMeshOptimizeFrame.h"
 
 #include "Metric/NodalMetric.h"
-#include "Optimize/Options.h"
+#include "Run/Report.h"
 
 #include <string>
 

@@ -4,7 +4,7 @@
 #include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"
 
-#include "Boundary/SurfaceFaults.h"
+#include "Surface/SurfaceFaults.h"
 
 #include <algorithm>
 #include <sstream>

@@ -6,7 +6,7 @@
 
 #include "vtkMeshOptimizeExport.h"
 
-#include "Optimize/Options.h"
+#include "Run/Report.h"
 
 #include <string>
 

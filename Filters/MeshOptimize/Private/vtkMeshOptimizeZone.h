@@ -12,7 +12,7 @@
 
 #include "Mesh/SimplexMesh.h"
 #include "Metric/NodalMetric.h"
-#include "Optimize/Options.h"
+#include "Run/Options.h"
 
 #include <vector>
 

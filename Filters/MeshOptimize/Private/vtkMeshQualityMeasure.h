@@ -7,7 +7,7 @@
 #include "vtkMeshQualityGrid.h"
 
 #include "Quality/Measure.h"
-#include "Quality/Statistics.h"
+#include "Quality/QualityStatistics.h"
 
 #include <map>
 

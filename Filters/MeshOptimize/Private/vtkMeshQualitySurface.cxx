@@ -9,7 +9,7 @@
  */
 #include "vtkMeshQualityMeasure.h"
 
-#include "Boundary/SurfaceBound.h"
+#include "Bound/SurfaceBound.h"
 
 #include "vtkSMPTools.h"
 

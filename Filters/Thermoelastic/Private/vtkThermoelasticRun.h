@@ -5,7 +5,7 @@
 #ifndef vtkThermoelasticRun_h
 #define vtkThermoelasticRun_h
 
-#include "Optimize/Options.h"
+#include "Base/Control.h"
 #include "Thermoelastic/Analysis.h"
 
 #include "vtkType.h"

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bound/ApexBound.h"
+
+#include "Bound/PairBound.h"
+#include "Quality/Shape.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+constexpr double shapeConstant = MeanEdgeShape<3>::constant;
+
+double cubed(double x) { return x * x * x; }
+
+/// Maximize z^(1/3) / P(p), with z > 0 the last coordinate of p and P(p) = base + sum_i of sqrt(|p
+/// - pole_i|^2 + offset_i): three edges lead from the free node to given ones. Since the facet that
+/// is given has a constant area, V is z times a constant.
+template <int N>
+struct ApexProblem
+{
+  using Point = Eigen::Matrix<double, N, 1>;
+  using Matrix = Eigen::Matrix<double, N, N>;
+
+  double base = 0.0;
+  Point pole[3];
+  double offset[3] = { 0.0, 0.0, 0.0 };
+
+  double sum(const Point& p) const
+  {
+    double s = this->base;
+    for (int i = 0; i < 3; ++i)
+    {
+      s += std::sqrt((p - this->pole[i]).squaredNorm() + this->offset[i]);
+    }
+    return s;
+  }
+
+  void derivatives(const Point& p, Point& g, Matrix& h) const
+  {
+    g.setZero();
+    h.setZero();
+    for (int i = 0; i < 3; ++i)
+    {
+      const Point v = p - this->pole[i];
+      const double d = 1.0 / std::sqrt(v.squaredNorm() + this->offset[i]);
+      g += d * v;
+      h += d * Matrix::Identity() - (d * d * d) * v * v.transpose();
+    }
+  }
+
+  /// An upper bound of the maximum, from the start p, which becomes the best place; stops where
+  /// `enough` is reached.
+  double maximize(Point& p, double enough) const
+  {
+    double z = std::cbrt(p[N - 1]);
+    double s = this->sum(p);
+    double lastRest = 1e30;
+    for (int iteration = 0; iteration < 60; ++iteration)
+    {
+      const double lambda = z / s;
+      if (lambda >= enough)
+      {
+        return lambda;
+      }
+      Point g;
+      Matrix h;
+      this->derivatives(p, g, h);
+      Point slope = -lambda * g;
+      slope[N - 1] += z / (3.0 * p[N - 1]);
+      // concave: the maximum of z^(1/3) - lambda P, 0 at p, is at most the slope times a distance.
+      // The best node is nearer to the given ones than their perimeter, and so is p.
+      const double rest = slope.norm() * 2.0 * this->base / s;
+      if (rest <= 1e-13 * lambda)
+      {
+        return lambda + rest;
+      }
+      h *= lambda;
+      h(N - 1, N - 1) += 2.0 * z / (9.0 * p[N - 1] * p[N - 1]);
+      const Point step = h.llt().solve(slope);
+      if (!this->advance(step, p, z, s))
+      {
+        // z / s is as great as rounding lets it be seen; steps may still make the slope smaller
+        if (rest > 0.5 * lastRest || p[N - 1] + step[N - 1] <= 0.0)
+        {
+          return lambda + std::min(rest, lastRest);
+        }
+        lastRest = rest;
+        p += step;
+        z = std::cbrt(p[N - 1]);
+        s = this->sum(p);
+      }
+    }
+    return 1e30;
+  }
+
+private:
+  /// The longest of the steps 1, 1/2, 1/4 ... that raises z / s. False if none does.
+  bool advance(const Point& step, Point& p, double& z, double& s) const
+  {
+    double t = 1.0;
+    for (int halving = 0; halving < 40; ++halving, t *= 0.5)
+    {
+      const Point next = p + t * step;
+      if (next[N - 1] < 0.1 * p[N - 1])
+      {
+        continue;
+      }
+      const double zNext = std::cbrt(next[N - 1]);
+      const double sNext = this->sum(next);
+      if (zNext * s > z * sNext)
+      {
+        p = next;
+        z = zNext;
+        s = sNext;
+        return true;
+      }
+    }
+    return false;
+  }
+};
+
+/// S from lambda = z^(1/3) / P and back; the given facet has this area.
+double shapeOf(double lambda, double area)
+{
+  return std::min(1.0, shapeConstant * (area / 3.0) * cubed(lambda));
+}
+double lambdaOf(double shape, double area)
+{
+  return std::cbrt(shape * 3.0 / (shapeConstant * area));
+}
+}
+
+double facetCap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, double enough, Vec<3>* apex)
+{
+  // a frame in the plane of the facet, the origin in its centre, its longest edge as the unit of
+  // length
+  const Vec<3> u = b - a, v = c - a;
+  const double unit = std::sqrt(
+    std::max(u.squaredNorm(), std::max(v.squaredNorm(), (v - u).squaredNorm())));
+  if (!std::isfinite(u.squaredNorm() + v.squaredNorm()))
+  {
+    return 1.0;
+  }
+  const Vec<3> normal = u.cross(v);
+  const double twiceArea = normal.norm();
+  if (twiceArea == 0.0)
+  {
+    return 0.0;
+  }
+  const Vec<3> e0 = u / u.norm();
+  const Vec<3> e2 = normal / twiceArea;
+  const Vec<3> e1 = e2.cross(e0);
+  const Vec<3> centre = (u + v) / 3.0;
+  ApexProblem<3> problem;
+  const Vec<3> corners[3] = { -centre, u - centre, v - centre };
+  for (int i = 0; i < 3; ++i)
+  {
+    problem.pole[i] << e0.dot(corners[i]) / unit, e1.dot(corners[i]) / unit, 0.0;
+  }
+  problem.base = (u.norm() + v.norm() + (v - u).norm()) / unit;
+  const double area = 0.5 * twiceArea / (unit * unit);
+  Eigen::Vector3d p(0.0, 0.0, 0.27 * problem.base);
+  const double target = std::isfinite(enough) ? lambdaOf(enough, area) : enough;
+  const double lambda = problem.maximize(p, target);
+  if (apex)
+  {
+    *apex = a + centre + unit * (p[0] * e0 + p[1] * e1 + p[2] * e2);
+  }
+  return shapeOf(lambda, area);
+}
+
+double angleCap(double phi)
+{
+  // The edge has length 1, the other nodes are at the distance r from its middle: dS/dr = 0 is
+  // m (1 - r s) = 2 r^2 - 1, with s = sin(phi / 2), m = sqrt(r^2 + 1/4); falling in r.
+  const double s = std::sin(0.5 * phi);
+  double r = 0.85;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double m = std::sqrt(r * r + 0.25);
+    const double f = m * (1.0 - r * s) - 2.0 * r * r + 1.0;
+    const double df = r / m * (1.0 - r * s) - m * s - 4.0 * r;
+    r -= f / df;
+  }
+  const double p = 1.0 + 4.0 * std::sqrt(r * r + 0.25) + 2.0 * r * s;
+  return std::min(1.0, shapeConstant * r * r * std::sin(phi) / 6.0 / cubed(p));
+}
+
+double angleCap2(double phi)
+{
+  const double p = 2.0 + 2.0 * std::sin(0.5 * phi);
+  return std::min(1.0, MeanEdgeShape<2>::constant * 0.5 * std::sin(phi) / (p * p));
+}
+
+namespace
+{
+/// The place between `out` (where f < c) and `in` (f >= c) at which f reaches c, from without: by
+/// false position, halving the weight of an end that stays (Illinois).
+template <class F>
+double crossing(double out, double fOut, double in, double fIn, double c, double width, F&& f)
+{
+  double a = fOut - c, b = fIn - c;
+  for (int i = 0; i < 100 && std::fabs(in - out) > width; ++i)
+  {
+    double x = b > a ? out + (in - out) * (-a / (b - a)) : 0.5 * (in + out);
+    // keeps a little off both ends, so that the interval closes from both sides
+    const double least = 0.4 * width, margin = in > out ? least : -least;
+    x = std::fabs(x - out) < least ? out + margin : std::fabs(x - in) < least ? in - margin : x;
+    const double y = f(x) - c;
+    if (y >= 0.0)
+    {
+      in = x;
+      b = y;
+      a *= 0.5;
+    }
+    else
+    {
+      out = x;
+      a = y;
+      b *= 0.5;
+    }
+  }
+  return out;
+}
+}
+
+void angleCapLevel(double c, double& low, double& high, double width)
+{
+  const double best = std::acos(1.0 / 3.0);
+  low = crossing(0.0, 0.0, best, 1.0, c, width, angleCap);
+  high = crossing(pi, 0.0, best, 1.0, c, width, angleCap);
+}
+
+EdgeView::EdgeView(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& apex)
+{
+  const Vec<3> u = b - a, v = c - a;
+  const double l2 = u.squaredNorm(), l = std::sqrt(l2);
+  this->along = u.dot(v) / l2;
+  this->off = u.cross(v).norm() / l2;
+  this->perimeter = 1.0 + (v.norm() + (v - u).norm()) / l;
+  this->usable = l2 > 0.0 && std::isfinite(this->perimeter) && this->off > 0.0;
+  if (this->usable)
+  {
+    const Vec<3> t = u / l, w = apex - a;
+    const Vec<3> across = v - v.dot(t) * t;
+    this->best = std::atan2(std::fabs(w.dot(t.cross(across))), w.dot(across));
+  }
+}
+
+double EdgeView::cap(double phi, double enough) const
+{
+  Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
+  return this->capFrom(phi, enough, p);
+}
+
+double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p) const
+{
+  // In the half plane at the angle phi: s along the edge, r away from it; V = off r sin(phi) / 6.
+  const double sine = std::sin(phi), cosine = std::cos(phi);
+  ApexProblem<2> problem;
+  problem.base = this->perimeter;
+  problem.pole[0] << 0.0, 0.0;
+  problem.pole[1] << 1.0, 0.0;
+  problem.pole[2] << this->along, this->off * cosine;
+  problem.offset[2] = this->off * sine * this->off * sine;
+  const double area = 0.5 * this->off * sine; // V = area r / 3
+  if (!(area > 0.0))
+  {
+    return 0.0;
+  }
+  const double target = std::isfinite(enough) ? lambdaOf(enough, area) : enough;
+  return shapeOf(problem.maximize(p, target), area);
+}
+
+bool EdgeView::level(double c, double& low, double& high, double width) const
+{
+  // each search starts from the best place of the one before
+  const double exact = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
+  const auto value = [this, exact, &p](double phi) { return this->capFrom(phi, exact, p); };
+  const double most = value(this->best);
+  if (most < c * (1.0 - 1e-12))
+  {
+    return false;
+  }
+  const Eigen::Vector2d top = p;
+  low = crossing(0.0, 0.0, this->best, std::max(most, c), c, width, value);
+  p = top;
+  high = crossing(pi, 0.0, this->best, std::max(most, c), c, width, value);
+  return true;
+}
+
+namespace
+{
+/// Is there a filling by three or more that is easily found? For the many edges that forbid nothing.
+bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& last)
+{
+  const auto between = [c](double angle, int n)
+  { return angle > 0.0 && angle < n * pi && angleCap(angle / n) >= c; };
+  const auto ends = [c, &first, &last](double angle)
+  { return angle < pi && first.cap(angle, c) >= c && last.cap(angle, c) >= c; };
+  const int most = std::max(
+    3, static_cast<int>(theta) + 1); // the next one has less than 57 degrees each
+  for (int k = most; k >= 3 && k >= most - 2; --k)
+  {
+    if (between(theta - first.best - last.best, k - 2) ||
+      (between(theta * (k - 2) / k, k - 2) && ends(theta / k)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
+bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
+  double spanned, double slack, double width)
+{
+  if (!first.usable || !last.usable || !std::isfinite(theta) || c <= 0.0 || spanned >= c)
+  {
+    return false;
+  }
+  // Two: V at the other facet is wrong by slack times the node's distance, and S by 1833 / 24 slack at most.
+  if (pairReaches(c * (1.0 - 8.0 * slack) - 100.0 * slack, theta, first, last) ||
+    fillsSimply(c, theta, first, last))
+  {
+    return false;
+  }
+  c *= 1.0 - 8.0 * slack;
+  double low, high;
+  angleCapLevel(c, low, high, width);
+  double l1, u1, l2, u2;
+  if (!first.level(c, l1, u1, width) || !last.level(c, l2, u2, width))
+  {
+    return false; // the best place is not known well enough
+  }
+  // k - 2 >= 1 tetrahedra between the first and the last; fewer than this many reach theta, and more
+  // exceed it
+  const double between = std::max(1.0, std::ceil((theta - slack - u1 - u2) / high));
+  return l1 + l2 + between * low > theta + slack;
+}
+
+double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
+  double spanned, double tolerance, double slack, double width)
+{
+  double low = std::max(0.0, spanned), high = above;
+  while (high - low > tolerance * high && high > 1e-12)
+  {
+    const double middle = low > 0.1 * high ? 0.5 * (low + high) : 0.3 * high;
+    (edgeForbids(middle, theta, first, last, spanned, slack, width) ? high : low) = middle;
+  }
+  return high;
+}
+}

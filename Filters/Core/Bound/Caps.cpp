@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bound/Caps.h"
+
+#include <algorithm>
+
+namespace meshopt
+{
+template <int D>
+void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, bool known)
+{
+  this->bound_ = 1.0;
+  this->largest_ = -1.0;
+  this->hasTiny_ = false;
+  this->facets_.clear();
+  this->edges_.clear();
+  if (!known)
+  {
+    return;
+  }
+  SurfaceBoundOptions options;
+  options.measure = measure;
+  options.enough = limit;
+  options.listEdgesBelow = limit;
+  const SurfaceBound<D> surface = surfaceBound(mesh, options);
+  this->bound_ = surface.bound;
+  for (std::size_t k = 0; k < surface.sides.size(); ++k)
+  {
+    if (surface.sideCaps[k] < limit)
+    {
+      Facet<D> f = surface.sides[k].nodes;
+      std::sort(f.begin(), f.end());
+      this->facets_[f] = surface.sideCaps[k];
+      this->hasTiny_ |= surface.sideCaps[k] < Tiny;
+      this->largest_ = std::max(this->largest_, surface.sideCaps[k]);
+    }
+  }
+  for (const EdgeBound& e : surface.edges)
+  {
+    if (e.cap < limit && e.b != None)
+    {
+      double& cap =
+        this->edges_.try_emplace({ std::min(e.a, e.b), std::max(e.a, e.b) }, 1.0).first->second;
+      cap = std::min(cap, e.cap);
+      this->largest_ = std::max(this->largest_, e.cap);
+    }
+  }
+}
+
+template <int D>
+double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
+{
+  if (std::any_of(f.begin(), f.end(), [&](Index p) { return !mesh.isBoundary(p); }))
+  {
+    return 1.0;
+  }
+  std::sort(f.begin(), f.end());
+  const auto found = this->facets_.find(f);
+  return found == this->facets_.end() || found->second >= Tiny
+    ? 1.0
+    : this->full_ / std::max(found->second, Rounding);
+}
+
+template <int D>
+double Caps<D>::weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) const
+{
+  double weight = 1.0;
+  for (int i = 0; i <= D; ++i)
+  {
+    Facet<D> f;
+    std::copy_n(nodes.begin(), i, f.begin());
+    std::copy(nodes.begin() + i + 1, nodes.end(), f.begin() + i);
+    weight = std::max(weight, this->weight(mesh, f));
+  }
+  return weight;
+}
+
+template <int D>
+bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
+{
+  const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh, mesh.nodes(c)) : 1.0);
+  if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))
+  {
+    return false;
+  }
+  for (int i = 0; i <= D && !this->facets_.empty(); ++i)
+  {
+    if (mesh.isConstrained(c, i))
+    {
+      Facet<D> f = mesh.facet(c, i);
+      std::sort(f.begin(), f.end());
+      const auto found = this->facets_.find(f);
+      if (found != this->facets_.end() && q >= this->reached_ * found->second)
+      {
+        return true;
+      }
+    }
+  }
+  return this->isCappedByEdge(mesh, c);
+}
+
+template <int D>
+double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
+{
+  if (this->facets_.empty() || !mesh.isConstrained(c, i))
+  {
+    return -1.0;
+  }
+  Facet<D> f = mesh.facet(c, i);
+  std::sort(f.begin(), f.end());
+  const auto found = this->facets_.find(f);
+  return found == this->facets_.end() ? -1.0
+                                      : std::max(mesh.quality(c), this->reached_ * found->second);
+}
+
+template <int D>
+bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
+{
+  if constexpr (D == 3)
+  {
+    std::vector<Index> ring;
+    for (const auto& e : Local<D>::edges)
+    {
+      const Index a = mesh.nodes(c)[e[0]], b = mesh.nodes(c)[e[1]];
+      if (this->edges_.empty() || !mesh.isBoundary(a) || !mesh.isBoundary(b))
+      {
+        continue;
+      }
+      const auto found = this->edges_.find({ std::min(a, b), std::max(a, b) });
+      if (found == this->edges_.end() || !(mesh.quality(c) >= this->reached_ * found->second))
+      {
+        continue;
+      }
+      mesh.ring(c, a, b, false, ring);
+      if (std::none_of(ring.begin(), ring.end(),
+            [&](Index o) { return o != c && mesh.quality(o) <= found->second; }))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+template class Caps<2>;
+template class Caps<3>;
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bound/PairBound.h"
+
+#include "Quality/Shape.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+/// One of the two tetrahedra, its free node being p; the common edge goes from 0 to (1, 0, 0).
+struct Half
+{
+  Vec<3> tip;    ///< third node of the facet
+  Vec<3> inward; ///< times p: proportional to V
+  double base;   ///< perimeter of the facet
+
+  Half(const EdgeView& view, double angle, double turn)
+    : tip(view.along, view.off * std::cos(angle), view.off * std::sin(angle))
+    , inward(turn * view.off * Vec<3>(0.0, -std::sin(angle), std::cos(angle)))
+    , base(view.perimeter)
+  {
+  }
+
+  /// (c V)^(1/3), in perimeters of the facet.
+  double root(const Vec<3>& p) const
+  {
+    return std::cbrt(MeanEdgeShape<3>::constant / 6.0 * this->inward.dot(p)) / this->base;
+  }
+
+  /// Sum of the edges, likewise.
+  double sum(const Vec<3>& p) const
+  {
+    return 1.0 + (p.norm() + (p - Vec<3>::UnitX()).norm() + (p - this->tip).norm()) / this->base;
+  }
+
+  /// Adds to the gradient of -(root - lambda sum), times weight, and to its second derivatives.
+  void differentiate(
+    const Vec<3>& p, double lambda, double weight, Vec<3>& g, Eigen::Matrix3d& h) const
+  {
+    const double height = this->inward.dot(p);
+    const double slope = weight * this->root(p) / (3.0 * height);
+    g -= slope * this->inward;
+    h += (2.0 * slope / (3.0 * height)) * this->inward * this->inward.transpose();
+    for (const Vec<3>& pole : { Vec<3>(Vec<3>::Zero()), Vec<3>(Vec<3>::UnitX()), this->tip })
+    {
+      const Vec<3> v = p - pole;
+      const double d = 1.0 / v.norm(), l = weight * lambda * d / this->base;
+      g += l * v;
+      h += l * Eigen::Matrix3d::Identity() - (l * d * d) * v * v.transpose();
+    }
+  }
+};
+
+class Pair
+{
+public:
+  Pair(double theta, const EdgeView& first, const EdgeView& last)
+    : first_(first, 0.0, 1.0)
+    , last_(last, theta, -1.0)
+  {
+  }
+
+  bool isInside(const Vec<3>& p) const
+  {
+    return this->first_.inward.dot(p) > 0.0 && this->last_.inward.dot(p) > 0.0;
+  }
+
+  /// S^(1/3) of both.
+  double first(const Vec<3>& p) const { return this->first_.root(p) / this->first_.sum(p); }
+  double last(const Vec<3>& p) const { return this->last_.root(p) / this->last_.sum(p); }
+
+  double mean(const Vec<3>& p, double weight) const
+  {
+    return (weight * this->first_.root(p) + (1.0 - weight) * this->last_.root(p)) /
+      (weight * this->first_.sum(p) + (1.0 - weight) * this->last_.sum(p));
+  }
+
+  /// Moves p to the best place for the weighted mean; returns an upper bound of what the worse of both can
+  /// have anywhere, as S^(1/3).
+  double maximize(double weight, Vec<3>& p) const
+  {
+    double lambda = this->mean(p, weight);
+    double rest = 0.0;
+    for (int iteration = 0; iteration < 40; ++iteration)
+    {
+      Vec<3> g = Vec<3>::Zero();
+      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+      this->first_.differentiate(p, lambda, weight, g, h);
+      this->last_.differentiate(p, lambda, 1.0 - weight, g, h);
+      // Concave: the mean is at most the slope times a distance above lambda. The best place for both is
+      // no farther from the edge's middle than the longer perimeter, as beyond both get better on the
+      // straight way back. The sums, by which is to be divided, are at least 1.
+      const double radius = std::max(this->first_.base, this->last_.base);
+      rest = g.norm() * (radius + (p - 0.5 * Vec<3>::UnitX()).norm());
+      if (rest <= 1e-11 * lambda || !this->advance(h.llt().solve(-g), weight, p, lambda))
+      {
+        break;
+      }
+    }
+    return lambda + rest;
+  }
+
+private:
+  /// The longest of the steps 1, 1/2, 1/4 ... that raises the mean. False if none does.
+  bool advance(const Vec<3>& step, double weight, Vec<3>& p, double& lambda) const
+  {
+    double t = 1.0;
+    for (int halving = 0; halving < 40; ++halving, t *= 0.5)
+    {
+      const Vec<3> next = p + t * step;
+      const double value = this->isInside(next) ? this->mean(next, weight) : 0.0;
+      if (value > lambda)
+      {
+        p = next;
+        lambda = value;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  Half first_, last_;
+};
+}
+
+bool pairReaches(double c, double theta, const EdgeView& first, const EdgeView& last)
+{
+  const Pair pair(theta, first, last);
+  const double wanted = std::cbrt(c);
+  const double away = 0.13 * (first.perimeter + last.perimeter);
+  Vec<3> p(0.25 + 0.25 * (first.along + last.along), away * std::cos(0.5 * theta),
+    away * std::sin(0.5 * theta));
+  double low = 0.0, high = 1.0;
+  for (int halving = 0; halving < 40 && pair.isInside(p); ++halving)
+  {
+    const double s1 = pair.first(p), s2 = pair.last(p);
+    if (s1 >= wanted && s2 >= wanted)
+    {
+      return true;
+    }
+    if (halving > 0)
+    {
+      (s1 < s2 ? low : high) = 0.5 * (low + high);
+    }
+    if (pair.maximize(0.5 * (low + high), p) < wanted)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}

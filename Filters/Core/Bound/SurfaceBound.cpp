@@ -1,0 +1,442 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Bound/SurfaceBound.h"
+
+#include "Bound/ApexBound.h"
+#include "Quality/Shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+/// Edge (3D) or node (2D) k of a side, ready to be sorted so that those that coincide are
+/// neighbours.
+struct Rim
+{
+  Index low, high; ///< nodes; in 2D both are the node
+  Index region;
+  Index side;
+  std::int8_t k; ///< local number: the edge from node k to node k + 1; in 2D node k
+  bool forward;  ///< from low to high; in 2D: the side begins here
+  bool operator<(const Rim& other) const
+  {
+    return this->low != other.low    ? this->low < other.low
+      : this->high != other.high     ? this->high < other.high
+      : this->region != other.region ? this->region < other.region
+                                     : this->side < other.side;
+  }
+  bool sameWedge(const Rim& other) const
+  {
+    return this->low == other.low && this->high == other.high && this->region == other.region;
+  }
+};
+
+std::vector<Rim> collectRims(const std::vector<KeptSide<3>>& sides)
+{
+  std::vector<Rim> rims;
+  rims.reserve(3 * sides.size());
+  for (std::size_t s = 0; s < sides.size(); ++s)
+  {
+    for (std::int8_t k = 0; k < 3; ++k)
+    {
+      const Index a = sides[s].nodes[k], b = sides[s].nodes[(k + 1) % 3];
+      rims.push_back(
+        { std::min(a, b), std::max(a, b), sides[s].region, static_cast<Index>(s), k, a < b });
+    }
+  }
+  std::sort(rims.begin(), rims.end());
+  return rims;
+}
+
+std::vector<Rim> collectRims(const std::vector<KeptSide<2>>& sides)
+{
+  std::vector<Rim> rims;
+  rims.reserve(2 * sides.size());
+  for (std::size_t s = 0; s < sides.size(); ++s)
+  {
+    for (std::int8_t k = 0; k < 2; ++k)
+    {
+      const Index a = sides[s].nodes[k];
+      rims.push_back({ a, a, sides[s].region, static_cast<Index>(s), k, k == 0 });
+    }
+  }
+  std::sort(rims.begin(), rims.end());
+  return rims;
+}
+
+/// An angle in ]0, 2 pi[, and how far the true one may be from it, also round 0.
+struct Angle
+{
+  double value = 0.0, error = 0.0;
+
+  Angle() = default;
+  /// `blur`: relative errors of y and x, in units of the rounding error.
+  Angle(double y, double x, double blur)
+    : value(std::atan2(y, x))
+    , error(16.0 * std::numeric_limits<double>::epsilon() * blur)
+  {
+    this->value += this->value > 0.0 ? 0.0 : 2.0 * pi;
+  }
+  /// False where it may as well be 0 as 2 pi, or anything.
+  bool known() const
+  {
+    return this->error < 1e-3 && this->value > this->error && this->value < 2.0 * pi - this->error;
+  }
+  bool isBelow(const Angle& other) const
+  {
+    return this->value + this->error < other.value - other.error;
+  }
+};
+
+/// What both dimensions share: facet caps, then the wedges between neighbouring sides of one
+/// region.
+template <int D>
+class BoundBuilder
+{
+public:
+  BoundBuilder(const Vec<D>* points, const SurfaceBoundOptions& options, SurfaceBound<D>& result)
+    : points_(points)
+    , options_(options)
+    , enough_(std::max(options.enough, options.listEdgesBelow))
+    , result_(result)
+  {
+  }
+
+  void run()
+  {
+    const double regular = regularValue<D>(this->options_.measure);
+    this->result_.bound = regular;
+    this->result_.sideCaps.assign(this->result_.sides.size(), regular);
+    this->capSides();
+    if (this->options_.useEdges && this->options_.measure == Measure::Shape)
+    {
+      this->capWedges();
+    }
+  }
+
+private:
+  void capSides();
+  void capWedges();
+  void capWedge(const Rim& from, const Rim& to, const Angle& theta);
+  Angle angle(const Rim& from, const Rim& to) const;
+  double wedgeCap(const Rim& from, const Rim& to, const Angle& theta, double below) const;
+  double capOfSide(std::size_t s, double enough);
+
+  /// The node of a side that is not on the rim.
+  Index tip(const Rim& rim) const
+  {
+    return this->result_.sides[rim.side].nodes[D == 3 ? (rim.k + 2) % 3 : 1 - rim.k];
+  }
+
+  /// A wedge begins at one rim, and ends at the one met first when turning into it.
+  struct Wedge
+  {
+    const Rim* from;
+    const Rim* to;
+    Angle theta;
+  };
+  bool findWedge(const Rim& from, const Rim* begin, const Rim* end, Wedge& wedge) const;
+  bool findWedges(const Rim* begin, const Rim* end, std::vector<Wedge>& wedges) const;
+
+  const Vec<D>* points_;
+  const SurfaceBoundOptions options_;
+  double enough_;
+  SurfaceBound<D>& result_;
+  std::vector<Vec<D>> apexes_; ///< D = 3
+};
+
+template <>
+double BoundBuilder<2>::capOfSide(std::size_t, double)
+{
+  return 1.0; // every edge has an equilateral triangle
+}
+
+template <>
+double BoundBuilder<3>::capOfSide(std::size_t s, double enough)
+{
+  const Facet<3>& f = this->result_.sides[s].nodes;
+  const Vec<3>&a = this->points_[f[0]], &b = this->points_[f[1]], &c = this->points_[f[2]];
+  switch (this->options_.measure)
+  {
+    case Measure::Shape:
+      return facetCap(a, b, c, enough, &this->apexes_[s]);
+    case Measure::VolumeLength:
+    case Measure::MeanRatio:
+    {
+      // The best apex is above the centroid, and gives the mean ratio 4 sqrt(3) A / sum l^2 of the
+      // facet itself.
+      const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+      const double area = 0.5 * (b - a).cross(c - a).norm();
+      const double cap = squares == 0.0 ? 0.0 : std::min(1.0, 6.928203230275509 * area / squares);
+      if (!std::isfinite(squares))
+      {
+        return 1.0;
+      }
+      return this->options_.measure == Measure::VolumeLength ? cap : std::cbrt(cap * cap);
+    }
+    default:
+      return regularValue<3>(this->options_.measure);
+  }
+}
+
+template <int D>
+void BoundBuilder<D>::capSides()
+{
+  if (D == 3)
+  {
+    this->apexes_.resize(this->result_.sides.size());
+  }
+  double bound = this->result_.bound;
+  for (std::size_t s = 0; s < this->result_.sides.size(); ++s)
+  {
+    const double cap = this->capOfSide(s, std::max(bound, this->enough_));
+    this->result_.sideCaps[s] = cap;
+    bound = std::min(bound, cap);
+  }
+  this->result_.bound = bound;
+}
+
+template <int D>
+bool BoundBuilder<D>::findWedge(
+  const Rim& from, const Rim* begin, const Rim* end, Wedge& wedge) const
+{
+  wedge = { &from, nullptr, {} };
+  // A facet's own back side is behind all others, at 2 pi exactly; it is no use to compute this.
+  Angle back;
+  back.value = 2.0 * pi;
+  for (const Rim* rim = begin; rim != end; ++rim)
+  {
+    if (rim->forward)
+    {
+      continue;
+    }
+    const bool own = this->tip(*rim) == this->tip(from);
+    const Angle t = own ? back : this->angle(from, *rim);
+    if (!own && !t.known())
+    {
+      return false;
+    }
+    if (!wedge.to || t.value < wedge.theta.value)
+    {
+      wedge.to = rim;
+      wedge.theta = t;
+    }
+  }
+  // nothing may be as near as the end, but for the front of that facet
+  for (const Rim* rim = begin; wedge.to && rim != end; ++rim)
+  {
+    if (rim == &from || rim == wedge.to)
+    {
+      continue;
+    }
+    const Index tip = this->tip(*rim);
+    if (tip == this->tip(rim->forward ? from : *wedge.to))
+    {
+      return false; // one side twice
+    }
+    if (tip != this->tip(rim->forward ? *wedge.to : from))
+    {
+      const Angle t = this->angle(from, *rim);
+      if (!t.known() || !wedge.theta.isBelow(t))
+      {
+        return false;
+      }
+    }
+  }
+  return wedge.to != nullptr;
+}
+
+/// False where the sides at the edge do not bound wedges one after another, in an order that is
+/// beyond doubt: facets folded onto each other, wedges that overlap, sides missing.
+template <int D>
+bool BoundBuilder<D>::findWedges(const Rim* begin, const Rim* end, std::vector<Wedge>& wedges) const
+{
+  wedges.clear();
+  for (const Rim* rim = begin; rim != end; ++rim)
+  {
+    if (!this->result_.sides[rim->side].oriented)
+    {
+      return false;
+    }
+    if (rim->forward)
+    {
+      wedges.emplace_back();
+      if (!this->findWedge(*rim, begin, end, wedges.back()))
+      {
+        return false;
+      }
+    }
+  }
+  // as many ends as beginnings: then they alternate
+  return 2 * static_cast<std::ptrdiff_t>(wedges.size()) == end - begin;
+}
+
+template <int D>
+void BoundBuilder<D>::capWedges()
+{
+  const std::vector<Rim> rims = collectRims(this->result_.sides);
+  std::vector<Wedge> wedges;
+  for (std::size_t i = 0, j = 0; i < rims.size(); i = j)
+  {
+    for (j = i + 1; j < rims.size() && rims[i].sameWedge(rims[j]);)
+    {
+      ++j;
+    }
+    if (this->findWedges(rims.data() + i, rims.data() + j, wedges))
+    {
+      for (const Wedge& wedge : wedges)
+      {
+        this->capWedge(*wedge.from, *wedge.to, wedge.theta);
+      }
+    }
+  }
+}
+
+template <int D>
+void BoundBuilder<D>::capWedge(const Rim& from, const Rim& to, const Angle& theta)
+{
+  // only what the facets at the edge do not forbid by themselves
+  const double list = this->options_.listEdgesBelow;
+  const double facets = std::min(
+    this->result_.sideCaps[from.side], this->result_.sideCaps[to.side]);
+  const double below = std::min(facets, std::max(this->result_.bound, list));
+  const double cap = this->wedgeCap(from, to, theta, below * (1.0 - 1e-9));
+  if (cap < below * (1.0 - 1e-9))
+  {
+    if (cap < list)
+    {
+      this->result_.edges.push_back({ from.low, D == 2 ? None : from.high, cap });
+    }
+    this->result_.bound = std::min(this->result_.bound, cap);
+  }
+}
+
+template <>
+Angle BoundBuilder<2>::angle(const Rim& from, const Rim& to) const
+{
+  const Vec<2>& x = this->points_[from.low];
+  const Vec<2> u = this->points_[this->tip(from)] - x;
+  const Vec<2> v = this->points_[this->tip(to)] - x;
+  return Angle(u[0] * v[1] - u[1] * v[0], u.dot(v), 1.0);
+}
+
+template <>
+Angle BoundBuilder<3>::angle(const Rim& from, const Rim& to) const
+{
+  const Vec<3>& a = this->points_[from.low];
+  const Vec<3> t = this->points_[from.high] - a;
+  const Vec<3> u = this->points_[this->tip(from)] - a;
+  const Vec<3> v = this->points_[this->tip(to)] - a;
+  // normals of both half planes, turned the same way: (t x u) . (t x v) and t . ((t x u) x (t x v))
+  const Vec<3> m = t.cross(u), n = t.cross(v);
+  // of a needle along the edge the normal is known badly
+  const double l = t.norm();
+  const double blur = 1.0 + l * u.norm() / m.norm() + l * v.norm() / n.norm();
+  return Angle(l * u.dot(v.cross(t)), m.dot(n), blur);
+}
+
+template <>
+double BoundBuilder<2>::wedgeCap(
+  const Rim& from, const Rim& to, const Angle& angle, double below) const
+{
+  const Vec<2>& x = this->points_[from.low];
+  const Vec<2>& b = this->points_[this->result_.sides[from.side].nodes[1]];
+  const Vec<2>& c = this->points_[this->result_.sides[to.side].nodes[0]];
+  const double theta = angle.value;
+  double cap = theta < pi ? MeanEdgeShape<2>::value({ x, b, c }) : 0.0;
+  const int last = 2 + static_cast<int>(theta); // angles under 60 degrees only get worse
+  for (int k = 2; k <= last && cap < below; ++k)
+  {
+    if (theta / k < pi)
+    {
+      cap = std::max(cap, angleCap2(theta / k));
+    }
+  }
+  return cap + angle.error; // more than what the error of theta can do
+}
+
+template <>
+double BoundBuilder<3>::wedgeCap(
+  const Rim& from, const Rim& to, const Angle& angle, double below) const
+{
+  const double theta = angle.value, slack = angle.error;
+  const Vec<3>&a = this->points_[from.low], &b = this->points_[from.high];
+  const Vec<3>&c = this->points_[this->tip(from)], &d = this->points_[this->tip(to)];
+  // rounding: seen from other corners the volume of a flat one differs by some 1e-14
+  const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + 1e-13 : 0.0;
+  const EdgeView first(a, b, c, this->apexes_[from.side]);
+  const EdgeView last(a, b, d, this->apexes_[to.side]);
+  // exactly only what sets the bound
+  const bool exact = below <= this->result_.bound;
+  const double width = exact ? 1e-9 : 1e-3 * std::min(1.0, theta);
+  if (!edgeForbids(below, theta, first, last, spanned, slack, width))
+  {
+    return 1.0;
+  }
+  const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 1e-3, slack, width);
+  if (!exact && 0.9 * cap < this->result_.bound &&
+    edgeForbids(this->result_.bound, theta, first, last, spanned, slack))
+  {
+    return edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack);
+  }
+  return cap;
+}
+}
+
+template <int D>
+std::vector<double> SurfaceBound<D>::cellCaps(Index numberOfCells) const
+{
+  std::vector<double> caps(numberOfCells, 1.0);
+  for (std::size_t s = 0; s < this->sides.size(); ++s)
+  {
+    double& cap = caps[this->sides[s].cell];
+    cap = std::min(cap, this->sideCaps[s]);
+  }
+  return caps;
+}
+
+template <int D>
+SurfaceBound<D> surfaceBound(
+  const Vec<D>* points, std::vector<KeptSide<D>> sides, const SurfaceBoundOptions& options)
+{
+  SurfaceBound<D> result;
+  result.sides = std::move(sides);
+  BoundBuilder<D>(points, options, result).run();
+  return result;
+}
+
+template <int D>
+SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptions& options)
+{
+  std::vector<Vec<D>> points(mesh.numberOfPointSlots());
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    points[p] = mesh.point(p);
+  }
+  std::vector<KeptSide<D>> sides;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; mesh.isAlive(c) && i <= D; ++i)
+    {
+      if (mesh.isConstrained(c, i))
+      {
+        sides.push_back({ mesh.facet(c, i), c, mesh.region(c), true });
+      }
+    }
+  }
+  return surfaceBound<D>(points.data(), std::move(sides), options);
+}
+
+template struct SurfaceBound<2>;
+template struct SurfaceBound<3>;
+template SurfaceBound<2> surfaceBound(
+  const Vec<2>*, std::vector<KeptSide<2>>, const SurfaceBoundOptions&);
+template SurfaceBound<3> surfaceBound(
+  const Vec<3>*, std::vector<KeptSide<3>>, const SurfaceBoundOptions&);
+template SurfaceBound<2> surfaceBound(const SimplexMesh<2>&, const SurfaceBoundOptions&);
+template SurfaceBound<3> surfaceBound(const SimplexMesh<3>&, const SurfaceBoundOptions&);
+}

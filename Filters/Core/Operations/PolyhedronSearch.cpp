@@ -1,0 +1,496 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Operations/PolyhedronSearch.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace meshopt
+{
+using namespace pointset;
+
+namespace
+{
+constexpr int choose2(int n) { return n * (n - 1) / 2; }
+constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
+constexpr int choose4(int n) { return n * (n - 1) * (n - 2) / 2 * (n - 3) / 12; }
+
+constexpr std::size_t Memory = 4096; // fronts remembered; a later one takes the place of an older
+
+/// A fixed number without pattern for each k (splitmix64).
+std::uint64_t scramble(std::uint64_t k)
+{
+  k += 0x9e3779b97f4a7c15ull;
+  k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9ull;
+  k = (k ^ (k >> 27)) * 0x94d049bb133111ebull;
+  return k ^ (k >> 31);
+}
+
+/// Sorts; returns 1 for an odd permutation, else 0.
+int sort(int& a, int& b)
+{
+  const int odd = a > b, low = std::min(a, b);
+  b = std::max(a, b);
+  a = low;
+  return odd;
+}
+}
+
+int PolyhedronSearch::quadrupleOf(int a, int b, int c, int d)
+{
+  return a + choose2(b) + choose3(c) + choose4(d);
+}
+
+int PolyhedronSearch::sideOf(int a, int b, int c)
+{
+  int odd = sort(a, b);
+  odd ^= sort(b, c);
+  odd ^= sort(a, b);
+  return 2 * (a + choose2(b) + choose3(c)) + odd;
+}
+
+// --- the polyhedron
+
+void PolyhedronSearch::clear()
+{
+  this->signs_.clear();
+  this->mustStay_ = 0;
+  this->boundary_.clear();
+  this->candidates_.clear();
+  this->solution_.clear();
+}
+
+void PolyhedronSearch::addPoint(const Vec<3>& x, bool stay)
+{
+  this->mustStay_ |= stay ? bit(this->signs_.size()) : 0;
+  this->signs_.add(x);
+}
+
+bool PolyhedronSearch::setBoundary(const std::vector<Triangle>& facets)
+{
+  this->candidates_.clear();
+  this->solution_.clear();
+  this->boundary_.clear();
+  if (facets.size() > MaximumFacets)
+  {
+    return false;
+  }
+  this->boundary_ = facets;
+  return true;
+}
+
+void PolyhedronSearch::loadBoundary()
+{
+  const int n = this->signs_.size();
+  const std::size_t pairs = choose2(n);
+  this->states_.resize(std::max<std::size_t>(1, this->states_.size()));
+  this->deadEnds_.resize(Memory);
+  this->crossing_.resize(std::max(this->crossing_.size(), pairs * pairs));
+  this->quality_.resize(std::max<std::size_t>(this->quality_.size(), choose4(n)));
+  this->crossingKnown_.assign(choose2(n), 0);
+  State& s = this->states_[0];
+  s.facets = 0;
+  s.used = s.dropped = 0;
+  s.hash = 0;
+  std::fill_n(s.edges, n, 0);
+  std::fill_n(s.blocked, n, 0);
+  std::fill_n(s.third, choose2(n), 0);
+  std::fill_n(s.open, n * n, 0);
+  this->facetOfSide_.assign(2 * choose3(n), 0);
+  for (const Triangle& f : this->boundary_)
+  {
+    this->open(s, f[0], f[1], f[2]);
+    this->facetOfSide_[s.front[s.facets - 1].side] = static_cast<std::uint8_t>(s.facets);
+    s.used |= bit(f[0]) | bit(f[1]) | bit(f[2]);
+  }
+  this->stay_ = this->mustStay_ | s.used;
+  // last, when it is known what is blocked anyway
+  for (const Triangle& f : this->boundary_)
+  {
+    this->addEdge(s, f[0], f[1]);
+    this->addEdge(s, f[1], f[2]);
+    this->addEdge(s, f[2], f[0]);
+  }
+}
+
+// --- what crosses what
+
+/// Edges that cross facet (i, j, k) are blocked.
+void PolyhedronSearch::blockEdges(State& s, int i, int j, int k) const
+{
+  const PointSigns& at = this->signs_;
+  const Mask up = at.above(i, j, k), down = at.above(j, i, k);
+  for (int a = 0; a < at.size(); ++a)
+  {
+    const Mask other = has(up, a) ? down : has(down, a) ? up : 0;
+    s.blocked[a] |= other &
+      ((at.above(i, j, a) & at.above(j, k, a) & at.above(k, i, a)) |
+        (at.above(j, i, a) & at.above(k, j, a) & at.above(i, k, a)));
+  }
+}
+
+/// Facets that edge (a, b) crosses; those with an edge that is blocked from the start are left out.
+void PolyhedronSearch::findCrossing(int a, int b)
+{
+  const PointSigns& at = this->signs_;
+  const int pairs = choose2(at.size());
+  Mask* row = &this->crossing_[pairOf(a, b) * pairs];
+  std::fill_n(row, pairs, 0);
+  for (int i = 0; i < at.size(); ++i)
+  {
+    // the line through a and b has i, j and k in turn around it
+    const Mask left = at.above(a, b, i), right = at.above(b, a, i);
+    Mask rest = (left | right) & ~this->states_[0].blocked[i] & ~(bit(i) | (bit(i) - 1));
+    for (; rest; rest &= rest - 1)
+    {
+      const int j = lowest(rest);
+      const Mask k = has(left, j) ? at.above(a, b, j) & right : at.above(b, a, j) & left;
+      // and a and b are on different sides
+      row[pairOf(i, j)] = k &
+        ((at.above(i, j, a) & at.above(j, i, b)) | (at.above(j, i, a) & at.above(i, j, b)));
+    }
+  }
+  this->crossingKnown_[pairOf(a, b)] = 1;
+}
+
+/// Facets that edge (a, b) crosses are blocked.
+void PolyhedronSearch::blockFacets(State& s, int a, int b)
+{
+  if (!this->crossingKnown_[pairOf(a, b)])
+  {
+    this->findCrossing(a, b);
+  }
+  const int pairs = choose2(this->signs_.size());
+  const Mask* row = &this->crossing_[pairOf(a, b) * pairs];
+  for (int k = 0; k < pairs; ++k)
+  {
+    s.third[k] |= row[k];
+  }
+}
+
+// --- the front
+
+void PolyhedronSearch::copy(const State& from, State& to) const
+{
+  const int n = this->signs_.size();
+  to.facets = from.facets;
+  to.used = from.used;
+  to.dropped = from.dropped;
+  to.hash = from.hash;
+  std::copy_n(from.front, from.facets, to.front);
+  std::copy_n(from.edges, n, to.edges);
+  std::copy_n(from.blocked, n, to.blocked);
+  std::copy_n(from.third, choose2(n), to.third);
+  std::copy_n(from.open, n * n, to.open);
+}
+
+void PolyhedronSearch::addEdge(State& s, int a, int b)
+{
+  if (!has(s.edges[a], b))
+  {
+    s.edges[a] |= bit(b);
+    s.edges[b] |= bit(a);
+    this->blockFacets(s, a, b);
+  }
+}
+
+/// Adds (a, b, c) to the front.
+void PolyhedronSearch::open(State& s, int a, int b, int c)
+{
+  const int n = this->signs_.size(), side = sideOf(a, b, c);
+  s.front[s.facets++] = { std::uint8_t(a), std::uint8_t(b), std::uint8_t(c), std::uint16_t(side) };
+  s.open[a * n + b] |= bit(c);
+  s.open[b * n + c] |= bit(a);
+  s.open[c * n + a] |= bit(b);
+  s.hash ^= scramble(side);
+  this->blockEdges(s, a, b, c);
+}
+
+/// Takes (a, b, c), which is there, from the front; it must not come again.
+void PolyhedronSearch::close(State& s, int a, int b, int c) const
+{
+  const int n = this->signs_.size(), side = sideOf(a, b, c);
+  int k = 0;
+  while (s.front[k].side != side)
+  {
+    ++k;
+  }
+  s.front[k] = s.front[--s.facets];
+  s.open[a * n + b] &= ~bit(c);
+  s.open[b * n + c] &= ~bit(a);
+  s.open[c * n + a] &= ~bit(b);
+  s.third[pairOf(a, b)] |= bit(c);
+  s.third[pairOf(b, c)] |= bit(a);
+  s.third[pairOf(c, a)] |= bit(b);
+  s.hash ^= scramble(side);
+}
+
+/// The front after the tetrahedron (f, p).
+void PolyhedronSearch::place(const Front& f, int p, const State& s, State& next)
+{
+  this->copy(s, next);
+  next.used |= bit(p);
+  next.dropped |= this->signs_.inside(f.a, f.b, f.c, p);
+  this->close(next, f.a, f.b, f.c);
+  this->addEdge(next, f.a, p);
+  this->addEdge(next, f.b, p);
+  this->addEdge(next, f.c, p);
+  const int n = this->signs_.size(), ring[4] = { f.a, f.b, f.c, f.a };
+  for (int k = 0; k < 3; ++k)
+  {
+    const int a = ring[k], b = ring[k + 1];
+    has(next.open[b * n + a], p) ? this->close(next, b, a, p) : this->open(next, a, b, p);
+  }
+}
+
+/// Points that may stand on f.
+PolyhedronSearch::Mask PolyhedronSearch::apexes(const State& s, const Front& f) const
+{
+  const int n = this->signs_.size();
+  return this->apex_[f.side] &
+    ~(s.blocked[f.a] | s.blocked[f.b] | s.blocked[f.c] | s.third[pairOf(f.a, f.b)] |
+      s.third[pairOf(f.b, f.c)] | s.third[pairOf(f.c, f.a)] | s.open[f.a * n + f.b] |
+      s.open[f.b * n + f.c] | s.open[f.c * n + f.a] | s.dropped);
+}
+
+// --- candidates
+
+void PolyhedronSearch::findCandidates()
+{
+  this->loadBoundary();
+  this->candidates_.clear();
+  const State& s = this->states_[0];
+  for (int k = 2; k < this->signs_.size(); ++k)
+  {
+    const Mask later = ~(bit(k) | (bit(k) - 1));
+    for (int j = 1; j < k; ++j)
+    {
+      if (has(s.blocked[j], k))
+      {
+        continue;
+      }
+      const Mask fit = later & ~(s.blocked[j] | s.blocked[k] | s.third[pairOf(j, k)]);
+      for (int i = 0; i < j; ++i)
+      {
+        if (!has(s.blocked[i] | s.third[pairOf(i, j)], k) && !has(s.blocked[i], j))
+        {
+          this->addCandidates(i, j, k,
+            fit & ~(s.blocked[i] | s.third[pairOf(i, j)] | s.third[pairOf(i, k)]) &
+              (this->signs_.above(i, j, k) | this->signs_.above(j, i, k)));
+        }
+      }
+    }
+  }
+}
+
+/// Adds {i < j < k < l} for all l in `apexes`, but for those with a point inside that must stay,
+/// and those that stand on the boundary from outside.
+void PolyhedronSearch::addCandidates(int i, int j, int k, Mask apexes)
+{
+  const auto triple = [](int a, int b, int c) { return 2 * (a + choose2(b) + choose3(c)); };
+  for (; apexes; apexes &= apexes - 1)
+  {
+    const int l = lowest(apexes);
+    const int odd = has(this->signs_.above(j, i, k), l);
+    const int a = odd ? j : i, b = odd ? i : j;
+    const std::array<int, 4> sides{ triple(b, k, l) + 1, triple(a, k, l), triple(i, j, l) + !odd,
+      triple(i, j, k) + odd };
+    Candidate t;
+    t.nodes = { std::uint8_t(a), std::uint8_t(b), std::uint8_t(k), std::uint8_t(l) };
+    bool outside = false;
+    for (int m = 0; m < 4; ++m)
+    {
+      t.sides[m] = static_cast<std::uint16_t>(sides[m]);
+      outside |= this->facetOfSide_[sides[m] ^ 1] != 0;
+    }
+    if (!outside && !(this->signs_.inside(a, b, k, l) & this->stay_))
+    {
+      this->candidates_.push_back(t);
+    }
+  }
+}
+
+/// Makes the candidates better than `bound` available. False if a facet of the boundary is bare.
+bool PolyhedronSearch::offer(double bound)
+{
+  this->bound_ = bound;
+  this->apex_.assign(2 * choose3(this->signs_.size()), 0);
+  this->alive_.clear();
+  for (std::size_t k = 0; k < this->candidates_.size(); ++k)
+  {
+    const Candidate& t = this->candidates_[k];
+    if (t.quality > bound)
+    {
+      this->alive_.push_back(static_cast<std::uint16_t>(k));
+      const int i = std::min(t.nodes[0], t.nodes[1]), j = std::max(t.nodes[0], t.nodes[1]);
+      this->quality_[quadrupleOf(i, j, t.nodes[2], t.nodes[3])] = t.quality;
+      for (int m = 0; m < 4; ++m)
+      {
+        this->apex_[t.sides[m]] |= bit(t.nodes[m]);
+      }
+    }
+  }
+  const State& s = this->states_[0];
+  for (int k = 0; k < s.facets; ++k)
+  {
+    if (this->apex_[s.front[k].side] == 0)
+    {
+      this->bareFacet_ = k;
+      return false;
+    }
+  }
+  return this->strike();
+}
+
+/// Strikes out candidates that are not better than bound_, or that none can join at a facet, until
+/// there are none such. False as soon as a facet of the boundary is bare.
+bool PolyhedronSearch::strike()
+{
+  bool changed = true;
+  while (changed)
+  {
+    changed = false;
+    std::size_t kept = 0;
+    for (std::uint16_t k : this->alive_)
+    {
+      const Candidate& t = this->candidates_[k];
+      bool good = t.quality > this->bound_;
+      for (int m = 0; m < 4 && good; ++m)
+      {
+        good = this->apex_[t.sides[m] ^ 1] != 0 || this->facetOfSide_[t.sides[m]] != 0;
+      }
+      if (good)
+      {
+        this->alive_[kept++] = k;
+        continue;
+      }
+      changed = true;
+      for (int m = 0; m < 4; ++m)
+      {
+        this->apex_[t.sides[m]] &= ~bit(t.nodes[m]);
+        if (this->apex_[t.sides[m]] == 0 && this->facetOfSide_[t.sides[m]] != 0)
+        {
+          this->bareFacet_ = this->facetOfSide_[t.sides[m]] - 1;
+          return false;
+        }
+      }
+    }
+    this->alive_.resize(kept);
+  }
+  return true;
+}
+
+// --- branch and bound
+
+double PolyhedronSearch::search(double above, long steps)
+{
+  this->solution_.clear();
+  this->placed_.clear();
+  this->bareFacet_ = -1;
+  this->steps_ = 0;
+  this->ranOut_ = this->finished_ = false;
+  this->budget_ = steps;
+  this->salt_ = scramble(this->salt_); // what was remembered before no longer matches
+  if (!this->offer(above))
+  {
+    return Never;
+  }
+  this->descend(0, std::numeric_limits<double>::infinity());
+  this->bareFacet_ = -1;
+  return this->solution_.empty() ? Never : this->bound_;
+}
+
+/// The open facet with the fewest apexes left. False if there is one without any.
+bool PolyhedronSearch::choose(const State& s, Front& f, Mask& apexes) const
+{
+  int fewest = MaximumPoints + 1;
+  for (int k = 0; k < s.facets && fewest > 1; ++k)
+  {
+    const Mask left = this->apexes(s, s.front[k]);
+    const int n = count(left);
+    if (n < fewest)
+    {
+      fewest = n;
+      apexes = left;
+      f = s.front[k];
+    }
+  }
+  return fewest > 0;
+}
+
+/// Fills what the front of this level encloses; `worst` is the worst quality placed so far. Returns
+/// true if all fillings better than bound_ have been seen.
+bool PolyhedronSearch::descend(int level, double worst)
+{
+  const State& s = this->states_[level];
+  if (s.facets == 0)
+  {
+    if ((this->stay_ & ~s.used) == 0)
+    {
+      this->solution_ = this->placed_;
+      this->bound_ = worst;
+      this->finished_ = !this->strike();
+    }
+    return true;
+  }
+  const std::uint64_t tag = s.hash ^ this->salt_;
+  std::uint64_t& memory = this->deadEnds_[s.hash % Memory];
+  Front f{};
+  Mask apexes = 0;
+  if (memory == tag || !this->choose(s, f, apexes))
+  {
+    return true;
+  }
+  const bool complete = this->branch(level, worst, f, apexes);
+  if (complete)
+  {
+    memory = tag;
+  }
+  return complete;
+}
+
+/// Tries all apexes on the open facet f, the best first. Returns as descend().
+bool PolyhedronSearch::branch(int level, double worst, const Front& f, Mask apexes)
+{
+  const State& s = this->states_[level];
+  std::array<std::pair<double, int>, MaximumPoints> order;
+  int n = 0;
+  for (; apexes; apexes &= apexes - 1)
+  {
+    const int p = lowest(apexes);
+    std::array<int, 4> t{ f.a, f.b, f.c, p };
+    std::sort(t.begin(), t.end());
+    order[n++] = { -this->quality_[quadrupleOf(t[0], t[1], t[2], t[3])], p };
+  }
+  std::sort(order.begin(), order.begin() + n);
+  for (int k = 0; k < n; ++k)
+  {
+    const double q = -order[k].first;
+    const int p = order[k].second;
+    if (!(q > this->bound_) || (this->signs_.inside(f.a, f.b, f.c, p) & s.used))
+    {
+      continue;
+    }
+    if (this->steps_ == this->budget_ || level == MaximumDepth || s.facets + 2 > MaximumFacets)
+    {
+      this->ranOut_ = true;
+      return false;
+    }
+    ++this->steps_;
+    if (level + 1 == static_cast<int>(this->states_.size()))
+    {
+      this->states_.emplace_back(); // references to the others stay
+    }
+    this->place(f, p, s, this->states_[level + 1]);
+    this->placed_.push_back({ f.a, f.b, f.c, static_cast<std::uint8_t>(p) });
+    this->descend(level + 1, std::min(worst, q));
+    this->placed_.pop_back();
+    // What was placed before is not better than what was found: other fillings of this front, which
+    // would do with better ones before, have been left out.
+    if (this->ranOut_ || this->finished_ || !(worst > this->bound_))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file QualityModel.h
+/// The quality that one run maximizes: measure, size factor and metric in one object.
+#ifndef meshopt_Operations_QualityModel_h
+#define meshopt_Operations_QualityModel_h
+
+#include "Metric/NodalMetric.h"
+#include "Bound/Caps.h"
+#include "Quality/EdgeSum.h"
+#include "Quality/ElementQuality.h"
+
+namespace meshopt
+{
+template <int D, class Shape>
+struct QualityModel
+{
+  const SimplexMesh<D>* mesh;
+  NodalMetric<D>* metric;
+  ElementQuality<D, Shape> quality;
+  /// Euclidean and without size factor: the metric need not be asked.
+  bool plain;
+  /// Plain, and the measure is a function of volume and edge sum: lengths can be shared.
+  static constexpr bool HasSum = EdgeSum<Shape>::value;
+  /// Where set, the quality of a cell is multiplied by Caps::weight(), unless it is under the floor.
+  const Caps<D>* weights = nullptr;
+  double floor = 0.0;
+
+  bool fast() const { return HasSum && this->plain && !this->weights; }
+
+  QualityModel(const SimplexMesh<D>& m, NodalMetric<D>& field, double beta)
+    : mesh(&m)
+    , metric(&field)
+    , quality{ beta }
+    , plain(beta == 0.0 && field.isTrivial())
+  {
+  }
+
+  double operator()(const Simplex<D>& nodes) const
+  {
+    Corners<D> x;
+    for (int i = 0; i <= D; ++i)
+    {
+      x[i] = this->mesh->point(nodes[i]);
+    }
+    const double q = this->plain ? Shape::value(x)
+                                 : this->quality.value(x, this->metric->element(nodes));
+    const bool weigh = this->weights && !(q < this->floor);
+    return weigh ? q * this->weights->weight(*this->mesh, nodes) : q;
+  }
+  double weight(const Facet<D>& f) const
+  {
+    return this->weights ? this->weights->weight(*this->mesh, f) : 1.0;
+  }
+};
+}
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SmallPolyhedron.h
+/// Small polyhedron reconnection: a few cells around a bad one are taken out together, and the
+/// polyhedron they leave is filled in the best way that there is. The last resort where no single
+/// operation helps, as in meshes nearly all of whose nodes lie on the kept surface.
+///
+/// Reference: see PolyhedronSearch.h. Two things are not from there:
+///  - The polyhedron grows from the bad cell by what the search misses. While a facet of its
+///    boundary has no good tetrahedron, the cell behind that facet is taken in or, where the facet
+///    is kept, the neighbour that offers the best apex; cells whose nodes are all there come along.
+///  - Where a facet lacks a tetrahedron, places for new nodes may be offered: on the way from its
+///    middle to the apex that would be best for it. The search uses of them what it needs.
+#ifndef meshopt_Operations_SmallPolyhedron_h
+#define meshopt_Operations_SmallPolyhedron_h
+
+#include "Bound/ApexBound.h"
+#include "Mesh/LocalNumbers.h"
+#include "Mesh/MeshEditor.h"
+#include "Operations/QualityModel.h"
+#include "Operations/PolyhedronSearch.h"
+
+#include <algorithm>
+
+namespace meshopt
+{
+template <class Shape>
+class SmallPolyhedron
+{
+public:
+  struct Limits
+  {
+    int points = 20;   ///< greatest number of nodes of the polyhedron, in [5, 32]
+    int cells = 60;    ///< greatest number of cells taken out
+    int newPoints = 0; ///< greatest number of places offered for new nodes; 0 in a varying metric
+    /// Where they are, between a facet that lacks a tetrahedron (0) and the best apex for it (1);
+    /// also half way there. In ]0, 1]. Another value may help where one did not.
+    double height = 0.5;
+    bool mayDropPoints = true; ///< free nodes inside may vanish
+    int searches = 30;         ///< of one propose(); each with a polyhedron larger than before
+    long steps = 2000;         ///< of one search; some tens are what most need
+  };
+
+  /// Stands in cells() for newPoints()[k]: FirstNew - k.
+  static constexpr Index FirstNew = -2;
+
+  /// Tries to replace cell t and some cells around it. Returns the worst quality of the best
+  /// refilling if it is above `above` and above the worst of the cells taken out, by more than
+  /// rounding errors, else -infinity.
+  /// Kept facets and edges stay, as do cells that the editor does not own.
+  ///
+  /// `enough(c, i)` is a quality that is as good as any on kept facet i of cell c, or -1 if there is
+  /// none: a cell on such a facet, old or new, that has this quality does not count among the worst.
+  /// At least the quality of cell c, if nothing is to get worse there. For facets whose own shape
+  /// caps what stands on them: else no polyhedron at such a facet could get better.
+  ///
+  /// The time goes with the number of searches and, for each, with the fourth power of the number
+  /// of points; most polyhedra that cannot be filled better are found out before the first step.
+  template <class Enough>
+  double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t,
+    double above, const Limits& limits, Enough&& enough);
+  /// The same without `enough`.
+  double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t,
+    double above, const Limits& limits = {});
+
+  /// Of the last successful propose(): what goes, its worst quality, and what comes.
+  const std::vector<Index>& cavity() const { return this->cavity_; }
+  double oldWorst() const { return this->worst_; }
+  const std::vector<Simplex<3>>& cells() const { return this->cells_; }
+  /// Places for new nodes; those that cells() uses.
+  const std::vector<Vec<3>>& newPoints() const { return this->newPoints_; }
+  /// Puts ids(k) in the place of FirstNew - k in cells().
+  void nameNewPoints(const std::vector<Index>& ids);
+
+  /// Searches of the last propose(), and their steps.
+  int searches() const { return this->searches_; }
+  long steps() const { return this->steps_; }
+
+private:
+  static constexpr double Never = -std::numeric_limits<double>::infinity();
+  static constexpr int MaximumPoints = PolyhedronSearch::MaximumPoints;
+  static constexpr double Rounding = 1e-12; // a smaller gain may be the same cells in another order
+  static constexpr double AsGoodAsAny = 2.0; // what is added to a quality that is enough
+
+  /// A facet of the boundary.
+  struct Face
+  {
+    PolyhedronSearch::Triangle nodes;
+    Index cell;
+    int facet;
+    Index behind;  // the cell across if it may be taken in, or None
+    double enough; // or -1
+    double best;   // greatest quality with any point of the polyhedron as apex
+    bool offered;  // new points were offered for it
+  };
+
+  void start(
+    const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, const Limits& limits);
+  int addPoint(const Vec<3>& x, Index id, bool stay);
+  int numberOf(Index p);
+  double quality(const PolyhedronSearch::Tetrahedron& t) const;
+  double qualityOn(const Face& f, int p) const;
+  int newcomers(Index c);
+  bool closesKept(Index c);
+  template <class Enough>
+  bool take(Index c, Enough& enough);
+  template <class Enough>
+  void takeAlong(Enough& enough);
+  Index behind(Index c, int i) const;
+  Index nextCell(int bare);
+  bool offerPoints(int bare);
+  int worstFace(double above) const;
+  double fill(double above);
+  void rate();
+  void keepSolution();
+
+  const MeshEditor<3>* editor_ = nullptr;
+  const QualityModel<3, Shape>* model_ = nullptr;
+  Limits limits_;
+  PolyhedronSearch search_;
+  int searches_ = 0;
+  long steps_ = 0;
+
+  LocalNumbers meshPoints_, taken_;    // nodes of the mesh; cells
+  std::vector<std::uint8_t> numberOf_; // by meshPoints_: number of the point
+  std::vector<Vec<3>> x_;              // by number
+  std::vector<Index> ids_;             // by number: node of the mesh, or FirstNew - k
+  double weight_[MaximumPoints][MaximumPoints];
+  std::vector<Face> faces_;
+  std::vector<PolyhedronSearch::Triangle> boundary_;
+  std::vector<double> enoughOfSide_; // by PolyhedronSearch::sideOf()
+  bool anyEnough_ = false;
+
+  double worst_ = 0.0;
+  std::vector<Index> cavity_;
+  std::vector<Simplex<3>> cells_;
+  std::vector<Vec<3>> newPoints_, offers_;
+};
+}
+
+#include "Operations/SmallPolyhedron.hxx"
+
+#endif

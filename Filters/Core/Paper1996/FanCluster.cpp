@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Paper1996/FanCluster.h"
+
+#include <algorithm>
+
+namespace meshopt
+{
+namespace
+{
+// Local numbers of the facets' points, ascending by id; facets come with ids and leave with
+// numbers.
+template <int D>
+void numberPoints(const SimplexMesh<D>& mesh, FanCluster<D>& cluster)
+{
+  cluster.points.clear();
+  for (const Facet<D>& f : cluster.facets)
+  {
+    cluster.points.insert(cluster.points.end(), f.begin(), f.end());
+  }
+  std::sort(cluster.points.begin(), cluster.points.end());
+  cluster.points.erase(
+    std::unique(cluster.points.begin(), cluster.points.end()), cluster.points.end());
+  cluster.x.clear();
+  for (Index p : cluster.points)
+  {
+    cluster.x.push_back(mesh.point(p));
+  }
+  for (Facet<D>& f : cluster.facets)
+  {
+    for (Index& p : f)
+    {
+      const auto at = std::lower_bound(cluster.points.begin(), cluster.points.end(), p);
+      p = static_cast<Index>(at - cluster.points.begin());
+    }
+  }
+}
+}
+
+template <int D>
+bool gatherFanCluster(
+  MeshEditor<D>& editor, Index cell, const Index* core, int n, FanCluster<D>& cluster)
+{
+  const SimplexMesh<D>& mesh = editor.mesh();
+  const auto inCore = [&](Index p) { return p == core[0] || (n == 2 && p == core[1]); };
+  const auto isWorse = [&](Index c)
+  {
+    const double q = mesh.quality(c), limit = mesh.quality(cell);
+    return q < limit || (q == limit && c < cell);
+  };
+  const std::uint32_t mark = editor.newMark();
+  cluster.cells.assign(1, cell);
+  cluster.facets.clear();
+  editor.setMark(cell, mark);
+  for (std::size_t k = 0; k < cluster.cells.size(); ++k)
+  {
+    const Index c = cluster.cells[k];
+    for (int i = 0; i <= D; ++i)
+    {
+      if (!inCore(mesh.nodes(c)[i]) && !mesh.isConstrained(c, i))
+      {
+        const Index next = SimplexMesh<D>::cellOf(mesh.adjacent(c, i));
+        if (!editor.isMarked(next, mark))
+        {
+          if (isWorse(next))
+          {
+            return false;
+          }
+          editor.setMark(next, mark);
+          cluster.cells.push_back(next);
+        }
+      }
+    }
+  }
+
+  cluster.worst = mesh.quality(cell);
+  cluster.inverted = 0;
+  cluster.closed = true;
+  for (Index c : cluster.cells)
+  {
+    cluster.inverted += mesh.quality(c) <= 0.0 ? 1 : 0;
+    for (int i = 0; i <= D; ++i)
+    {
+      const Index across = mesh.adjacent(c, i);
+      const bool inside = across != None && editor.isMarked(SimplexMesh<D>::cellOf(across), mark);
+      const bool kept = mesh.isConstrained(c, i);
+      if (kept && inside)
+      {
+        return false;
+      }
+      if (kept || !inside)
+      {
+        cluster.facets.push_back(mesh.facet(c, i));
+        cluster.closed = cluster.closed && inCore(mesh.nodes(c)[i]);
+      }
+    }
+  }
+  numberPoints<D>(mesh, cluster);
+  cluster.coreInside = n == 1 &&
+    !std::binary_search(cluster.points.begin(), cluster.points.end(), core[0]);
+  return true;
+}
+
+template bool gatherFanCluster<2>(MeshEditor<2>&, Index, const Index*, int, FanCluster<2>&);
+template bool gatherFanCluster<3>(MeshEditor<3>&, Index, const Index*, int, FanCluster<3>&);
+}

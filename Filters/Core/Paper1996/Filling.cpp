@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Paper1996/Filling.h"
+
+#include <algorithm>
+
+namespace meshopt
+{
+template <int D>
+void ReconnectionMemory<D>::resize(const SimplexMesh<D>& mesh)
+{
+  this->time = std::max<std::uint32_t>(this->time, 1);
+  this->failed.resize(mesh.numberOfCellSlots(), 0);
+  this->ahead.resize(mesh.numberOfCellSlots(), 0);
+  this->changed.resize(mesh.numberOfPointSlots(), 1);
+}
+
+template <int D>
+bool ReconnectionMemory<D>::hasChanged(
+  const SimplexMesh<D>& mesh, Index c, std::uint32_t when) const
+{
+  for (Index p : mesh.nodes(c))
+  {
+    if (this->changed[p] > when)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <int D>
+Filling Part<D>::kindFromBoundary() const
+{
+  if (this->isEdge())
+  {
+    return this->cluster.closed ? Filling::RingNode : Filling::OpenRing;
+  }
+  return this->cluster.coreInside ? Filling::BoundaryNode : Filling::OpenRing;
+}
+
+template <int D>
+void ElementClusters<D>::gather(
+  MeshEditor<D>& editor, Index c, const ReconnectionMemory<D>& memory, std::uint32_t when)
+{
+  const Simplex<D> nodes = editor.mesh().nodes(c);
+  const auto hasChanged = [&](Index p) { return memory.changed[p] > when; };
+  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+  {
+    Part<D>& part = this->edges_[e];
+    part.core = { nodes[Local<D>::edges[e][0]], nodes[Local<D>::edges[e][1]] };
+    part.usable = hasChanged(part.core[0]) && hasChanged(part.core[1]) &&
+      gatherFanCluster<D>(editor, c, part.core.data(), 2, part.cluster);
+  }
+  for (int i = 0; i <= D; ++i)
+  {
+    Part<D>& part = this->nodes_[i];
+    part.core = { nodes[i], None };
+    part.usable = hasChanged(nodes[i]) &&
+      gatherFanCluster<D>(editor, c, part.core.data(), 1, part.cluster);
+  }
+}
+
+template struct ReconnectionMemory<2>;
+template struct ReconnectionMemory<3>;
+template struct Part<2>;
+template struct Part<3>;
+template class ElementClusters<2>;
+template class ElementClusters<3>;
+}

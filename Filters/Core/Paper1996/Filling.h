@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Filling.h
+/// What can be tried around one element: its clusters, and the apexes they may be filled from.
+///
+/// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.3 and figure 1.
+#ifndef meshopt_Paper1996_Filling_h
+#define meshopt_Paper1996_Filling_h
+
+#include "Paper1996/FanCluster.h"
+#include "Paper1996/Fan.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace meshopt
+{
+/// The operations of figure 1 and, in 3D, their analogues at the surface.
+enum class Filling
+{
+  RingNode = 0, ///< interior edge cluster, a ring node: the edge goes
+  OpenRing,     ///< cluster at kept facets, one of its points: points and kept facets stay
+  BoundaryNode, ///< node cluster, a boundary node: the node goes
+  Centre,       ///< node cluster, its centre: the node is moved there
+  NewCentre,    ///< node cluster at kept facets, its centre: a node comes
+  Midpoint,     ///< edge cluster, midpoint: a node comes
+  Count
+};
+inline constexpr int NumberOfFillings = static_cast<int>(Filling::Count);
+
+/// Which elements have been tried in vain since their surroundings last changed. Kept from one
+/// pass to the next, so that only what has changed in between is tried again.
+template <int D>
+struct ReconnectionMemory
+{
+  std::uint32_t time = 0;
+  std::vector<std::uint32_t> failed;  ///< per cell slot: when tried in vain; 0: never
+  std::vector<std::uint32_t> ahead;   ///< the same for the look-ahead
+  std::vector<std::uint32_t> changed; ///< per point slot: last change in its star
+
+  /// Makes room for the mesh as it is.
+  void resize(const SimplexMesh<D>& mesh);
+  /// To be told of every point in whose star something has changed.
+  void touch(Index p) { this->changed[p] = this->time; }
+  /// True if something around a node of c has changed since `when`.
+  bool hasChanged(const SimplexMesh<D>& mesh, Index c, std::uint32_t when) const;
+};
+
+/// A cluster and the node or edge (second id not None) it lies around.
+template <int D>
+struct Part
+{
+  FanCluster<D> cluster;
+  std::array<Index, 2> core{ None, None };
+  bool usable = false;
+
+  bool isEdge() const { return this->core[1] != None; }
+  /// The kind of its fillings from a point of its boundary.
+  Filling kindFromBoundary() const;
+};
+
+/// The clusters of one element.
+template <int D>
+class ElementClusters
+{
+public:
+  /// Gathers the clusters of which c is the worst cell, as far as they have changed since `when`. A
+  /// change in the cells around a node is remembered at the node, one around an edge at both its
+  /// nodes.
+  void gather(
+    MeshEditor<D>& editor, Index c, const ReconnectionMemory<D>& memory, std::uint32_t when);
+
+  /// Calls f(part, kind, apex) for every filling to be tried, in the order of the paper's figure:
+  /// edge clusters from ring nodes, node clusters from the centre, node clusters from boundary
+  /// nodes, edge clusters from the midpoint; so nodes come only where nothing else helps. Apexes
+  /// ascend by id; a new point has no id. Stops, and returns true, once f returns true.
+  template <class F>
+  bool forEach(const SimplexMesh<D>& mesh, F&& f) const;
+
+private:
+  template <class F>
+  static bool fromBoundary(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f);
+  template <class F>
+  static bool fromCentre(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f);
+  template <class F>
+  static bool fromMidpoint(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f);
+
+  std::array<Part<D>, Local<D>::numberOfEdges> edges_;
+  std::array<Part<D>, D + 1> nodes_;
+};
+
+template <int D>
+template <class F>
+bool ElementClusters<D>::fromBoundary(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f)
+{
+  const FanCluster<D>& cluster = part.cluster;
+  const Filling kind = part.kindFromBoundary();
+  if (!part.usable || (kind == Filling::BoundaryNode && mesh.isFixed(part.core[0])))
+  {
+    return false;
+  }
+  for (std::size_t k = 0; k < cluster.points.size(); ++k)
+  {
+    const Apex<D> apex{ static_cast<int>(k), cluster.points[k], cluster.x[k] };
+    // A fan from the core itself is the cluster as it is.
+    if (apex.id != part.core[0] && apex.id != part.core[1] && f(part, kind, apex))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <int D>
+template <class F>
+bool ElementClusters<D>::fromCentre(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f)
+{
+  const bool moves = part.cluster.coreInside;
+  if (!part.usable || (moves && mesh.isFixed(part.core[0])))
+  {
+    return false;
+  }
+  const Apex<D> apex{ -1, moves ? part.core[0] : None, clusterCentre<D>(part.cluster) };
+  return f(part, moves ? Filling::Centre : Filling::NewCentre, apex);
+}
+
+template <int D>
+template <class F>
+bool ElementClusters<D>::fromMidpoint(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f)
+{
+  if (!part.usable || !part.cluster.closed)
+  {
+    return false;
+  }
+  const Vec<D> middle = 0.5 * (mesh.point(part.core[0]) + mesh.point(part.core[1]));
+  return f(part, Filling::Midpoint, Apex<D>{ -1, None, middle });
+}
+
+template <int D>
+template <class F>
+bool ElementClusters<D>::forEach(const SimplexMesh<D>& mesh, F&& f) const
+{
+  bool stop = false;
+  for (std::size_t k = 0; k < this->edges_.size() && !stop; ++k)
+  {
+    stop = fromBoundary(mesh, this->edges_[k], f);
+  }
+  for (std::size_t k = 0; k < this->nodes_.size() && !stop; ++k)
+  {
+    stop = fromCentre(mesh, this->nodes_[k], f);
+  }
+  for (std::size_t k = 0; k < this->nodes_.size() && !stop; ++k)
+  {
+    stop = fromBoundary(mesh, this->nodes_[k], f);
+  }
+  for (std::size_t k = 0; k < this->edges_.size() && !stop; ++k)
+  {
+    stop = fromMidpoint(mesh, this->edges_[k], f);
+  }
+  return stop;
+}
+
+extern template struct ReconnectionMemory<2>;
+extern template struct ReconnectionMemory<3>;
+extern template struct Part<2>;
+extern template struct Part<3>;
+extern template class ElementClusters<2>;
+extern template class ElementClusters<3>;
+}
+
+#endif

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Paper1996/GlobalAlgorithm.h"
+
+#include "Paper1996/WorstQueue.h"
+#include "Paper1996/ClusterSolver.h"
+
+namespace meshopt
+{
+namespace
+{
+template <int D, class Shape>
+class GlobalAlgorithm
+{
+public:
+  GlobalAlgorithm(MeshEditor<D>& editor, NodalMetric<D>& metric,
+    const ElementQuality<D, Shape>& quality, const RepositionParameters& parameters)
+    : editor_(editor)
+    , parameters_(parameters)
+    , solver_(editor, metric, quality, parameters.local, parameters.leastGain)
+    , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
+  {
+  }
+
+  RepositionResult run(const KeepGoing& keepGoing, std::vector<Index>* sequence);
+
+private:
+  void initialize();
+  bool solve(Index worst);
+
+  MeshEditor<D>& editor_;
+  RepositionParameters parameters_;
+  ClusterSolver<D, Shape> solver_;
+  WorstQueue<D> queue_;
+  std::vector<std::uint8_t> movable_;
+};
+
+template <int D, class Shape>
+void GlobalAlgorithm<D, Shape>::initialize()
+{
+  const SimplexMesh<D>& mesh = this->editor_.mesh();
+  this->movable_.assign(mesh.numberOfPointSlots(), 0);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    this->movable_[p] = mesh.isPointAlive(p) && !mesh.isFixed(p);
+  }
+  this->queue_.fill();
+}
+
+template <int D, class Shape>
+bool GlobalAlgorithm<D, Shape>::solve(Index worst)
+{
+  if (!this->solver_.solve(worst, this->parameters_.neighborhoodLevel, this->movable_))
+  {
+    return false;
+  }
+  const Cluster<D>& cluster = this->solver_.cluster();
+  for (std::size_t k = 0; k < cluster.cells.size(); ++k)
+  {
+    if (cluster.quality[k] != this->solver_.oldQuality()[k])
+    {
+      this->queue_.push(cluster.cells[k]);
+    }
+  }
+  return true;
+}
+
+template <int D, class Shape>
+RepositionResult GlobalAlgorithm<D, Shape>::run(
+  const KeepGoing& keepGoing, std::vector<Index>* sequence)
+{
+  RepositionResult result;
+  const SimplexMesh<D>& mesh = this->editor_.mesh();
+  this->initialize();
+  const auto hasMovableNode = [&](Index c)
+  {
+    bool any = false;
+    for (Index p : mesh.nodes(c))
+    {
+      any = any || this->movable_[p];
+    }
+    return any;
+  };
+  Index previous = None; // PREV
+  for (;;)
+  {
+    const Index worst = this->queue_.worst(hasMovableNode); // step 1
+    if (worst == None)
+    {
+      return result;
+    }
+    if (sequence)
+    {
+      sequence->push_back(worst);
+    }
+    if (worst == previous) // step 2
+    {
+      for (Index p : mesh.nodes(worst))
+      {
+        this->movable_[p] = 0;
+      }
+      continue;
+    }
+    if (keepGoing && !keepGoing(mesh.quality(worst)))
+    {
+      result.cancelled = true;
+      return result;
+    }
+    ++result.tried;
+    result.done += this->solve(worst) ? 1 : 0; // steps 3 and 4
+    previous = worst;                          // step 5
+    const long limit = this->parameters_.maximumNumberOfIterations;
+    if (limit > 0 && result.tried >= limit) // step 6
+    {
+      result.limitReached = true;
+      return result;
+    }
+  }
+}
+}
+
+template <int D>
+RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
+  double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,
+  std::vector<Index>* sequence)
+{
+  return dispatch<D>(measure,
+    [&](auto shape)
+    {
+      using Shape = decltype(shape);
+      const ElementQuality<D, Shape> quality{ beta };
+      GlobalAlgorithm<D, Shape> algorithm(editor, metric, quality, parameters);
+      return algorithm.run(keepGoing, sequence);
+    });
+}
+
+template RepositionResult reposition<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
+  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+template RepositionResult reposition<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
+  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+}

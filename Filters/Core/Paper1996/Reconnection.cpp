@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Paper1996/Reconnection.h"
+
+#include "Paper1996/WorstQueue.h"
+#include "Paper1996/FillingTrial.h"
+#include "Paper1996/FillingLookAhead.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace meshopt
+{
+namespace
+{
+template <int D, class Shape>
+class Reconnection
+{
+public:
+  Reconnection(MeshEditor<D>& editor, NodalMetric<D>& metric,
+    const ElementQuality<D, Shape>& quality, const ReconnectionParameters& parameters,
+    ReconnectionMemory<D>& memory)
+    : editor_(editor)
+    , mesh_(editor.mesh())
+    , parameters_(parameters)
+    , memory_(memory)
+    , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
+    , trial_(editor, metric, quality)
+    , ahead_(editor, metric, quality, parameters.leastGain)
+  {
+  }
+
+  ReconnectionResult run(
+    const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence);
+
+private:
+  bool iterate(const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence);
+  void improveAround(Index worst);
+  void collectCandidates(Index worst);
+  bool improveCell(Index c);
+  void listWorst();
+  bool lookAhead(const std::function<bool(double)>& keepGoing);
+  bool lookAheadAt(Index c);
+  void touch(const std::vector<Index>& cells, const std::vector<Index>& points);
+
+  bool isAllowed(Filling kind) const { return this->parameters_.allowed[static_cast<int>(kind)]; }
+  bool isFresh(Index c) const
+  {
+    return this->memory_.hasChanged(this->mesh_, c, this->memory_.failed[c]);
+  }
+
+  MeshEditor<D>& editor_;
+  const SimplexMesh<D>& mesh_;
+  ReconnectionParameters parameters_;
+  ReconnectionMemory<D>& memory_;
+  WorstQueue<D> queue_;
+  FillingTrial<D, Shape> trial_;
+  LookAhead<D, Shape> ahead_;
+  ElementClusters<D> clusters_;
+  ReconnectionResult result_;
+  std::vector<Index> star_, candidates_;
+};
+
+// After a change of `cells` and around `points`: what is around them is tried again.
+template <int D, class Shape>
+void Reconnection<D, Shape>::touch(
+  const std::vector<Index>& cells, const std::vector<Index>& points)
+{
+  this->memory_.resize(this->mesh_);
+  const std::uint32_t now = ++this->memory_.time;
+  const auto touchPoint = [&](Index p)
+  {
+    if (this->memory_.changed[p] != now && this->mesh_.isPointAlive(p))
+    {
+      this->memory_.touch(p);
+      this->editor_.star(p, this->star_);
+      for (Index c : this->star_)
+      {
+        this->queue_.push(c);
+      }
+    }
+  };
+  for (Index p : points)
+  {
+    touchPoint(p);
+  }
+  for (Index c : cells)
+  {
+    for (Index p : this->mesh_.nodes(c))
+    {
+      touchPoint(p);
+    }
+  }
+}
+
+template <int D, class Shape>
+bool Reconnection<D, Shape>::improveCell(Index c)
+{
+  this->clusters_.gather(this->editor_, c, this->memory_, this->memory_.failed[c]);
+  return this->clusters_.forEach(this->mesh_,
+    [&](const Part<D>& part, Filling kind, Apex<D> apex)
+    {
+      if (!this->isAllowed(kind))
+      {
+        return false;
+      }
+      ++this->result_.tried[static_cast<int>(kind)];
+      const double worst = part.cluster.worst;
+      const double required = worst + this->parameters_.leastGain * std::abs(worst);
+      if (!this->trial_.isBetter(part, apex, required) ||
+        this->trial_.growth(part) > this->parameters_.growth - this->result_.growth)
+      {
+        this->trial_.giveUp(part, apex);
+        return false;
+      }
+      this->result_.growth += this->trial_.growth(part);
+      this->trial_.make(part, apex);
+      this->touch(this->trial_.made(), part.cluster.points);
+      ++this->result_.done[static_cast<int>(kind)];
+      return true;
+    });
+}
+
+// The worst element, then those that share an edge with it, then those that share a node: as far
+// as they are under the target and not yet tried in vain.
+template <int D, class Shape>
+void Reconnection<D, Shape>::collectCandidates(Index worst)
+{
+  this->candidates_.clear();
+  for (Index p : this->mesh_.nodes(worst))
+  {
+    this->editor_.star(p, this->star_);
+    for (Index c : this->star_)
+    {
+      if (this->mesh_.quality(c) < this->parameters_.target && this->isFresh(c))
+      {
+        this->candidates_.push_back(c);
+      }
+    }
+  }
+  const auto rank = [&](Index c)
+  {
+    int shared = 0;
+    for (Index p : this->mesh_.nodes(c))
+    {
+      shared += this->mesh_.localIndex(worst, p) >= 0 ? 1 : 0;
+    }
+    return std::make_tuple(shared >= 2 ? 0 : 1, this->mesh_.quality(c), c);
+  };
+  std::sort(this->candidates_.begin(), this->candidates_.end(),
+    [&](Index a, Index b) { return rank(a) < rank(b); });
+  this->candidates_.erase(
+    std::unique(this->candidates_.begin(), this->candidates_.end()), this->candidates_.end());
+}
+
+template <int D, class Shape>
+void Reconnection<D, Shape>::improveAround(Index worst)
+{
+  if (this->improveCell(worst))
+  {
+    return;
+  }
+  this->memory_.failed[worst] = this->memory_.time;
+  this->collectCandidates(worst);
+  for (Index c : this->candidates_)
+  {
+    if (this->improveCell(c))
+    {
+      return;
+    }
+    this->memory_.failed[c] = this->memory_.time;
+  }
+}
+
+// ---- look-ahead ---------------------------------------------------------------------------------
+
+// The worst elements of the mesh under the target, worst first.
+template <int D, class Shape>
+void Reconnection<D, Shape>::listWorst()
+{
+  this->candidates_.clear();
+  for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
+  {
+    if (this->mesh_.isAlive(c) && this->mesh_.quality(c) < this->parameters_.target)
+    {
+      this->candidates_.push_back(c);
+    }
+  }
+  const auto count = std::min<std::size_t>(this->parameters_.lookAhead, this->candidates_.size());
+  std::partial_sort(this->candidates_.begin(), this->candidates_.begin() + count,
+    this->candidates_.end(),
+    [&](Index a, Index b) {
+      return std::make_pair(this->mesh_.quality(a), a) < std::make_pair(this->mesh_.quality(b), b);
+    });
+  this->candidates_.resize(count);
+}
+
+template <int D, class Shape>
+bool Reconnection<D, Shape>::lookAheadAt(Index c)
+{
+  this->clusters_.gather(this->editor_, c, this->memory_, 0);
+  return this->clusters_.forEach(this->mesh_,
+    [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+    {
+      // Moving a node to the centre first does not help the repositioning that follows.
+      if (!this->isAllowed(kind) || kind == Filling::Centre)
+      {
+        return false;
+      }
+      ++this->result_.aheadTried;
+      if (!this->ahead_.improve(part, apex))
+      {
+        return false;
+      }
+      ++this->result_.aheadDone;
+      this->touch(this->ahead_.changed(), part.cluster.points);
+      return true;
+    });
+}
+
+// True as soon as one of the worst elements has been improved.
+template <int D, class Shape>
+bool Reconnection<D, Shape>::lookAhead(const std::function<bool(double)>& keepGoing)
+{
+  this->listWorst();
+  for (Index c : this->candidates_)
+  {
+    if (!this->memory_.hasChanged(this->mesh_, c, this->memory_.ahead[c]))
+    {
+      continue;
+    }
+    if (keepGoing && !keepGoing(this->mesh_.quality(c)))
+    {
+      this->result_.cancelled = true;
+      return false;
+    }
+    if (this->lookAheadAt(c))
+    {
+      return true;
+    }
+    this->memory_.ahead[c] = this->memory_.time;
+  }
+  return false;
+}
+
+// ---- the iteration ------------------------------------------------------------------------------
+
+// Until all elements under the target are set aside; false if cancelled.
+template <int D, class Shape>
+bool Reconnection<D, Shape>::iterate(
+  const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
+{
+  for (;;)
+  {
+    const Index worst = this->queue_.worst([&](Index c) { return this->isFresh(c); });
+    if (worst == None)
+    {
+      return true;
+    }
+    if (keepGoing && !keepGoing(this->mesh_.quality(worst)))
+    {
+      this->result_.cancelled = true;
+      return false;
+    }
+    if (sequence)
+    {
+      sequence->push_back(worst);
+    }
+    this->improveAround(worst);
+  }
+}
+
+template <int D, class Shape>
+ReconnectionResult Reconnection<D, Shape>::run(
+  const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
+{
+  this->memory_.resize(this->mesh_);
+  this->queue_.fill();
+  while (this->iterate(keepGoing, sequence) && this->parameters_.lookAhead > 0 &&
+    this->lookAhead(keepGoing))
+  {
+  }
+  return this->result_;
+}
+}
+
+template <int D>
+ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
+  double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,
+  const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
+{
+  return dispatch<D>(measure,
+    [&](auto shape)
+    {
+      using Shape = decltype(shape);
+      const ElementQuality<D, Shape> quality{ beta };
+      Reconnection<D, Shape> reconnection(editor, metric, quality, parameters, memory);
+      return reconnection.run(keepGoing, sequence);
+    });
+}
+
+template ReconnectionResult reconnect<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
+  const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&,
+  std::vector<Index>*);
+template ReconnectionResult reconnect<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
+  const ReconnectionParameters&, ReconnectionMemory<3>&, const std::function<bool(double)>&,
+  std::vector<Index>*);
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file WorstQueue.h
+/// Finds the worst cell again and again: a heap with lazy deletion, or a plain scan of all cells.
+#ifndef meshopt_Paper1996_WorstQueue_h
+#define meshopt_Paper1996_WorstQueue_h
+
+#include "Mesh/SimplexMesh.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace meshopt
+{
+/// The next cell by (quality, id) among the live cells with a quality under `limit` that the caller
+/// deems eligible. Both ways of searching give the same sequence, provided that every cell is
+/// pushed when its quality changes and when it becomes eligible (again). Entries of the heap are
+/// checked when they come to the top: one whose cell is dead, has another quality, or is not
+/// eligible, is dropped. A push costs O(log n), and so does a cell found; the scan costs O(cells) a
+/// time.
+template <int D>
+class WorstQueue
+{
+public:
+  WorstQueue(const SimplexMesh<D>& mesh, double limit, bool naive)
+    : mesh_(&mesh)
+    , limit_(limit)
+    , naive_(naive)
+  {
+  }
+
+  /// Starts with all cells; linear.
+  void fill()
+  {
+    this->heap_.clear();
+    this->queued_.assign(this->mesh_->numberOfCellSlots(), NotQueued);
+    for (Index c = 0; c < this->mesh_->numberOfCellSlots() && !this->naive_; ++c)
+    {
+      if (this->isCandidate(c))
+      {
+        this->queued_[c] = this->mesh_->quality(c);
+        this->heap_.emplace_back(this->mesh_->quality(c), c);
+      }
+    }
+    std::make_heap(this->heap_.begin(), this->heap_.end(), std::greater<>());
+  }
+
+  void push(Index c)
+  {
+    if (this->naive_ || !this->isCandidate(c))
+    {
+      return;
+    }
+    if (c >= static_cast<Index>(this->queued_.size()))
+    {
+      this->queued_.resize(this->mesh_->numberOfCellSlots(), NotQueued);
+    }
+    const double q = this->mesh_->quality(c);
+    if (this->queued_[c] != q)
+    {
+      this->queued_[c] = q;
+      this->heap_.emplace_back(q, c);
+      std::push_heap(this->heap_.begin(), this->heap_.end(), std::greater<>());
+    }
+  }
+
+  /// The worst eligible cell, which stays in the queue; None if there is none.
+  template <class Eligible>
+  Index worst(Eligible&& eligible)
+  {
+    if (this->naive_)
+    {
+      return this->scan(eligible);
+    }
+    while (!this->heap_.empty())
+    {
+      const auto [q, c] = this->heap_.front();
+      if (this->isCandidate(c) && this->mesh_->quality(c) == q && eligible(c))
+      {
+        return c;
+      }
+      if (this->queued_[c] == q)
+      {
+        this->queued_[c] = NotQueued;
+      }
+      std::pop_heap(this->heap_.begin(), this->heap_.end(), std::greater<>());
+      this->heap_.pop_back();
+    }
+    return None;
+  }
+
+private:
+  static constexpr double NotQueued = std::numeric_limits<double>::infinity();
+
+  bool isCandidate(Index c) const
+  {
+    return this->mesh_->isAlive(c) && this->mesh_->quality(c) < this->limit_;
+  }
+
+  template <class Eligible>
+  Index scan(Eligible&& eligible) const
+  {
+    Index best = None;
+    for (Index c = 0; c < this->mesh_->numberOfCellSlots(); ++c)
+    {
+      if (this->isCandidate(c) && eligible(c) &&
+        (best == None || this->mesh_->quality(c) < this->mesh_->quality(best)))
+      {
+        best = c;
+      }
+    }
+    return best;
+  }
+
+  const SimplexMesh<D>* mesh_;
+  double limit_;
+  bool naive_;
+  std::vector<std::pair<double, Index>> heap_;
+  std::vector<double> queued_; // per cell: the quality under which it was pushed last, if still in
+};
+}
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/Options.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+// Comparisons are written such that NaN is refused.
+std::string checkQuality(const Options& o, bool hasSizes)
+{
+  const int measure = static_cast<int>(o.measure);
+  if (measure < 0 || measure > static_cast<int>(Measure::MinimumDihedralAngle))
+  {
+    return "The quality measure is none of the known ones.";
+  }
+  if (o.measure == Measure::MinimumDihedralAngle)
+  {
+    return "The least dihedral angle in degrees is a measure to report, not to optimize; use the "
+           "minimum sine instead.";
+  }
+  if (!(o.beta >= 0.0) || !std::isfinite(o.beta))
+  {
+    return "beta must be a number >= 0.";
+  }
+  if (!(o.desiredSize >= 0.0) || !std::isfinite(o.desiredSize))
+  {
+    return "The desired size h* must be a number >= 0.";
+  }
+  if (o.beta > 0.0 && o.desiredSize == 0.0 && !hasSizes)
+  {
+    return "With beta > 0 a desired size h* > 0 is needed, or sizes at the points.";
+  }
+  if (!(o.targetQuality > 0.0 && o.targetQuality <= 1.0))
+  {
+    return "The target quality must be in ]0, 1].";
+  }
+  return {};
+}
+
+std::string checkPaper(const Options& o)
+{
+  if (o.neighborhoodLevel < 0)
+  {
+    return "The neighborhood level NL must be >= 0.";
+  }
+  if (o.maximumNumberOfIterations < 0)
+  {
+    return "The maximum number of iterations M must be >= 0 (0: no limit).";
+  }
+  if (!(o.epsilon > 0.0 && o.epsilon <= 1.0))
+  {
+    return "epsilon of the active set must be in ]0, 1].";
+  }
+  if (!(o.armijo > 0.0 && o.armijo < 1.0))
+  {
+    return "alpha of Armijo's rule must be in ]0, 1[.";
+  }
+  if (o.maximumNumberOfAlternations < 1)
+  {
+    return "The maximum number of alternations must be >= 1.";
+  }
+  return {};
+}
+
+std::string checkEngine(const Options& o)
+{
+  const int effort = static_cast<int>(o.effort);
+  if (effort < 0 || effort > static_cast<int>(Effort::Best))
+  {
+    return "The effort is none of the known ones.";
+  }
+  if (o.numberOfThreads < 0)
+  {
+    return "The number of threads must be >= 0 (0: all).";
+  }
+  if (!(o.growthBudget >= 0.0) || !std::isfinite(o.growthBudget))
+  {
+    return "The growth budget must be a number >= 0.";
+  }
+  if (!(o.timeLimit >= 0.0) || !std::isfinite(o.timeLimit))
+  {
+    return "The time limit must be a number of seconds >= 0 (0: none).";
+  }
+  return {};
+}
+}
+
+std::string Options::check(bool hasSizes) const
+{
+  if (this->algorithm != Algorithm::Paper1996 && this->algorithm != Algorithm::WorstFirst)
+  {
+    return "The algorithm is none of the known ones.";
+  }
+  std::string error = checkQuality(*this, hasSizes);
+  if (error.empty())
+  {
+    error = checkPaper(*this);
+  }
+  return error.empty() ? checkEngine(*this) : error;
+}
+
+long growthOf(const Options& options, long cells, int dimension)
+{
+  const long least = dimension == 3 ? 30 : 10;
+  const double most = std::floor(options.growthBudget * static_cast<double>(cells));
+  return options.growthBudget > 0.0 ? std::max(least, static_cast<long>(most)) : 0;
+}
+}

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SizeStageNodes.hxx
+/// Nodes of SizeStage: moved to where their edges have the wanted length.
+#ifndef meshopt_Sizes_SizeStageNodes_hxx
+#define meshopt_Sizes_SizeStageNodes_hxx
+
+namespace meshopt
+{
+namespace sizes
+{
+/// Sum of the squares of ln l over the edges at v, whose star is star_.
+template <int D>
+double SizeStage<D>::energyAround(Index v)
+{
+  double sum = 0.0;
+  for (Index w : this->neighbours_)
+  {
+    const double l = std::log(this->length(v, w));
+    sum += l * l;
+  }
+  return sum;
+}
+
+/// Puts v at x if its edges get nearer to the wanted length and no cell gets bad.
+template <int D>
+bool SizeStage<D>::tryPlace(
+  Index v, const Vec<D>& x, const CurvePlace<D>& place, double worst, double energy)
+{
+  const std::size_t start = this->editor_.begin();
+  const auto sampleBefore = this->metric_.sample(v);
+  const Tensor<D> unit = this->units_[v];
+  this->editor_.movePoint(v, x);
+  this->editor_.setCurvePlace(v, place);
+  this->sample(v, v);
+  bool good = this->energyAround(v) < WorthMoving * energy;
+  for (std::size_t k = 0; k < this->star_.size() && good; ++k)
+  {
+    const double q = this->model_(this->mesh().nodes(this->star_[k]));
+    good = q > 0.0 && q >= std::min(worst, 2.0 * GoodEnough);
+    this->editor_.setQuality(this->star_[k], q);
+  }
+  if (good)
+  {
+    this->editor_.commit(start);
+  }
+  else
+  {
+    this->editor_.rollback(start);
+    this->metric_.setSample(v, sampleBefore);
+    this->units_[v] = unit;
+  }
+  return good;
+}
+
+template <int D>
+bool SizeStage<D>::moveNode(Index v)
+{
+  const auto& point = this->mesh().pointData(v);
+  this->editor_.star(v, this->star_);
+  this->neighbours_.clear();
+  for (Index c : this->star_)
+  {
+    for (Index w : this->mesh().nodes(c))
+    {
+      if (w != v)
+      {
+        this->neighbours_.push_back(w);
+      }
+    }
+  }
+  std::sort(this->neighbours_.begin(), this->neighbours_.end());
+  this->neighbours_.erase(
+    std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
+  if (static_cast<Index>(this->failedAt_.size()) <= v)
+  {
+    this->failedAt_.resize(this->mesh().numberOfPointSlots(), 0);
+  }
+  std::uint32_t latest = point.stamp;
+  for (Index w : this->neighbours_)
+  {
+    latest = std::max(latest, this->mesh().pointData(w).stamp);
+  }
+  if (latest <= this->failedAt_[v])
+  {
+    return false; // nothing has changed since it failed
+  }
+  this->failedAt_[v] = this->editor_.clock();
+  const double worst = this->mesh().worstQuality(this->star_), energy = this->energyAround(v);
+  return this->mesh().isFixed(v) ? this->moveSlidingNode(v, worst, energy)
+                                 : this->moveFreeNode(v, worst, energy);
+}
+
+/// Towards that neighbour on its piece which is farther away.
+template <int D>
+bool SizeStage<D>::moveSlidingNode(
+  [[maybe_unused]] Index v, [[maybe_unused]] double worst, [[maybe_unused]] double energy)
+{
+  if constexpr (D == 2)
+  {
+    const auto range = slidingRange(*this->curves_, this->mesh(), this->star_, v);
+    if (!range)
+    {
+      return false;
+    }
+    const double l0 = this->length(v, range->ends[0]), l1 = this->length(v, range->ends[1]);
+    const double to = l0 > l1 ? range->low : range->high;
+    CurvePlace<2> place = this->mesh().pointData(v);
+    const double s = place.parameter;
+    for (double part : { 0.5, 0.25 })
+    {
+      place.parameter = s + part * std::fabs(l0 - l1) / std::max(l0, l1) * (to - s);
+      if (this->tryPlace(v, this->curves_->at(place.curve, place.parameter), place, worst, energy))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// To the mean of where each edge would put v to be of the wanted length, or part of the way.
+template <int D>
+bool SizeStage<D>::moveFreeNode(Index v, double worst, double energy)
+{
+  const Vec<D> x = this->mesh().point(v);
+  Vec<D> target = Vec<D>::Zero();
+  for (Index w : this->neighbours_)
+  {
+    const Vec<D>& y = this->mesh().point(w);
+    target += y + (x - y) / this->length(v, w);
+  }
+  target /= static_cast<double>(this->neighbours_.size());
+  for (double part : { 1.0, 0.5, 0.25 })
+  {
+    if (this->tryPlace(v, Vec<D>(x + part * (target - x)), CurvePlace<D>(), worst, energy))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <int D>
+void SizeStage<D>::smooth()
+{
+  for (int sweep = 0; sweep < Sweeps && this->options_.moveNodes; ++sweep)
+  {
+    for (Index v = 0; v < this->mesh().numberOfPointSlots(); ++v)
+    {
+      if (!this->mesh().isPointAlive(v))
+      {
+        continue;
+      }
+      bool mayMove = !this->mesh().isFixed(v);
+      if constexpr (D == 2)
+      {
+        mayMove |= this->mesh().pointData(v).curve != None;
+      }
+      this->motions_ += mayMove && this->moveNode(v);
+    }
+    this->swapWhatChanged();
+  }
+}
+
+/// Swaps edges of cells around which something has changed since the last call.
+template <int D>
+void SizeStage<D>::swapWhatChanged()
+{
+  const std::uint32_t since = std::exchange(this->swappedAt_, this->editor_.clock());
+  for (Index c = 0; c < this->mesh().numberOfCellSlots() && this->options_.reconnect; ++c)
+  {
+    const auto isNew = [&](Index p) { return this->mesh().pointData(p).stamp > since; };
+    while (this->mesh().isAlive(c) && this->mesh().quality(c) < SwapBelow<D> &&
+      std::any_of(this->mesh().nodes(c).begin(), this->mesh().nodes(c).end(), isNew) &&
+      this->improver_.swap(c))
+    {
+    }
+  }
+}
+}
+}
+
+#endif

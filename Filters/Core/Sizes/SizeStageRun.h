@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SizeStageRun.h
+/// One run of the size stage: what it knows. Only included by SizeStage.cpp.
+#ifndef meshopt_Sizes_SizeStageRun_h
+#define meshopt_Sizes_SizeStageRun_h
+
+#include "Surface/SurfaceFaults.h"
+#include "Mesh/PinchedPoints.h"
+#include "Metric/EdgeLengths.h"
+#include "Run/Improver.h"
+#include "Base/Progress.h"
+#include "Run/Summary.h"
+#include "Quality/Shape.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace meshopt
+{
+namespace sizes
+{
+constexpr double Longest = 1.4142135623730951, Shortest = 1.0 / Longest;
+constexpr int MaximumRounds = 12;
+constexpr int Sweeps = 3; // of node motion, each round
+/// A node is moved if the energy of its edges falls under this part of what it was.
+constexpr double WorthMoving = 0.97;
+/// A round that changes fewer edges than this part of the cells is the last.
+constexpr double FewChanges = 0.005;
+constexpr double Settling = 0.8; // of the changes of a round before: more do not come to an end
+constexpr int MaximumIdle = 2;
+constexpr double CountTolerance = 0.03;
+constexpr int MaximumCorrections = 3;
+constexpr double GreatestScale = 1.25;
+/// Splitting ends for good when there are so many times as many cells as predicted, or as in the
+/// beginning, and BrakeSlack more. Where lengths vary in a way that edges can follow, it never gets near it.
+constexpr double BrakeFactor = 4.0;
+constexpr long BrakeSlack = 1000;
+constexpr double MostPredicted = 1e9; // more than ids can number
+/// Edges are split so far from their middle, at random.
+constexpr double Jitter = 0.1;
+/// An edge is split if no cell at it has one that is longer than it by more than this factor.
+constexpr double LongestFirst = 0.7;
+/// A contraction or a motion makes no quality lower than both this (a motion: twice this) and the worst
+/// that was there; a split may make it lower by a factor, since what it splits comes out worse at first.
+constexpr double GoodEnough = 0.3, WorstSplit = 0.3;
+/// Cells as good as this are not reconnected: what raises the worst cell of an edge's ring is found
+/// from that one. In 2D swaps cost little.
+template <int D>
+constexpr double SwapBelow = D == 2 ? std::numeric_limits<double>::infinity() : 0.7;
+
+/// Where an edge with the lengths la and lb by its ends is halved, from a on, as a part of the way; not too near to an end.
+inline double metricMiddle(double la, double lb)
+{
+  const double r = std::log(lb / la);
+  const double t = std::fabs(r) < 1e-4 ? 0.5 : std::log(0.5 * (1.0 + std::exp(r))) / r;
+  return std::clamp(t, 0.25, 0.75);
+}
+
+/// A number in [-1, 1] that looks random, but is that of the edge.
+inline double noise(Index a, Index b)
+{
+  std::uint64_t h = std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
+  h = (h ^ h >> 31) * 0x9e3779b97f4a7c15ull;
+  h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9ull;
+  return static_cast<double>(h >> 33) / static_cast<double>(1ull << 30) - 1.0;
+}
+
+template <int D>
+class SizeStage
+{
+public:
+  SizeStage(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
+    const Control& control, const BoundaryCurves* curves, Report& report);
+  bool run(double predicted);
+
+private:
+  using Shape = MeanEdgeShape<D>;
+
+  struct Edge
+  {
+    double length;
+    Index a, b, cell;                       // a < b
+    bool operator<(const Edge& other) const // the greatest comes first
+    {
+      return std::tie(this->length, other.a, other.b, other.cell) <
+        std::tie(other.length, this->a, this->b, this->cell);
+    }
+  };
+  using Queue = std::priority_queue<Edge>;
+
+  long split();
+  long contract();
+  void smooth();
+  void swapWhatChanged();
+
+  double longestEdge() const;
+  bool isAboutLongest(const std::vector<Index>& cells, double length) const;
+  bool splitEdge(const Edge& edge);
+  bool contractEdge(Index v, Index u, double& above, EdgeChange<D>& best);
+  bool moveNode(Index v);
+  bool moveFreeNode(Index v, double worst, double energy);
+  bool moveSlidingNode(Index v, double worst, double energy);
+  bool tryPlace(Index v, const Vec<D>& x, const CurvePlace<D>& place, double worst, double energy);
+  template <class Push>
+  void swapAround(Push&& push);
+  void collectQueue(bool isLong);
+  void push(Index c, bool isLong);
+  bool measure(const std::vector<Simplex<D>>& cells, double least);
+  double energyAround(Index v);
+  void sample(Index p, Index near);
+  double length(Index a, Index b) const;
+  void record();
+  bool keepGoing();
+
+  const SimplexMesh<D>& mesh() const { return this->editor_.mesh(); }
+
+  MeshEditor<D>& editor_;
+  NodalMetric<D>& metric_;
+  const Options& options_;
+  const BoundaryCurves* curves_;
+  Report& report_;
+  Progress progress_;
+  QualityModel<D, Shape> model_;
+  Caps<D> caps_; // none: what is capped matters later
+  Improver<D, Shape> improver_;
+  EdgeChange<D> change_;
+  std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
+  bool overlaps_;                     // cells may lie on each other
+
+  std::vector<Tensor<D>> units_; // M / h*^2 at the points
+  int round_ = 0;
+  long mostCells_ = 0;       // brake
+  double scale_ = 1.0;       // of h*
+  double longest_ = Longest; // longer edges are split
+  std::uint32_t swappedAt_ = 0;
+  std::vector<std::uint32_t> failedAt_; // when a node could not be moved to advantage
+  Queue queue_;
+  std::vector<Index> star_, neighbours_, stack_;
+  std::vector<double> qualities_, bestQualities_;
+  long splits_ = 0, contractions_ = 0, motions_ = 0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+}
+}
+
+#include "Sizes/SizeStageEdges.hxx"
+#include "Sizes/SizeStageNodes.hxx"
+
+#endif

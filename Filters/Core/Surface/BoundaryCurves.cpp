@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Surface/BoundaryCurves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace meshopt
+{
+namespace
+{
+constexpr double Tolerance = 1e-3;         ///< of the diagonal of the mesh
+constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
+
+double diagonal(const SimplexMesh<2>& mesh)
+{
+  Vec<2> low = Vec<2>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    if (mesh.isPointAlive(p))
+    {
+      low = low.cwiseMin(mesh.point(p));
+      high = high.cwiseMax(mesh.point(p));
+    }
+  }
+  return (high - low).norm();
+}
+
+/// See PlaneCurve::mostCurvedSegment(): that of a circle whose polygon turns by `angle`, and some more.
+double greatestShare(double angle)
+{
+  constexpr double margin = 1.2;
+  return margin * 0.5 * std::tan(angle / 4.0 * std::acos(-1.0) / 180.0);
+}
+
+std::string nameOf(const char* what, Index p, const Vec<2>& x)
+{
+  std::ostringstream text;
+  text << what << ' ' << p << " (" << x[0] << ", " << x[1] << ")";
+  return text.str();
+}
+}
+
+PlaneCurve BoundaryCurves::curve(
+  const LineNetwork& network, const LineChain& chain, bool splines) const
+{
+  std::vector<Vec<2>> points;
+  for (Index p : chain.points)
+  {
+    points.push_back(network.points[p]);
+  }
+  return PlaneCurve(std::move(points), chain.isClosed, splines);
+}
+
+/// A spline through a long straight side and the short ones of an arc would swing far out on the
+/// long one: its ends become corners, and it stays straight.
+void BoundaryCurves::markWhereSplinesOvershoot(
+  LineNetwork& network, const CurveOptions& options) const
+{
+  for (bool again = true; again;)
+  {
+    again = false;
+    for (const LineChain& chain : chains(network))
+    {
+      const PlaneCurve curve = this->curve(network, chain, true);
+      double share = 0.0;
+      const std::size_t k = curve.mostCurvedSegment(share);
+      if (share > greatestShare(options.cornerAngle))
+      {
+        for (std::size_t end : { k, (k + 1) % chain.points.size() })
+        {
+          network.corners[chain.points[end]] = 1;
+        }
+        again = true;
+      }
+    }
+  }
+}
+
+void BoundaryCurves::build(
+  MeshEditor<2>& editor, const CurveOptions& options, const std::vector<std::uint8_t>& corners)
+{
+  this->curves_.clear();
+  this->pieces_.clear();
+  LineNetwork boundary = keptLines(editor.mesh());
+  for (std::size_t p = 0; p < corners.size(); ++p)
+  {
+    boundary.corners[p] |= corners[p];
+  }
+  markCorners(boundary, options.cornerAngle);
+  if (options.splines)
+  {
+    markKinks(boundary);
+    this->markWhereSplinesOvershoot(boundary, options);
+  }
+  for (const LineChain& chain : chains(boundary))
+  {
+    const PlaneCurve curve = this->curve(boundary, chain, options.splines);
+    std::vector<double> parameters; // of a line that ends in a corner: also that of its end
+    for (std::size_t k = 0; k < chain.points.size(); ++k)
+    {
+      parameters.push_back(curve.parameter(k));
+    }
+    this->addPiece(editor, chain, static_cast<Index>(this->curves_.size()), parameters);
+    this->curves_.push_back(curve);
+  }
+  this->join();
+}
+
+/// Every corner of the geometry must be a point of the boundary: that is a corner then, too.
+std::string BoundaryCurves::matchCorners(const SimplexMesh<2>& mesh, const LineNetwork& geometry,
+  double tolerance, LineNetwork& boundary) const
+{
+  std::vector<Index> ends;
+  for (const std::array<Index, 2>& l : boundary.lines)
+  {
+    ends.insert(ends.end(), l.begin(), l.end());
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  for (std::size_t g = 0; g < geometry.points.size(); ++g)
+  {
+    bool found = !geometry.corners[g];
+    for (std::size_t k = 0; k < ends.size() && !found; ++k)
+    {
+      found = (mesh.point(ends[k]) - geometry.points[g]).norm() <= tolerance;
+    }
+    if (!found)
+    {
+      return "The geometry has a corner at its " +
+        nameOf("point", static_cast<Index>(g), geometry.points[g]) +
+        ", but the boundary of the mesh has no point there.";
+    }
+    for (Index p : ends) // all of them: at the mouth of a crack there are several
+    {
+      boundary.corners[p] |= std::uint8_t(
+        geometry.corners[g] && (mesh.point(p) - geometry.points[g]).norm() <= tolerance);
+    }
+  }
+  return {};
+}
+
+double BoundaryCurves::period(const Piece& piece) const
+{
+  const PlaneCurve& curve = this->curves_[piece.curve];
+  return curve.isClosed() ? curve.length() : 0.0;
+}
+
+namespace
+{
+/// A curve that goes from a corner around to itself has two parameters there: the middle of the edge
+/// that leaves the corner tells which is the one of the end of the chain.
+void tellEndsApart(const SimplexMesh<2>& mesh, const std::vector<Index>& points,
+  const PlaneCurve& curve, double tolerance, std::vector<double>& s)
+{
+  if ((curve.at(0.0) - curve.at(curve.length())).norm() > tolerance)
+  {
+    return;
+  }
+  const std::size_t last = points.size() - 1;
+  for (const auto& [end, next] :
+    { std::pair<std::size_t, std::size_t>{ 0, 1 }, { last, last - 1 } })
+  {
+    const Vec<2>&x = mesh.point(points[end]), &y = mesh.point(points[next]);
+    if ((x - curve.at(0.0)).norm() <= tolerance)
+    {
+      double d = 0.0;
+      s[end] = curve.closest(Vec<2>(0.5 * (x + y)), d) < s[next] ? 0.0 : curve.length();
+    }
+  }
+}
+}
+
+/// Adds the chain as a piece of the curve, and gives its points their places.
+void BoundaryCurves::addPiece(
+  MeshEditor<2>& editor, const LineChain& chain, Index curve, const std::vector<double>& parameters)
+{
+  Piece piece;
+  piece.curve = curve;
+  if (!chain.isClosed)
+  {
+    piece.ends = { chain.points.front(), chain.points.back() };
+    piece.range = { parameters.front(), parameters.back() };
+    piece.isEdge = chain.points.size() == 2;
+  }
+  const std::size_t first = chain.isClosed ? 0 : 1;
+  for (std::size_t k = first; k + first < chain.points.size(); ++k)
+  {
+    editor.setCurvePlace(
+      chain.points[k], { static_cast<Index>(this->pieces_.size()), parameters[k] });
+  }
+  this->pieces_.push_back(piece);
+}
+
+/// The curve that a chain of the mesh's boundary is nearest to; `distance` is that of its farthest point,
+/// which is `farthest`. None if there are no curves.
+Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& chain,
+  double tolerance, Index& farthest, double& distance) const
+{
+  Index nearest = None;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t g = 0; g < this->curves_.size(); ++g)
+  {
+    double worst = -1.0;
+    Index at = None;
+    for (Index p : chain.points)
+    {
+      double d = 0.0;
+      this->curves_[g].closest(mesh.point(p), d);
+      at = d > worst ? p : at;
+      worst = std::max(worst, d);
+      if (worst > best)
+      {
+        break;
+      }
+    }
+    // Two corners may be joined by several curves: the middle tells them apart.
+    double middle = 0.0;
+    this->curves_[g].closest(
+      Vec<2>(0.5 * (mesh.point(chain.points[0]) + mesh.point(chain.points[1]))), middle);
+    const double rank = std::max(worst, tolerance) + 1e-3 * middle;
+    if (rank < best)
+    {
+      best = rank;
+      nearest = static_cast<Index>(g);
+      farthest = at;
+      distance = worst;
+    }
+  }
+  return nearest;
+}
+
+/// Puts a chain of the mesh's boundary on the curve that is nearest to it.
+std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain, double tolerance)
+{
+  const SimplexMesh<2>& mesh = editor.mesh();
+  Index farthest = chain.points[0];
+  double distance = std::numeric_limits<double>::infinity();
+  const Index nearest = this->nearestCurve(mesh, chain, tolerance, farthest, distance);
+  if (distance > tolerance)
+  {
+    std::ostringstream text;
+    text << "The boundary of the mesh does not lie on the geometry: "
+         << nameOf("point", farthest, mesh.point(farthest)) << " is " << distance
+         << " away from it.";
+    return text.str();
+  }
+  const PlaneCurve& curve = this->curves_[nearest];
+  const double period = curve.isClosed() ? curve.length() : 0.0;
+  std::vector<double> s;
+  for (Index p : chain.points)
+  {
+    double d = 0.0;
+    s.push_back(curve.closest(mesh.point(p), d));
+    if (s.size() > 1 && period > 0.0)
+    {
+      s.back() += std::round((s[s.size() - 2] - s.back()) / period) * period;
+    }
+  }
+  if (!chain.isClosed && period == 0.0)
+  {
+    tellEndsApart(mesh, chain.points, curve, tolerance, s);
+  }
+  const double direction = s.back() > s.front() ? 1.0 : -1.0;
+  for (std::size_t k = 1; k < s.size() && !(chain.isClosed && s.size() < 4); ++k)
+  {
+    if (!(direction * (s[k] - s[k - 1]) > 0.0))
+    {
+      return "The boundary of the mesh does not follow the geometry: it turns back at its " +
+        nameOf("point", chain.points[k], mesh.point(chain.points[k])) + ".";
+    }
+  }
+  this->addPiece(editor, chain, nearest, s);
+  return {};
+}
+
+std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& given,
+  const CurveOptions& options, const std::vector<std::uint8_t>& corners)
+{
+  this->curves_.clear();
+  this->pieces_.clear();
+  LineNetwork geometry = given;
+  markCorners(geometry, options.cornerAngle);
+  if (options.splines)
+  {
+    markKinks(geometry);
+  }
+  for (const LineChain& chain : chains(geometry))
+  {
+    const PlaneCurve curve = this->curve(geometry, chain, options.splines);
+    double share = 0.0;
+    curve.mostCurvedSegment(share);
+    const bool overshoots = share > greatestShare(options.cornerAngle);
+    this->curves_.push_back(overshoots ? this->curve(geometry, chain, false) : curve);
+  }
+  LineNetwork boundary = keptLines(editor.mesh());
+  for (std::size_t p = 0; p < corners.size(); ++p)
+  {
+    boundary.corners[p] |= corners[p];
+  }
+  const double tolerance = Tolerance * diagonal(editor.mesh());
+  std::string error = this->matchCorners(editor.mesh(), geometry, tolerance, boundary);
+  markCorners(boundary, 180.0); // not by angle: the geometry knows
+  for (const LineChain& chain : chains(boundary))
+  {
+    error = error.empty() ? this->place(editor, chain, tolerance) : error;
+  }
+  if (!error.empty())
+  {
+    for (Index p = 0; p < editor.mesh().numberOfPointSlots(); ++p)
+    {
+      editor.setCurvePlace(p, CurvePlace<2>());
+    }
+  }
+  this->join();
+  return error;
+}
+
+/// Finds the pieces by which two corners can be neighbours.
+void BoundaryCurves::join()
+{
+  this->betweenCorners_.clear();
+  for (std::size_t k = 0; k < this->pieces_.size(); ++k)
+  {
+    std::array<Index, 2> ends = this->pieces_[k].ends;
+    std::sort(ends.begin(), ends.end());
+    if (ends[0] != None && ends[0] != ends[1])
+    {
+      const auto [entry, isNew] = this->betweenCorners_.emplace(ends, static_cast<Index>(k));
+      if (!isNew)
+      {
+        const Index other = entry->second;
+        const bool otherIsEdge = other != None && this->pieces_[other].isEdge;
+        entry->second = this->pieces_[k].isEdge ? static_cast<Index>(k)
+          : otherIsEdge                         ? other
+                                                : None;
+      }
+    }
+  }
+}
+
+std::optional<BoundaryCurves::Span> BoundaryCurves::span(
+  const SimplexMesh<2>& mesh, Index a, Index b) const
+{
+  const CurvePlace<2>& pa = mesh.pointData(a);
+  const CurvePlace<2>& pb = mesh.pointData(b);
+  if (pa.curve == None && pb.curve == None)
+  {
+    const auto found = this->betweenCorners_.find({ std::min(a, b), std::max(a, b) });
+    if (found == this->betweenCorners_.end() || found->second == None)
+    {
+      return std::nullopt;
+    }
+    const Piece& piece = this->pieces_[found->second];
+    const bool forward = piece.ends[0] == a;
+    return Span{ found->second, piece.range[forward ? 0 : 1], piece.range[forward ? 1 : 0] };
+  }
+  const Index k = pa.curve != None ? pa.curve : pb.curve;
+  const Piece& piece = this->pieces_[k];
+  // Parameter of p, as seen from the neighbour at s.
+  const auto parameter = [&](Index p, const CurvePlace<2>& place, double s) -> std::optional<double>
+  {
+    if (place.curve == k)
+    {
+      return place.parameter;
+    }
+    const bool isFirst = piece.ends[0] == p, isLast = piece.ends[1] == p;
+    if (place.curve != None || (!isFirst && !isLast))
+    {
+      return std::nullopt;
+    }
+    const bool first = isFirst &&
+      (!isLast || std::fabs(s - piece.range[0]) < std::fabs(s - piece.range[1]));
+    return piece.range[first ? 0 : 1];
+  };
+  const std::optional<double> from = parameter(a, pa, pb.parameter);
+  const std::optional<double> to = parameter(b, pb, pa.parameter);
+  if (!from || !to)
+  {
+    return std::nullopt;
+  }
+  Span span{ k, *from, *to };
+  const double period = piece.ends[0] == None ? this->period(piece) : 0.0;
+  if (period > 0.0)
+  {
+    span.to += std::round((span.from - span.to) / period) * period;
+  }
+  return span;
+}
+
+bool BoundaryCurves::mayBeNeighbours(const Span& s) const
+{
+  const Piece& piece = this->pieces_[s.piece];
+  if (piece.ends[0] != piece.ends[1])
+  {
+    return true;
+  }
+  const double all = piece.ends[0] == None ? this->period(piece)
+                                           : std::fabs(piece.range[1] - piece.range[0]);
+  return std::fabs(s.to - s.from) <= FarthestNeighbours * all;
+}
+}

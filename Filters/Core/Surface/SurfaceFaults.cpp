@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Surface/SurfaceFaults.h"
+
+#include "Mesh/Predicates.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+
+namespace meshopt
+{
+namespace
+{
+/// The given cells and those that share a node with them, twice over.
+template <int D>
+std::vector<char> neighbourhood(const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
+{
+  std::vector<char> isNear(mesh.numberOfCellSlots(), 0);
+  for (Index c : cells)
+  {
+    isNear[c] = 1;
+  }
+  std::vector<char> isTouched(mesh.numberOfPointSlots(), 0);
+  for (int layer = 0; layer < 2; ++layer)
+  {
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      for (Index p : mesh.nodes(c))
+      {
+        isTouched[p] |= isNear[c];
+      }
+    }
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      const auto& nodes = mesh.nodes(c);
+      isNear[c] = mesh.isAlive(c) &&
+        std::any_of(nodes.begin(), nodes.end(), [&](Index p) { return isTouched[p] != 0; });
+    }
+  }
+  return isNear;
+}
+
+/// A kept facet: its ids sorted, and from where it is seen (one side of it).
+template <int D>
+struct Kept
+{
+  Facet<D> nodes;
+  Index handle;
+  bool operator<(const Kept& o) const { return this->nodes < o.nodes; }
+  bool operator==(const Kept& o) const { return this->nodes == o.nodes; }
+};
+
+/// Kept facets of the marked cells, once each.
+template <int D>
+std::vector<Kept<D>> keptFacets(const SimplexMesh<D>& mesh, const std::vector<char>& isNear)
+{
+  std::vector<Kept<D>> facets;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i <= D && isNear[c]; ++i)
+    {
+      if (mesh.isConstrained(c, i))
+      {
+        facets.push_back({ mesh.facet(c, i), SimplexMesh<D>::handle(c, i) });
+        std::sort(facets.back().nodes.begin(), facets.back().nodes.end());
+      }
+    }
+  }
+  std::stable_sort(facets.begin(), facets.end());
+  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  return facets;
+}
+
+bool hasNoArea(const SimplexMesh<2>& mesh, const Facet<2>& f)
+{
+  return mesh.point(f[0]) == mesh.point(f[1]);
+}
+
+bool hasNoArea(const SimplexMesh<3>& mesh, const Facet<3>& f)
+{
+  const Vec<3> a = mesh.point(f[1]) - mesh.point(f[0]), b = mesh.point(f[2]) - mesh.point(f[0]);
+  const double longest = std::max({ a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm() });
+  return a.cross(b).norm() <= 1e-14 * longest;
+}
+
+/// Two edges of the plane from node p to a and b: one above the other?
+bool lieOnEachOther(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b)
+{
+  return orient(p, a, b) == 0 && (a - p).dot(b - p) > 0.0;
+}
+
+/// Two triangles p, q, a and p, q, b: one above the other?
+bool lieOnEachOther(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b)
+{
+  const Vec<3> e = q - p;
+  return orient(p, q, a, b) == 0 && e.cross(Vec<3>(a - p)).dot(e.cross(Vec<3>(b - p))) > 0.0;
+}
+
+/// Angle of a cell between its facets that meet in what is left without nodes a and w; negative if
+/// the cell is inverted.
+double angle(const SimplexMesh<2>& mesh, Index c, Index a, Index w)
+{
+  const Corners<2> x = mesh.corners(c);
+  const Index p = mesh.nodes(c)[0] + mesh.nodes(c)[1] + mesh.nodes(c)[2] - a - w;
+  const Vec<2> u = mesh.point(a) - mesh.point(p), v = mesh.point(w) - mesh.point(p);
+  return orientation(x) * std::atan2(std::fabs(u[0] * v[1] - u[1] * v[0]), u.dot(v));
+}
+
+double angle(const SimplexMesh<3>& mesh, Index c, Index a, Index w)
+{
+  Index ends[2] = { None, None };
+  for (Index p : mesh.nodes(c))
+  {
+    if (p != a && p != w)
+    {
+      ends[ends[0] == None ? 0 : 1] = p;
+    }
+  }
+  const Vec<3> o = mesh.point(ends[0]), e = (mesh.point(ends[1]) - o).normalized();
+  const Vec<3> u = e.cross(Vec<3>(mesh.point(a) - o)), v = e.cross(Vec<3>(mesh.point(w) - o));
+  return orientation(mesh.corners(c)) * std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+/// The angle that the cells from kept facet `handle` on fill around what the facet has without node
+/// a, up to the next kept facet, whose other node comes back in a. Far off if there is none.
+template <int D>
+double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
+{
+  Index c = SimplexMesh<D>::cellOf(handle);
+  Index w = mesh.nodes(c)[SimplexMesh<D>::facetOf(handle)];
+  double sum = 0.0;
+  for (int step = 0; step < 1000; ++step)
+  {
+    sum += angle(mesh, c, a, w);
+    const int i = mesh.localIndex(c, a);
+    a = w;
+    if (mesh.isConstrained(c, i))
+    {
+      return sum;
+    }
+    const Index next = mesh.adjacent(c, i);
+    c = SimplexMesh<D>::cellOf(next);
+    w = mesh.nodes(c)[SimplexMesh<D>::facetOf(next)];
+  }
+  return 1e9;
+}
+
+/// Two facets that lie on each other and differ in a and b: is the mesh between them, with no room,
+/// or is it all around, as at the end of a closed crack?
+template <int D>
+bool isFolded(const SimplexMesh<D>& mesh, const Kept<D>& f, Index a, Index b)
+{
+  const Index other = mesh.adjacent(
+    SimplexMesh<D>::cellOf(f.handle), SimplexMesh<D>::facetOf(f.handle));
+  for (Index handle : { f.handle, other })
+  {
+    Index end = a;
+    if (handle != None && std::fabs(filledAngle(mesh, handle, end)) < 1.0 && end == b)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Does the line of edge (p, q) pass through the inside of triangle (a, b, c), p and q on opposite
+/// sides of it? One of its edges may be hit; a node may not: surfaces that touch do that.
+bool pierces(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b, const Vec<3>& c)
+{
+  if (orient(a, b, c, p) * orient(a, b, c, q) >= 0)
+  {
+    return false;
+  }
+  const int s[3] = { orient(p, q, a, b), orient(p, q, b, c), orient(p, q, c, a) };
+  const int sum = s[0] + s[1] + s[2];
+  const bool agree = *std::min_element(s, s + 3) * *std::max_element(s, s + 3) >= 0;
+  return agree && (sum >= 2 || sum <= -2);
+}
+
+bool cross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
+{
+  const Vec<2>&a = mesh.point(f[0]), &b = mesh.point(f[1]), &c = mesh.point(g[0]),
+        &d = mesh.point(g[1]);
+  return orient(a, b, c) * orient(a, b, d) < 0 && orient(c, d, a) * orient(c, d, b) < 0;
+}
+
+bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
+{
+  const auto oneWay = [&](const Facet<3>& edges, const Facet<3>& face)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const Index p = edges[i], q = edges[(i + 1) % 3];
+      const bool shared = std::find(face.begin(), face.end(), p) != face.end() ||
+        std::find(face.begin(), face.end(), q) != face.end();
+      if (!shared &&
+        pierces(mesh.point(p), mesh.point(q), mesh.point(face[0]), mesh.point(face[1]),
+          mesh.point(face[2])))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  return oneWay(f, g) || oneWay(g, f);
+}
+
+/// The fault of two facets, if they have one.
+template <int D>
+bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
+  typename SurfaceFault<D>::Kind& kind)
+{
+  std::vector<Index> shared, onlyF, onlyG;
+  const Facet<D>&m = f.nodes, &n = g.nodes;
+  std::set_intersection(m.begin(), m.end(), n.begin(), n.end(), std::back_inserter(shared));
+  if (shared.size() != D - 1)
+  {
+    kind = SurfaceFault<D>::Crossing;
+    return cross(mesh, m, n);
+  }
+  std::set_difference(m.begin(), m.end(), n.begin(), n.end(), std::back_inserter(onlyF));
+  std::set_difference(n.begin(), n.end(), m.begin(), m.end(), std::back_inserter(onlyG));
+  kind = SurfaceFault<D>::Folded;
+  const Vec<D>&p = mesh.point(shared[0]), &a = mesh.point(onlyF[0]), &b = mesh.point(onlyG[0]);
+  bool close = false;
+  if constexpr (D == 2)
+  {
+    close = lieOnEachOther(p, a, b);
+  }
+  else
+  {
+    close = lieOnEachOther(p, mesh.point(shared[1]), a, b);
+  }
+  return close && isFolded(mesh, f, onlyF[0], onlyG[0]);
+}
+
+template <int D>
+struct Box
+{
+  Vec<D> low, high;
+  Index facet;
+};
+
+template <int D>
+std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>& facets)
+{
+  std::vector<Box<D>> result;
+  for (std::size_t k = 0; k < facets.size(); ++k)
+  {
+    const Vec<D> x = mesh.point(facets[k].nodes[0]);
+    Box<D> box{ x, x, static_cast<Index>(k) };
+    for (Index p : facets[k].nodes)
+    {
+      box.low = box.low.cwiseMin(mesh.point(p));
+      box.high = box.high.cwiseMax(mesh.point(p));
+    }
+    result.push_back(box);
+  }
+  std::sort(result.begin(), result.end(),
+    [](const Box<D>& a, const Box<D>& b)
+    { return std::tie(a.low[0], a.facet) < std::tie(b.low[0], b.facet); });
+  return result;
+}
+}
+
+template <int D>
+std::vector<SurfaceFault<D>> findSurfaceFaults(
+  const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
+{
+  using Fault = SurfaceFault<D>;
+  const std::vector<Kept<D>> facets = keptFacets(mesh, neighbourhood(mesh, cells));
+  std::vector<Fault> faults;
+  for (const Kept<D>& f : facets)
+  {
+    if (hasNoArea(mesh, f.nodes))
+    {
+      faults.push_back({ Fault::NoArea, { f.nodes, f.nodes } });
+    }
+  }
+  const std::vector<Box<D>> sorted = boxes(mesh, facets); // by their low x: a sweep meets all pairs
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[0] <= sorted[i].high[0]; ++j)
+    {
+      typename Fault::Kind kind;
+      if ((sorted[j].low.array() <= sorted[i].high.array()).all() &&
+        (sorted[i].low.array() <= sorted[j].high.array()).all() &&
+        isFaulty(mesh, facets[sorted[i].facet], facets[sorted[j].facet], kind))
+      {
+        const auto [f, g] = std::minmax(sorted[i].facet, sorted[j].facet);
+        faults.push_back({ kind, { facets[f].nodes, facets[g].nodes } });
+      }
+    }
+  }
+  std::sort(faults.begin(), faults.end(),
+    [](const Fault& a, const Fault& b)
+    { return std::tie(a.kind, a.facets) < std::tie(b.kind, b.facets); });
+  return faults;
+}
+
+namespace
+{
+/// How much of all directions the angle between these edges takes up.
+double shareOfDirections(const std::array<Vec<2>, 2>& e)
+{
+  const double cross = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+  return std::atan2(std::fabs(cross), e[0].dot(e[1])) / (2.0 * std::acos(-1.0));
+}
+
+/// The same for the solid angle (van Oosterom and Strackee).
+double shareOfDirections(const std::array<Vec<3>, 3>& e)
+{
+  const double a = e[0].norm(), b = e[1].norm(), c = e[2].norm();
+  const double part = a * b * c + e[0].dot(e[1]) * c + e[0].dot(e[2]) * b + e[1].dot(e[2]) * a;
+  const double half = std::atan2(std::fabs(e[0].dot(e[1].cross(e[2]))), part);
+  return half / (2.0 * std::acos(-1.0));
+}
+
+template <int D>
+bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
+{
+  constexpr double most = 1.0 + 1e-6; // rounding
+  std::vector<double> share(static_cast<std::size_t>(mesh.numberOfPointSlots()), 0.0);
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i <= D && mesh.isAlive(c); ++i)
+    {
+      const Index p = mesh.nodes(c)[i];
+      const Facet<D> f = mesh.facet(c, i);
+      std::array<Vec<D>, D> edges;
+      for (int k = 0; k < D; ++k)
+      {
+        edges[k] = mesh.point(f[k]) - mesh.point(p);
+      }
+      share[p] += shareOfDirections(edges);
+    }
+  }
+  return std::any_of(share.begin(), share.end(), [](double s) { return !(s <= most); });
+}
+}
+
+template <int D>
+bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pinched)
+{
+  if (!pinched.empty() || fillsMoreThanAll(mesh))
+  {
+    return true;
+  }
+  std::vector<Index> cells;
+  for (Index c = 0; D == 3 && c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      cells.push_back(c);
+    }
+  }
+  return !findSurfaceFaults<D>(mesh, cells).empty();
+}
+
+template bool mayOverlap<2>(const SimplexMesh<2>&, const std::vector<std::uint8_t>&);
+template bool mayOverlap<3>(const SimplexMesh<3>&, const std::vector<std::uint8_t>&);
+template std::vector<SurfaceFault<2>> findSurfaceFaults<2>(
+  const SimplexMesh<2>&, const std::vector<Index>&);
+template std::vector<SurfaceFault<3>> findSurfaceFaults<3>(
+  const SimplexMesh<3>&, const std::vector<Index>&);
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file WorstFirstPolish.hxx
+/// The end of a stage of the fast engine: the few worst cells get the hardest tries.
+#ifndef meshopt_WorstFirst_WorstFirstPolish_hxx
+#define meshopt_WorstFirst_WorstFirstPolish_hxx
+
+namespace meshopt
+{
+namespace worstfirst
+{
+/// The few worst cells once more, now at the price of others becoming bad; again as long as that
+/// lifts the worst one. Where it does not, what surrounds them is lifted first, in ever wider
+/// neighbourhoods. Finely: for smaller gains, and closer to the caps.
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::polish(double target, bool finely)
+{
+  this->guard_ = false;
+  this->polishTarget_ = target;
+  const double leastGain = finely ? FineGain : this->usualGain_;
+  const double reached = finely ? CapReachedFinely : CapReached;
+  this->caps_.setReached(reached);
+  const bool past = finely || target > this->options_.targetQuality + 1e-9;
+  bool more = true;
+  std::vector<Entry> worst;
+  // Where facets have tiny caps the next worst cells, and what surrounds them, are spared on purpose.
+  const bool widens = past && !this->caps_.hasTiny();
+  std::size_t wanted = PolishedCells;
+  for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
+  {
+    const double worstOfAll = this->findWorst(target, wanted, worst);
+    // Where a cap is what limits the worst cell, the next ones are worth it only if they are bad and
+    // gain much.
+    if (worst.empty() || worst[0].first > std::max(worstOfAll, Stages[1]))
+    {
+      break;
+    }
+    const double before = this->report_.history.back().worst;
+    this->gain_ = worst[0].first > worstOfAll ? CoarseGain : leastGain;
+    // Near its cap a cell is not worth the work around it.
+    this->caps_.setReached(CapReached);
+    const bool nearCap = this->caps_.isCapped(this->mesh(), worst[0].second);
+    this->caps_.setReached(reached);
+    more = this->stage(std::nextafter(worst.back().first, 1.0));
+    if (this->report_.history.back().worst > before + RoundGain * this->gain_ * std::fabs(before))
+    {
+      layers = 0;
+      wanted = PolishedCells;
+    }
+    else if (!widens || nearCap)
+    {
+      break;
+    }
+    else if (worst.size() == wanted && wanted < MostPolishedCells)
+    {
+      wanted *= 2;
+    }
+    else if (more && ++layers <= LiftedLayers)
+    {
+      wanted = PolishedCells;
+      this->findWorst(target, wanted, worst);
+      more = worst.empty() || this->liftAround(worst, layers);
+    }
+    else
+    {
+      break;
+    }
+  }
+  this->guard_ = true;
+  this->gain_ = this->usualGain_;
+  this->caps_.setReached(CapReached);
+  return more;
+}
+
+/// The worst cells under target that no cap holds, in order; returns the worst quality of all.
+template <int D, class Shape>
+double WorstFirst<D, Shape>::findWorst(
+  double target, std::size_t wanted, std::vector<Entry>& worst) const
+{
+  double worstOfAll = 1.0;
+  worst.clear();
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    const double q = this->mesh().quality(c);
+    if (this->mesh().isAlive(c) && q < target)
+    {
+      worstOfAll = std::min(worstOfAll, q);
+      if (!this->caps_.isCapped(this->mesh(), c))
+      {
+        worst.emplace_back(q, c);
+      }
+    }
+  }
+  const std::size_t k = std::min(wanted, worst.size());
+  std::partial_sort(worst.begin(), worst.begin() + k, worst.end());
+  worst.resize(k);
+  return worstOfAll;
+}
+
+/// Improves the cells in so many layers around the given ones towards a quality above theirs.
+template <int D, class Shape>
+bool WorstFirst<D, Shape>::liftAround(const std::vector<Entry>& cells, int layers)
+{
+  std::vector<Index> zone, front, star;
+  std::vector<char> seen(this->mesh().numberOfCellSlots(), 0);
+  for (const Entry& e : cells)
+  {
+    seen[e.second] = 1;
+    front.push_back(e.second);
+  }
+  for (int layer = 0; layer <= layers; ++layer)
+  {
+    zone.insert(zone.end(), front.begin(), front.end());
+    std::vector<Index> next;
+    for (Index c : front)
+    {
+      for (Index p : this->mesh().nodes(c))
+      {
+        this->mesh().star(p, star);
+        for (Index o : star)
+        {
+          if (!std::exchange(seen[o], 1))
+          {
+            next.push_back(o);
+          }
+        }
+      }
+    }
+    front.swap(next);
+  }
+  const double gain = std::exchange(this->gain_, Gain);
+  const double target = cells[0].first + layers * LiftStep;
+  bool more = true;
+  for (int level = 0; level <= Improver<D, Shape>::Insertion && more; ++level)
+  {
+    std::vector<Index> bad;
+    for (Index c : zone)
+    {
+      if (this->mesh().isAlive(c) && this->mesh().quality(c) < target &&
+        this->worthTrying(c, level) && !this->caps_.isCapped(this->mesh(), c))
+      {
+        bad.push_back(c);
+      }
+    }
+    this->pass(target, level, bad, static_cast<long>(bad.size()));
+    this->record(target, 0);
+    more = this->keepGoing(target);
+  }
+  this->gain_ = gain;
+  return more;
+}
+}
+}
+
+#endif

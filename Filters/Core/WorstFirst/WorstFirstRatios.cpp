@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "WorstFirst/WorstFirstRun.h"
+
+namespace meshopt
+{
+MESHOPT_INSTANTIATE_WORST_FIRST(RadiusRatioShape)
+MESHOPT_INSTANTIATE_WORST_FIRST(MeanRatioShape)
+}
