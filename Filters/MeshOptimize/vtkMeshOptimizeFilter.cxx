@@ -204,7 +204,7 @@ vtkMeshOptimizeBridge::Request vtkMeshOptimizeFilter::MakeRequest()
   o.armijo = this->ArmijoFactor;
   o.maximumNumberOfAlternations = this->MaximumNumberOfAlternations;
   o.effort = static_cast<meshopt::Effort>(this->Effort);
-  o.numberOfThreads = bridge::ResolveNumberOfThreads(this->NumberOfThreads);
+  request.NumberOfThreads = bridge::ResolveNumberOfThreads(this->NumberOfThreads);
   o.growthBudget = this->GrowthBudget;
   o.timeLimit = this->TimeLimit;
   request.OptimizeBelow = this->OptimizeBelow;
@@ -319,7 +319,7 @@ std::string vtkMeshOptimizeFilter::OptimizeAll(vtkDataObject* input, vtkPolyData
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
     request.Control = bridge::MakeControl(
-      this, request.Options.numberOfThreads, first, last, deadline);
+      this, request.NumberOfThreads, first, last, deadline);
     bridge::Outcome one;
     error = bridge::OptimizeGrid(tasks[i].Input, request, tasks[i].Output, one);
     if (!error.empty())

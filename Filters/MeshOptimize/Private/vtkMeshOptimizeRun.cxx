@@ -36,6 +36,16 @@ std::string Joined(const std::string& a, const std::string& b)
   return a + (a.empty() || b.empty() ? "" : " ") + b;
 }
 
+const meshopt::Surface<2>* AsSurface(const meshopt::BoundaryCurves& curves, std::true_type)
+{
+  return &curves;
+}
+
+const meshopt::Surface<3>* AsSurface(const meshopt::BoundaryCurves&, std::false_type)
+{
+  return nullptr;
+}
+
 template <int D>
 void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
   const Request& request, const meshopt::BoundaryCurves& curves, Outcome& outcome)
@@ -43,8 +53,8 @@ void Optimize(meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric,
   const auto start = std::chrono::steady_clock::now();
   const double areaBefore = D == 2 ? mesh.volume() : 0.0;
   outcome.NumberOfCellsBefore = mesh.numberOfInputCells();
-  outcome.Report = meshopt::optimize(
-    mesh, metric, request.Options, request.Control, request.Slide ? &curves : nullptr);
+  outcome.Report = meshopt::optimize(mesh, metric, request.Options, request.Control,
+    request.Slide ? AsSurface(curves, std::bool_constant<D == 2>()) : nullptr);
   if (outcome.Report.stopReason == meshopt::StopReason::Aborted && request.TimeLimit->WasSeen())
   {
     outcome.Report.stopReason = meshopt::StopReason::TimeLimit;
