@@ -112,7 +112,7 @@ public:
     this->result_.bound = regular;
     this->result_.sideCaps.assign(this->result_.sides.size(), regular);
     this->capSides();
-    if (this->options_.useEdges && this->options_.measure == Measure::Shape)
+    if (infoOf(this->options_.measure).bound == FacetBound::BestApex)
     {
       this->capWedges();
     }
@@ -160,12 +160,13 @@ double BoundBuilder<3>::capOfSide(std::size_t s, double enough)
 {
   const Facet<3>& f = this->result_.sides[s].nodes;
   const Vec<3>&a = this->points_[f[0]], &b = this->points_[f[1]], &c = this->points_[f[2]];
-  switch (this->options_.measure)
+  const FacetBound bound = infoOf(this->options_.measure).bound;
+  switch (bound)
   {
-    case Measure::Shape:
+    case FacetBound::BestApex:
       return facetCap(a, b, c, enough, &this->apexes_[s]);
-    case Measure::VolumeLength:
-    case Measure::MeanRatio:
+    case FacetBound::MeanRatio:
+    case FacetBound::MeanRatioToTwoThirds:
     {
       // The best apex is above the centroid, and gives the mean ratio 4 sqrt(3) A / sum l^2 of the
       // facet itself.
@@ -176,11 +177,12 @@ double BoundBuilder<3>::capOfSide(std::size_t s, double enough)
       {
         return 1.0;
       }
-      return this->options_.measure == Measure::VolumeLength ? cap : std::cbrt(cap * cap);
+      return bound == FacetBound::MeanRatio ? cap : std::cbrt(cap * cap);
     }
-    default:
-      return regularValue<3>(this->options_.measure);
+    case FacetBound::None:
+      break;
   }
+  return regularValue<3>(this->options_.measure);
 }
 
 template <int D>
@@ -385,18 +387,6 @@ double BoundBuilder<3>::wedgeCap(
   }
   return cap;
 }
-}
-
-template <int D>
-std::vector<double> SurfaceBound<D>::cellCaps(Index numberOfCells) const
-{
-  std::vector<double> caps(numberOfCells, 1.0);
-  for (std::size_t s = 0; s < this->sides.size(); ++s)
-  {
-    double& cap = caps[this->sides[s].cell];
-    cap = std::min(cap, this->sideCaps[s]);
-  }
-  return caps;
 }
 
 template <int D>

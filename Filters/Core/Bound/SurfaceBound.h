@@ -46,7 +46,6 @@ struct SurfaceBoundOptions
   /// Caps of facets and edges are needed exactly only where they are below this; above, sideCaps
   /// may be anything from here to the true cap. Infinite: all sideCaps are exact.
   double enough = std::numeric_limits<double>::infinity();
-  bool useEdges = true; ///< angles too, not facets only; Measure::Shape only
   /// List all edges that cap something under this (0: only the edge that sets the bound).
   double listEdgesBelow = 0.0;
 };
@@ -64,9 +63,6 @@ struct SurfaceBound
   std::vector<KeptSide<D>> sides;
   std::vector<double> sideCaps; ///< cap of the cell on each side, in [0, 1]
   std::vector<EdgeBound> edges; ///< see listEdgesBelow; in no special order, but always the same
-
-  /// Cap of each cell that has a kept facet: the least of its sides'. Others: regular value.
-  std::vector<double> cellCaps(Index numberOfCells) const;
 };
 
 /// Bound of a mesh: its kept facets (surface, regions, the caller's) as they are now. Linear in its

@@ -250,6 +250,8 @@ struct MeshBuilder
 
   /// Makes the numbering of each connected component consistent, and positive as a whole. What is
   /// still negative after that is geometrically inverted, not just numbered the other way round.
+  /// A component without a negative cell stays as it is: where its numbering is not consistent, cells
+  /// lie on each other, and to turn one would make it inverted.
   void orient()
   {
     const Index n = this->mesh.numberOfCellSlots();
@@ -271,15 +273,33 @@ struct MeshBuilder
         continue;
       }
       const double volume = this->propagate(seed, sign, component);
+      const bool isPositive = std::none_of(component.begin(), component.end(),
+        [&](Index c) { return signedVolume(this->mesh.corners(c)) < 0.0; });
       for (Index c : component)
       {
-        if ((sign[c] < 0) != (volume < 0.0))
+        if (!isPositive && (sign[c] < 0) != (volume < 0.0))
         {
           this->reverse(c);
           ++this->mesh.reoriented_;
         }
       }
+      this->mesh.foldedFacets_ += isPositive ? this->countFolded(component) : 0;
     }
+  }
+
+  /// Facets that both of their cells lie on the same side of.
+  Index countFolded(const std::vector<Index>& cells) const
+  {
+    Index count = 0;
+    for (Index c : cells)
+    {
+      for (int i = 0; i <= D; ++i)
+      {
+        const Index h = this->mesh.adjacent(c, i);
+        count += h > Mesh::handle(c, i) && !this->agree(c, i);
+      }
+    }
+    return count;
   }
 
   double propagate(Index seed, std::vector<std::int8_t>& sign, std::vector<Index>& component)

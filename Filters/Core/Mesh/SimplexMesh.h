@@ -117,7 +117,9 @@ public:
   /// arrays of a wrong length) is an error and leaves `mesh` empty. Inverted and flat cells are
   /// legal. Cells numbered against their neighbours are renumbered (the last two nodes swapped),
   /// such that each connected component is consistently oriented with positive total volume, unless
-  /// input.isOriented; numberOfReorientedCells() counts them.
+  /// input.isOriented; numberOfReorientedCells() counts them. A component that has no cell of negative
+  /// volume is not renumbered: where neighbours are not numbered alike they lie on each other, and
+  /// numberOfFoldedFacets() counts the facets between them.
   static std::optional<MeshError> build(const MeshInput<D>& input, SimplexMesh& mesh);
 
   // --- sizes
@@ -126,6 +128,8 @@ public:
   Index numberOfInputPoints() const { return this->inputPoints_; }
   Index numberOfInputCells() const { return this->inputCells_; }
   Index numberOfReorientedCells() const { return this->reoriented_; }
+  /// Facets of the input that both of their cells lie on the same side of.
+  Index numberOfFoldedFacets() const { return this->foldedFacets_; }
   Index countCells() const;  ///< live cells; linear
   Index countPoints() const; ///< points used by a cell; linear
   bool hasConstrainedEdges() const { return this->hasConstrainedEdges_; }
@@ -250,6 +254,7 @@ private:
   Index inputPoints_ = 0;
   Index inputCells_ = 0;
   Index reoriented_ = 0;
+  Index foldedFacets_ = 0;
   bool hasConstrainedEdges_ = false;
 };
 

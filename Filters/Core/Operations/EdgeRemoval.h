@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file EdgeRemoval.h
-/// Removes an interior edge: the ring of points around it is triangulated anew in the best way, and
-/// both ends of the edge are joined to the triangles. (The paper's edge cluster to a ring node is
-/// the special case of a fan.) In 2D: the swap of an edge.
+/// Removes an edge: the ring of points around it is triangulated anew in the best way, and both ends
+/// of the edge are joined to the triangles. (The paper's edge cluster to a ring node is the special
+/// case of a fan.) In 2D: the swap of an edge. On a surface that takes part the ring is open: from a
+/// facet of the surface to the next one, and these two are swapped.
 ///
 /// Reference: G. T. Klincsek, Minimal triangulations of polygonal domains (1980), with the sum
 /// replaced by the minimum: D[i][j] = max over k of min(D[i][k], D[k][j], both tetrahedra on the
@@ -10,8 +11,9 @@
 #ifndef meshopt_Operations_EdgeRemoval_h
 #define meshopt_Operations_EdgeRemoval_h
 
-#include "Mesh/MeshEditor.h"
+#include "Edit/Proposal.h"
 #include "Edit/QualityModel.h"
+#include "Surface/Surface.h"
 
 #include <algorithm>
 
@@ -25,20 +27,39 @@ public:
 
   /// Tries to remove edge e (local number) of cell t. Returns the worst quality of the best
   /// refilling if it is above `above` and above the worst of the ring, else -infinity; then also if
-  /// the edge must stay (kept, at the surface, ring too large, not owned).
-  double propose(
-    const MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index t, int e, double above);
+  /// the edge must stay: kept, at a surface that `surface` does not let be swapped there (null: never),
+  /// ring too large, not owned.
+  double propose(const MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index t, int e,
+    double above, const Surface<D>* surface = nullptr);
 
   /// The worst quality of the ring of the last propose() that found a ring.
   double ringWorst() const { return this->ringWorst_; }
   const std::vector<Index>& cavity() const { return this->cavity_; }
   /// The cells of the last successful propose().
   void cells(std::vector<Simplex<D>>& cells) const;
+  /// The same with all that a proposal says of what goes and comes.
+  void fill(Proposal<D>& proposal, const SimplexMesh<D>& mesh) const;
 
 private:
   static constexpr double Never = -std::numeric_limits<double>::infinity();
 
-  bool gather(const MeshEditor<D>& editor, Index t, int e);
+  /// A cell of the ring, with local numbers of its nodes: the edge's, then those of two ring points,
+  /// such that the next cell of the ring is opposite to the third.
+  struct Start
+  {
+    Index cell;
+    std::array<int, D + 1> local;
+  };
+  enum class Ring
+  {
+    None,
+    Closed,
+    Blocked ///< ends at a kept facet
+  };
+  bool gather(const MeshEditor<D>& editor, Index t, int e, const Surface<D>* surface);
+  bool gatherPair(const MeshEditor<D>& editor, Index t, int e);
+  Ring gatherRing(const MeshEditor<D>& editor, const Start& start);
+  bool gatherOpenRing(const MeshEditor<D>& editor, Start start, const Surface<D>& surface);
   double triangulate(const QualityModel<D, Shape>& model, double above);
   void weigh(const QualityModel<D, Shape>& model);
   double pair(const QualityModel<D, Shape>& model, int i, int k, int j, double above) const;
@@ -46,6 +67,7 @@ private:
 
   std::vector<Index> cavity_;
   double ringWorst_ = 0.0;
+  bool isOpen_ = false;            // the ring begins and ends at the surface
   Index low_ = None, high_ = None; // the edge; the ring runs counterclockwise seen from high_
   int n_ = 0;
   Index ring_[MaximumRing];
@@ -55,90 +77,139 @@ private:
   int split_[MaximumRing][MaximumRing];
 };
 
+/// In the plane: both cells of the edge, which lies opposite to a node; that and the node across are
+/// the ring.
 template <int D, class Shape>
-bool EdgeRemoval<D, Shape>::gather(const MeshEditor<D>& editor, Index t, int e)
+bool EdgeRemoval<D, Shape>::gatherPair(const MeshEditor<D>& editor, Index t, int e)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
-  this->cavity_.assign(1, t);
-  this->ringWorst_ = mesh.quality(t);
-  const Simplex<D>& nodes = mesh.nodes(t);
+  const int o = 3 - Local<D>::edges[e][0] - Local<D>::edges[e][1];
+  const Index h = mesh.adjacent(t, o);
+  if (h == None || mesh.isConstrained(t, o) || !editor.owns(mesh.cellOf(h)))
+  {
+    return false;
+  }
+  this->cavity_ = { t, mesh.cellOf(h) };
+  this->ringWorst_ = std::min(mesh.quality(t), mesh.quality(mesh.cellOf(h)));
+  const Facet<D> f = mesh.facet(t, o);
+  this->low_ = f[0];
+  this->high_ = f[1];
+  this->ring_[0] = mesh.nodes(t)[o];
+  this->ring_[1] = mesh.nodes(mesh.cellOf(h))[mesh.facetOf(h)];
+  this->n_ = 2;
+  return true;
+}
+
+/// In space: the cells around the edge from the start on, and their ring points.
+template <int D, class Shape>
+typename EdgeRemoval<D, Shape>::Ring EdgeRemoval<D, Shape>::gatherRing(
+  const MeshEditor<D>& editor, const Start& start)
+{
+  const SimplexMesh<D>& mesh = editor.mesh();
+  const Simplex<D>& nodes = mesh.nodes(start.cell);
+  this->cavity_.assign(1, start.cell);
+  this->ringWorst_ = mesh.quality(start.cell);
+  this->low_ = nodes[start.local[0]];
+  this->high_ = nodes[start.local[1]];
+  this->ring_[0] = nodes[start.local[2]];
+  this->ring_[1] = nodes[start.local[D]];
+  this->n_ = 2;
+  Index current = start.cell;
+  int exit = start.local[2]; // leave through the facet opposite to the older ring point
+  while (true)
+  {
+    const Index h = mesh.adjacent(current, exit);
+    if (h == None || mesh.isConstrained(current, exit))
+    {
+      return Ring::Blocked;
+    }
+    const Index next = mesh.cellOf(h);
+    if (next == start.cell || !editor.owns(next))
+    {
+      return Ring::None;
+    }
+    this->cavity_.push_back(next);
+    this->ringWorst_ = std::min(this->ringWorst_, mesh.quality(next));
+    const Index newcomer = mesh.nodes(next)[mesh.facetOf(h)];
+    exit = mesh.localIndex(next, this->ring_[this->n_ - 1]);
+    current = next;
+    if (newcomer == this->ring_[0])
+    {
+      // closed if the way on leads back to the start
+      const Index back = mesh.adjacent(current, exit);
+      const bool isClosed = back != None && !mesh.isConstrained(current, exit) &&
+        mesh.cellOf(back) == start.cell;
+      return isClosed && this->n_ > 2 ? Ring::Closed : Ring::None;
+    }
+    if (this->n_ == MaximumRing)
+    {
+      return Ring::None;
+    }
+    this->ring_[this->n_++] = newcomer;
+  }
+}
+
+/// From one facet of the outer surface to the next: back from the start to the first, then all the way.
+template <int D, class Shape>
+bool EdgeRemoval<D, Shape>::gatherOpenRing(
+  const MeshEditor<D>& editor, Start start, const Surface<D>& surface)
+{
+  const SimplexMesh<D>& mesh = editor.mesh();
+  while (!mesh.isConstrained(start.cell, start.local[D]))
+  {
+    const Simplex<D>& nodes = mesh.nodes(start.cell);
+    const Index h = mesh.adjacent(start.cell, start.local[D]);
+    const Index next = mesh.cellOf(h), c = nodes[start.local[2]];
+    if (!editor.owns(next))
+    {
+      return false;
+    }
+    start.local = { mesh.localIndex(next, nodes[start.local[0]]),
+      mesh.localIndex(next, nodes[start.local[1]]), mesh.facetOf(h) };
+    start.local[D] = mesh.localIndex(next, c);
+    start.cell = next;
+  }
+  if (mesh.adjacent(start.cell, start.local[D]) != None ||
+    this->gatherRing(editor, start) != Ring::Blocked || this->n_ < 3)
+  {
+    return false;
+  }
+  // the last cell has the surface opposite to the ring point before its last
+  const Index last = this->cavity_.back();
+  this->isOpen_ = mesh.adjacent(last, mesh.localIndex(last, this->ring_[this->n_ - 2])) == None;
+  return this->isOpen_ &&
+    surface.maySwap(mesh, this->low_, this->high_, this->ring_[0], this->ring_[this->n_ - 1]);
+}
+
+template <int D, class Shape>
+bool EdgeRemoval<D, Shape>::gather(
+  const MeshEditor<D>& editor, Index t, int e, [[maybe_unused]] const Surface<D>* surface)
+{
+  const SimplexMesh<D>& mesh = editor.mesh();
+  this->isOpen_ = false;
+  bool found = false;
   if constexpr (D == 2)
   {
-    // the edge lies opposite to node o; the ring is: o, the node across
-    const int o = 3 - Local<2>::edges[e][0] - Local<2>::edges[e][1];
-    const Index h = mesh.adjacent(t, o);
-    if (h == None || mesh.isConstrained(t, o) || !editor.owns(mesh.cellOf(h)))
-    {
-      return false;
-    }
-    this->cavity_.push_back(mesh.cellOf(h));
-    this->ringWorst_ = std::min(this->ringWorst_, mesh.quality(mesh.cellOf(h)));
-    const Facet<2> f = mesh.facet(t, o);
-    this->low_ = f[0];
-    this->high_ = f[1];
-    this->ring_[0] = nodes[o];
-    this->ring_[1] = mesh.nodes(mesh.cellOf(h))[mesh.facetOf(h)];
-    this->n_ = 2;
+    found = this->gatherPair(editor, t, e);
   }
-  else
+  else if (!mesh.isEdgeConstrained(t, e))
   {
-    if (mesh.isEdgeConstrained(t, e))
-    {
-      return false;
-    }
-    const auto& local = Local<3>::edgeFirst[e];
-    this->low_ = nodes[local[0]];
-    this->high_ = nodes[local[1]];
-    this->ring_[0] = nodes[local[2]];
-    this->ring_[1] = nodes[local[3]];
-    this->n_ = 2;
-    Index current = t;
-    int exit = local[2]; // leave through the facet opposite to the older ring point
-    while (true)
-    {
-      const Index h = mesh.adjacent(current, exit);
-      if (h == None || mesh.isConstrained(current, exit))
-      {
-        return false;
-      }
-      const Index next = mesh.cellOf(h);
-      if (next == t || !editor.owns(next))
-      {
-        return false;
-      }
-      this->cavity_.push_back(next);
-      this->ringWorst_ = std::min(this->ringWorst_, mesh.quality(next));
-      const Index newcomer = mesh.nodes(next)[mesh.facetOf(h)];
-      exit = mesh.localIndex(next, this->ring_[this->n_ - 1]);
-      current = next;
-      if (newcomer == this->ring_[0])
-      {
-        // closed if the way on leads back to t
-        const Index back = mesh.adjacent(current, exit);
-        if (back == None || mesh.isConstrained(current, exit) || mesh.cellOf(back) != t)
-        {
-          return false;
-        }
-        break;
-      }
-      if (this->n_ == MaximumRing)
-      {
-        return false;
-      }
-      this->ring_[this->n_++] = newcomer;
-    }
-    if (this->n_ < 3)
-    {
-      return false;
-    }
+    Start start{ t, {} };
+    std::copy_n(Local<D>::edgeFirst[e], D + 1, start.local.begin());
+    const Ring ring = this->gatherRing(editor, start);
+    found = ring == Ring::Closed ||
+      (ring == Ring::Blocked && surface && this->gatherOpenRing(editor, start, *surface));
   }
-  for (int i = 0; i < this->n_; ++i)
+  if (found)
   {
-    this->x_[i] = mesh.point(this->ring_[i]);
+    for (int i = 0; i < this->n_; ++i)
+    {
+      this->x_[i] = mesh.point(this->ring_[i]);
+    }
+    this->xLow_ = mesh.point(this->low_);
+    this->xHigh_ = mesh.point(this->high_);
   }
-  this->xLow_ = mesh.point(this->low_);
-  this->xHigh_ = mesh.point(this->high_);
-  return true;
+  return found;
 }
 
 template <int D, class Shape>
@@ -237,9 +308,10 @@ double EdgeRemoval<D, Shape>::triangulate(const QualityModel<D, Shape>& model, d
 
 template <int D, class Shape>
 double EdgeRemoval<D, Shape>::propose(
-  const MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index t, int e, double above)
+  const MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index t, int e, double above,
+  const Surface<D>* surface)
 {
-  if (!this->gather(editor, t, e))
+  if (!this->gather(editor, t, e, surface))
   {
     return Never;
   }
@@ -285,6 +357,29 @@ void EdgeRemoval<D, Shape>::cells(std::vector<Simplex<D>>& cells) const
   else
   {
     this->emit(0, this->n_ - 1, cells);
+  }
+}
+
+template <int D, class Shape>
+void EdgeRemoval<D, Shape>::fill(Proposal<D>& proposal, const SimplexMesh<D>& mesh) const
+{
+  this->cells(proposal.cells);
+  proposal.cavity = this->cavity_;
+  proposal.oldWorst = this->ringWorst_;
+  proposal.changesKept = this->isOpen_;
+  if constexpr (D == 3)
+  {
+    if (this->isOpen_)
+    {
+      const Index first = this->ring_[0], last = this->ring_[this->n_ - 1];
+      const Index c = this->cavity_[0];
+      const Index patch = mesh.patch(c, mesh.localIndex(c, this->ring_[1]));
+      proposal.kept.clear();
+      proposal.kept.gone = { { this->low_, this->high_, first }, { this->low_, this->high_, last } };
+      proposal.kept.come = { { first, last, this->low_ }, { first, last, this->high_ } };
+      proposal.kept.patches.assign(2, patch);
+      proposal.kept.regions.assign(proposal.cells.size(), mesh.region(c));
+    }
   }
 }
 }

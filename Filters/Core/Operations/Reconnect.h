@@ -37,12 +37,10 @@ private:
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
     {
       const double q = this->edgeRemoval_.propose(
-        judge.editor(), judge.model(), t, e, this->best_.newWorst);
+        judge.editor(), judge.model(), t, e, this->best_.newWorst, judge.surface());
       if (this->isBest(q, judge.required(this->edgeRemoval_.ringWorst())))
       {
-        this->edgeRemoval_.cells(this->best_.cells);
-        this->best_.cavity = this->edgeRemoval_.cavity();
-        this->best_.oldWorst = this->edgeRemoval_.ringWorst();
+        this->edgeRemoval_.fill(this->best_, judge.mesh());
       }
     }
     judge.count(Operation::EdgeRemoval, !this->best_.cells.empty());
@@ -60,6 +58,7 @@ private:
         this->best_.cells = this->faceRemoval_.cells();
         this->best_.cavity = this->faceRemoval_.cavity();
         this->best_.oldWorst = this->faceRemoval_.oldWorst();
+        this->best_.changesKept = false;
         found = true;
       }
     }

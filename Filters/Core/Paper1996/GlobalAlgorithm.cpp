@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Paper1996/GlobalAlgorithm.h"
 
+#include "Paper1996/ClusterSolver.h"
 #include "Paper1996/WorstQueue.h"
 #include "Run/Run.h"
-#include "Paper1996/ClusterSolver.h"
 
 namespace meshopt
 {
@@ -13,8 +13,8 @@ template <int D, class Shape>
 class GlobalAlgorithm
 {
 public:
-  GlobalAlgorithm(
-    MeshEditor<D>& editor, NodalMetric<D>& metric, double beta, const RepositionParameters& parameters)
+  GlobalAlgorithm(MeshEditor<D>& editor, NodalMetric<D>& metric, double beta,
+    const RepositionParameters& parameters)
     : editor_(editor)
     , parameters_(parameters)
     , model_(editor.mesh(), metric, beta)
@@ -131,7 +131,7 @@ RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measu
   std::vector<Index>* sequence)
 {
   const FollowedMetric<D> follows(editor, metric);
-  return dispatch<D>(measure,
+  return dispatchOptimizable<D>(measure,
     [&](auto shape)
     {
       using Shape = decltype(shape);

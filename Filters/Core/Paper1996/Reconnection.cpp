@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Paper1996/Reconnection.h"
 
-#include "Paper1996/WorstQueue.h"
 #include "Mesh/PinchedPoints.h"
-#include "Run/Run.h"
-#include "Paper1996/FillingTrial.h"
 #include "Paper1996/FillingLookAhead.h"
+#include "Paper1996/FillingTrial.h"
+#include "Paper1996/WorstQueue.h"
+#include "Run/Run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,7 @@ private:
   WorstQueue<D> queue_;
   Switches switches_;
   QualityModel<D, Shape> model_;
-  std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
+  std::vector<std::uint8_t> pinched_;  // see PinchedPoints.h
   Judge<D, Shape> judge_, aheadJudge_; // growth is limited for the first one only
   FillingTrial<D, Shape> trial_;
   FillingLookAhead<D, Shape> ahead_;
@@ -302,7 +302,7 @@ ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Meas
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
 {
   const FollowedMetric<D> follows(editor, metric);
-  return dispatch<D>(measure,
+  return dispatchOptimizable<D>(measure,
     [&](auto shape)
     {
       using Shape = decltype(shape);

@@ -7,8 +7,7 @@
 #define meshopt_Quality_ElementQuality_h
 
 #include "Metric/ElementMetric.h"
-#include "Quality/Measure.h"
-#include "Quality/Shape.h"
+#include "Quality/Measures.h"
 
 #include <cmath>
 #include <utility>
@@ -137,31 +136,6 @@ inline double ElementQuality<D, Shape>::gradient(
     }
   }
   return q;
-}
-
-/// Calls f(shape) with the functor object that belongs to `measure`: the measure is chosen once per
-/// pass, not per element. f is a generic lambda returning the same type for every functor.
-template <int D, class F>
-decltype(auto) dispatch(Measure measure, F&& f)
-{
-  switch (measure)
-  {
-    case Measure::RadiusRatio:
-      return f(RadiusRatioShape<D>{});
-    case Measure::MeanRatio:
-      return f(MeanRatioShape<D>{});
-    case Measure::MinimumSine:
-      return f(MinimumSineShape<D>{});
-    case Measure::WarpedSine:
-      return f(WarpedSineShape<D>{});
-    case Measure::VolumeLength:
-      return f(VolumeLengthShape<D>{});
-    case Measure::MinimumDihedralAngle:
-      return f(MinimumAngleShape<D>{});
-    case Measure::Shape:
-    default:
-      return f(MeanEdgeShape<D>{});
-  }
 }
 }
 

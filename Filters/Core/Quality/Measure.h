@@ -10,7 +10,7 @@ namespace meshopt
 {
 /// All measures: 0 for a flat simplex, negative when inverted (the sign of the volume is kept),
 /// invariant to scale. The regular simplex has the greatest value, 1 unless said otherwise.
-/// Formulas: Shape.h.
+/// Formulas: Shape.h. What can be done with each: Measures.h, which has a row for every one of them.
 enum class Measure
 {
   Shape = 0,       ///< the paper's S = c V / P^D, P the sum of the edge lengths
@@ -23,20 +23,38 @@ enum class Measure
   MinimumDihedralAngle = 6 ///< least dihedral (corner) angle in degrees, at most 70.53 (60)
 };
 
+/// What is known of how good an element on a given facet can be (SurfaceBound.h).
+enum class FacetBound
+{
+  None,                 ///< nothing: only the value of the regular simplex
+  MeanRatio,            ///< the mean ratio of the facet itself
+  MeanRatioToTwoThirds, ///< that to the power 2/3
+  BestApex              ///< the best fourth node, and what angles at edges leave: certified for S
+};
+
+/// A row of the table of measures, as values.
+struct MeasureInfo
+{
+  const char* name;
+  bool isOptimizable; ///< else it can be reported only
+  FacetBound bound;
+  double regular2, regular3; ///< value of the regular triangle and of the regular tetrahedron
+};
+
+/// How many measures there are: they are numbered from 0.
+int numberOfMeasures();
+
+/// What is known of a measure; a measure that is not in the table is an error of the caller.
+const MeasureInfo& infoOf(Measure measure);
+
+/// Whether the number stands for a measure.
+inline bool isMeasure(int measure) { return measure >= 0 && measure < numberOfMeasures(); }
+
 /// The value of the regular simplex, which is the greatest there is.
 template <int D>
-constexpr double regularValue(Measure measure)
+double regularValue(Measure measure)
 {
-  switch (measure)
-  {
-    case Measure::MinimumSine:
-    case Measure::WarpedSine:
-      return D == 2 ? 0.8660254037844386 : 0.9428090415820634;
-    case Measure::MinimumDihedralAngle:
-      return D == 2 ? 60.0 : 70.52877936550931;
-    default:
-      return 1.0;
-  }
+  return D == 2 ? infoOf(measure).regular2 : infoOf(measure).regular3;
 }
 }
 

@@ -6,6 +6,7 @@
 /// element?" (2002), for the others.
 ///
 /// What all of them have in common (and one battery of tests holds them to it):
+///  - name, and regular: the value of the regular simplex, which is the greatest there is;
 ///  - value(x) is dimensionless (degrees for MinimumAngleShape), unchanged by translation, rotation
 ///    and scale; scaling by a power of two gives the same bits;
 ///  - it has the sign of the volume: value(mirrored element) = -value(element);
@@ -30,6 +31,8 @@ namespace meshopt
 template <int D>
 struct MeanEdgeShape
 {
+  static constexpr const char* name = "Shape";
+  static constexpr double regular = 1.0;
   /// c of (2.3); the paper prints 20.78 and 1832.82.
   static constexpr double constant = D == 2 ? 20.784609690826528 : 1832.8207768355312;
 
@@ -124,6 +127,8 @@ inline double MeanEdgeShape<D>::sumOfEdgesGradient(
 template <int D>
 struct VolumeLengthShape
 {
+  static constexpr const char* name = "VolumeLength";
+  static constexpr double regular = 1.0;
   /// Factor of det / (sum of squared edges)^(D/2).
   static constexpr double constant = D == 2 ? 3.4641016151377544 : 20.784609690826528;
 
@@ -162,6 +167,8 @@ private:
 template <int D>
 struct MeanRatioShape
 {
+  static constexpr const char* name = "MeanRatio";
+  static constexpr double regular = 1.0;
   static double value(const Corners<D>& x)
   {
     if constexpr (D == 2)
@@ -207,6 +214,8 @@ struct MeanRatioShape
 template <int D>
 struct RadiusRatioShape
 {
+  static constexpr const char* name = "RadiusRatio";
+  static constexpr double regular = 1.0;
   static double value(const Corners<D>& x)
   {
     const double det = volumeDeterminant(x);
@@ -343,6 +352,8 @@ inline double RadiusRatioShape<D>::gradient3(const Corners<3>& x, std::array<Vec
 template <int D>
 struct MinimumSineShape
 {
+  static constexpr const char* name = "MinimumSine";
+  static constexpr double regular = SineKernel<D>::regular;
   static double value(const Corners<D>& x) { return SineKernel<D>::value(x, 1.0); }
   static double gradient(const Corners<D>& x, std::array<Vec<D>, D + 1>& g)
   {
@@ -354,6 +365,8 @@ struct MinimumSineShape
 template <int D>
 struct WarpedSineShape
 {
+  static constexpr const char* name = "WarpedSine";
+  static constexpr double regular = SineKernel<D>::regular;
   static constexpr double weight = 0.75;
   static double value(const Corners<D>& x) { return SineKernel<D>::value(x, weight); }
   static double gradient(const Corners<D>& x, std::array<Vec<D>, D + 1>& g)
@@ -366,6 +379,8 @@ struct WarpedSineShape
 template <int D>
 struct MinimumAngleShape
 {
+  static constexpr const char* name = "MinimumDihedralAngle";
+  static constexpr double regular = D == 2 ? 60.0 : 70.52877936550931;
   static double value(const Corners<D>& x)
   {
     double sine, cosine;

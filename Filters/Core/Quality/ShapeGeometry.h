@@ -147,6 +147,8 @@ struct SineKernel;
 template <>
 struct SineKernel<2>
 {
+  static constexpr double regular = 0.8660254037844386; ///< sin 60
+
   /// Squared least weighted sine over det^2, and the node it is at; -1 if an edge is collapsed.
   static int least(const Corners<2>& x, double weight, double& factor)
   {
@@ -198,6 +200,8 @@ struct SineKernel<2>
 template <>
 struct SineKernel<3>
 {
+  static constexpr double regular = 0.9428090415820634; ///< sin 70.53
+
   /// As in 2D: sine = det l / (|n_i| |n_j|) at the edge of length l between facets i and j.
   static int least(const Corners<3>& x, double weight, double& factor)
   {

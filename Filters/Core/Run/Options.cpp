@@ -11,15 +11,14 @@ namespace
 // Comparisons are written such that NaN is refused.
 std::string checkQuality(const Options& o, bool hasSizes)
 {
-  const int measure = static_cast<int>(o.measure);
-  if (measure < 0 || measure > static_cast<int>(Measure::MinimumDihedralAngle))
+  if (!isMeasure(static_cast<int>(o.measure)))
   {
     return "The quality measure is none of the known ones.";
   }
-  if (o.measure == Measure::MinimumDihedralAngle)
+  if (!infoOf(o.measure).isOptimizable)
   {
-    return "The least dihedral angle in degrees is a measure to report, not to optimize; use the "
-           "minimum sine instead.";
+    return std::string(infoOf(o.measure).name) +
+      " is a measure to report, not to optimize; choose another quality measure.";
   }
   if (!(o.beta >= 0.0) || !std::isfinite(o.beta))
   {

@@ -16,7 +16,7 @@ SizeStage<D>::SizeStage(Run<D>& run)
   , improver_(run.editor, this->model_, run.options, run.surface) // what is capped matters later
   , units_(run.metric)
   , pinched_(pinchedPoints<D>(run.mesh()))
-  , overlaps_(!this->pinched_.empty() ||
+  , overlaps_(!this->pinched_.empty() || run.mesh().numberOfFoldedFacets() > 0 ||
       (run.report.invertedBefore > 0 && mayOverlap<D>(run.mesh(), this->pinched_)))
 {
   this->judge().setTangled(this->overlaps_, false, this->pinched_);

@@ -64,6 +64,7 @@ public:
   {
     return this->span(mesh, a, b).has_value();
   }
+  bool maySwap(const SimplexMesh<2>&, Index, Index, Index, Index) const override { return false; }
   /// v can only go along its piece, and not if that would fold the boundary, or leave the curve a
   /// tenth of the new edge's length away from it.
   bool mayJoin(const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v,

@@ -52,8 +52,13 @@ public:
   virtual std::optional<SlidingRange> range(
     const SimplexMesh<D>& mesh, const std::vector<Index>& star, Index v) const = 0;
 
-  /// Whether the kept edge from a to b may be divided, or swapped for another.
+  /// Whether the edge from a to b, kept or of kept facets, may be divided.
   virtual bool mayDivide(const SimplexMesh<D>& mesh, Index a, Index b) const = 0;
+
+  /// Whether the two facets of the surface at the edge (a, b), with third nodes c and d, may become
+  /// those at the edge (c, d) (D = 3).
+  virtual bool maySwap(
+    const SimplexMesh<D>& mesh, Index a, Index b, Index c, Index d) const = 0;
 
   /// Whether v may vanish into its neighbour u: the surface stays what it is, nothing folds, and no
   /// curve or corner is lost. `star`: the cells of v.

@@ -7,12 +7,13 @@
 
 #include "Bound/Caps.h"
 #include "Mesh/PinchedPoints.h"
+#include "Quality/Measures.h"
 #include "Run/ChunkedPass.h"
 #include "Run/Improver.h"
 #include "Run/Run.h"
 #include "Surface/SurfaceFaults.h"
 #include "WorstFirst/Constants.h"
-#include "WorstFirst/RunWorstFirst.h"
+#include "WorstFirst/Parts.h"
 #include "WorstFirst/Weights.h"
 
 #include <cstdio>
@@ -120,8 +121,8 @@ Schedule<D, Shape>::Schedule(Run<D>& run)
   , options_(run.options)
   , model_(run.mesh(), run.metric, run.options.beta)
   , weights_(run.editor, this->model_, this->caps_)
-  , chunks_(run.editor, [this]
-      { return std::make_unique<Worker>(this->run_, this->model_, this->caps_); })
+  , chunks_(run.editor,
+      [this] { return std::make_unique<Worker>(this->run_, this->model_, this->caps_); })
   , usualGain_(this->model_.plain ? Gain : CoarseGain)
   , gain_(this->usualGain_)
   , growth_(run.growth)
@@ -139,7 +140,7 @@ Schedule<D, Shape>::Schedule(Run<D>& run)
 template <int D, class Shape>
 void Schedule<D, Shape>::findTangle()
 {
-  this->tangled_ = this->run_.report.invertedBefore > 0;
+  this->tangled_ = this->run_.report.invertedBefore > 0 || this->mesh().numberOfFoldedFacets() > 0;
   if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // else it costs time
   {
     this->pinched_ = pinchedPoints<D>(this->mesh());
@@ -331,7 +332,8 @@ void Schedule<D, Shape>::setInverted(long cells)
   {
     if (!this->overlaps_)
     {
-      this->overlaps_ = mayOverlap<D>(this->mesh(), this->pinched_);
+      this->overlaps_ = this->mesh().numberOfFoldedFacets() > 0 ||
+        mayOverlap<D>(this->mesh(), this->pinched_);
     }
     this->tangled_ = *this->overlaps_;
   }
@@ -401,16 +403,36 @@ StopReason Schedule<D, Shape>::reason()
 
 namespace meshopt
 {
-template <int D, class Shape>
-void runWorstFirst(Run<D>& run)
+namespace worstfirst
 {
-  worstfirst::Schedule<D, Shape>(run).optimize();
+template <int D, int Part, std::size_t K>
+bool runRow(Run<D>& run)
+{
+  using Row = measures::Row<K>;
+  if constexpr (Row::isOptimizable && K % NumberOfParts == Part)
+  {
+    if (run.options.measure == Row::id)
+    {
+      Schedule<D, typename Row::template Shape<D>>(run).optimize();
+      return true;
+    }
+  }
+  return false;
+}
+
+template <int D, int Part, std::size_t... K>
+bool runRows(Run<D>& run, std::index_sequence<K...>)
+{
+  return (runRow<D, Part, K>(run) || ...);
 }
 }
 
-/// Instantiates the engine for a measure in both dimensions.
-#define MESHOPT_INSTANTIATE_WORST_FIRST(Shape)        \
-  template void runWorstFirst<2, Shape<2>>(Run<2>&); \
-  template void runWorstFirst<3, Shape<3>>(Run<3>&);
+template <int D, int Part>
+bool runPart(Run<D>& run)
+{
+  return worstfirst::runRows<D, Part>(
+    run, std::make_index_sequence<std::tuple_size_v<MeasureTable>>());
+}
+}
 
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WorstFirst/WorstFirst.h"
 
-#include "Quality/ElementQuality.h"
-#include "WorstFirst/RunWorstFirst.h"
+#include "WorstFirst/Parts.h"
 
 namespace meshopt
 {
@@ -10,16 +9,8 @@ template <int D>
 void optimizeWorstFirst(Run<D>& run)
 {
   const FollowedMetric<D> follows(run.editor, run.metric);
-  dispatch<D>(run.options.measure,
-    [&](auto shape)
-    {
-      using Shape = decltype(shape);
-      // to report only: Options::check() has refused it
-      if constexpr (!std::is_same_v<Shape, MinimumAngleShape<D>>)
-      {
-        runWorstFirst<D, Shape>(run);
-      }
-    });
+  static_assert(NumberOfParts == 3, "a call for each");
+  (void)(runPart<D, 0>(run) || runPart<D, 1>(run) || runPart<D, 2>(run));
 }
 
 template void optimizeWorstFirst<2>(Run<2>&);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Building a mesh: errors, numbering, adjacency; stars, counts.
+#include "Mesh/Ids.h"
 #include "TestMeshes.h"
 
 using namespace meshopt;
@@ -247,6 +248,44 @@ TYPED_TEST(Mesh, AReallyInvertedCellStaysNegative)
 }
 
 // ---- adjacency, stars, rings ---------------------------------------------------------------------
+
+/// Both cells lie on the same side of their common facet. To turn one of them would make it inverted.
+TYPED_TEST(Mesh, PositiveCellsThatLieOnEachOtherAreNotRenumbered)
+{
+  constexpr int D = TypeParam::dimension;
+  MeshInput<D> in;
+  in.points.assign(D + 2, Vec<D>::Zero());
+  for (int i = 0; i < D; ++i)
+  {
+    in.points[i + 1][i] = 1.0;
+  }
+  in.points[D + 1] = Vec<D>::Constant(0.2); // on the side of the last point
+  Simplex<D> first, second;
+  std::iota(first.begin(), first.end(), 0);
+  second = first;
+  second[D] = D + 1;
+  in.cells = { first, second };
+  const SimplexMesh<D> mesh = buildMesh(in);
+  EXPECT_EQ(mesh.numberOfReorientedCells(), 0);
+  EXPECT_EQ(mesh.numberOfFoldedFacets(), 1);
+  EXPECT_EQ(mesh.nodes(0), first);
+  EXPECT_EQ(mesh.nodes(1), second);
+  // a third cell, negative, elsewhere: its component alone is turned
+  for (int i = 0; i <= D; ++i)
+  {
+    in.points.push_back(in.points[i] + Vec<D>::Constant(5.0));
+  }
+  Simplex<D> third = exchanged(exchanged(first, 0, D + 2), 1, D + 3);
+  for (int i = 2; i <= D; ++i)
+  {
+    third[i] = D + 2 + i;
+  }
+  std::swap(third[D - 1], third[D]);
+  in.cells.push_back(third);
+  const SimplexMesh<D> three = buildMesh(in);
+  EXPECT_EQ(three.numberOfReorientedCells(), 1);
+  EXPECT_EQ(three.numberOfFoldedFacets(), 1);
+}
 
 TYPED_TEST(Mesh, FacetsLeadToTheCellBehind)
 {

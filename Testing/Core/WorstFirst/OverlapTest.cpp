@@ -228,3 +228,57 @@ TEST(Overlap, SizesInACrumpledMesh)
     }
   }
 }
+
+namespace
+{
+/// Nodes thrown until cells are inverted, and these renumbered: all volumes are positive, but cells lie
+/// on each other.
+template <int D>
+MeshInput<D> foldedGrid(unsigned seed)
+{
+  MeshInput<D> in = jitteredGrid<D>(D == 3 ? 3 : 6, 0.9, seed);
+  for (Simplex<D>& cell : in.cells)
+  {
+    Corners<D> x;
+    std::transform(cell.begin(), cell.end(), x.begin(), [&](Index p) { return in.points[p]; });
+    if (signedVolume(x) < 0.0)
+    {
+      std::swap(cell[D - 1], cell[D]);
+    }
+  }
+  return in;
+}
+
+/// Renumbering made such cells inverted, and the worst quality negative.
+template <int D>
+void expectNoneInverted()
+{
+  int folded = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed)
+  {
+    for (Algorithm algorithm : { Algorithm::WorstFirst, Algorithm::Paper1996 })
+    {
+      SimplexMesh<D> mesh = buildMesh(foldedGrid<D>(seed));
+      EXPECT_EQ(mesh.numberOfReorientedCells(), 0);
+      folded += mesh.numberOfFoldedFacets() > 0;
+      Options options;
+      options.algorithm = algorithm;
+      NodalMetric<D> metric;
+      const long euler = mesh.eulerCharacteristic();
+      const Report report = optimize<D>(mesh, metric, options, {});
+      EXPECT_GT(report.worstBefore, 0.0);
+      EXPECT_GE(report.worstAfter, report.worstBefore) << "seed " << seed;
+      EXPECT_EQ(report.invertedAfter, 0);
+      EXPECT_TRUE(mesh.audit(true).empty()) << "seed " << seed;
+      EXPECT_EQ(mesh.eulerCharacteristic(), euler);
+    }
+  }
+  EXPECT_GE(folded, 8);
+}
+}
+
+TEST(Overlap, PositiveCellsThatLieOnEachOtherStayPositive)
+{
+  expectNoneInverted<2>();
+  expectNoneInverted<3>();
+}

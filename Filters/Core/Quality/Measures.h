@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Measures.h
+/// The table of measures: what belongs to each. Everything else follows from it: which can be
+/// optimized, instantiations, ranges, bounds.
+///
+/// A new measure is a functor in Shape.h, a number in Measure.h, a row here, and a line in the battery
+/// of Testing/Core/Quality/QualityMeasureTest.cpp.
+#ifndef meshopt_Quality_Measures_h
+#define meshopt_Quality_Measures_h
+
+#include "Quality/Measure.h"
+#include "Quality/Shape.h"
+
+#include <tuple>
+#include <utility>
+
+namespace meshopt
+{
+template <Measure Id, template <int> class Functor, bool Optimizable, FacetBound Bound>
+struct MeasureRow
+{
+  static constexpr Measure id = Id;
+  static constexpr bool isOptimizable = Optimizable;
+  static constexpr FacetBound bound = Bound;
+  template <int D>
+  using Shape = Functor<D>;
+};
+
+/// In the order of their numbers. Name and value of the regular simplex are the functor's.
+using MeasureTable = std::tuple< //
+  MeasureRow<Measure::Shape, MeanEdgeShape, true, FacetBound::BestApex>,
+  MeasureRow<Measure::RadiusRatio, RadiusRatioShape, true, FacetBound::None>,
+  MeasureRow<Measure::MeanRatio, MeanRatioShape, true, FacetBound::MeanRatioToTwoThirds>,
+  MeasureRow<Measure::MinimumSine, MinimumSineShape, true, FacetBound::None>,
+  MeasureRow<Measure::WarpedSine, WarpedSineShape, true, FacetBound::None>,
+  MeasureRow<Measure::VolumeLength, VolumeLengthShape, true, FacetBound::MeanRatio>,
+  MeasureRow<Measure::MinimumDihedralAngle, MinimumAngleShape, false, FacetBound::None>>;
+
+namespace measures
+{
+template <std::size_t K>
+using Row = std::tuple_element_t<K, MeasureTable>;
+
+/// Calls f for the row with the number `measure`, of those from row K on. A measure that is not among
+/// them is a fault of the caller: it gets the first one.
+template <int D, bool All, std::size_t K, class F>
+decltype(auto) dispatchFrom(Measure measure, F& f)
+{
+  if constexpr (K == std::tuple_size_v<MeasureTable>)
+  {
+    return f(typename Row<0>::template Shape<D>{});
+  }
+  else if constexpr (!All && !Row<K>::isOptimizable)
+  {
+    return dispatchFrom<D, All, K + 1>(measure, f);
+  }
+  else
+  {
+    if (measure == Row<K>::id)
+    {
+      return f(typename Row<K>::template Shape<D>{});
+    }
+    return dispatchFrom<D, All, K + 1>(measure, f);
+  }
+}
+}
+
+/// Calls f(shape) with the functor object that belongs to `measure`: the measure is chosen once per
+/// pass, not per element. f is a generic lambda returning the same type for every functor.
+template <int D, class F>
+decltype(auto) dispatch(Measure measure, F&& f)
+{
+  return measures::dispatchFrom<D, true, 0>(measure, f);
+}
+
+/// The same for a measure that can be optimized: f is not instantiated for the others.
+template <int D, class F>
+decltype(auto) dispatchOptimizable(Measure measure, F&& f)
+{
+  return measures::dispatchFrom<D, false, 0>(measure, f);
+}
+}
+
+#endif

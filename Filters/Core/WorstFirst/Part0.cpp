@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "WorstFirst/Schedule.h"
+
+namespace meshopt
+{
+template bool runPart<2, 0>(Run<2>&);
+template bool runPart<3, 0>(Run<3>&);
+}

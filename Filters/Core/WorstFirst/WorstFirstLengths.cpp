@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "WorstFirst/Schedule.h"
-
-namespace meshopt
-{
-MESHOPT_INSTANTIATE_WORST_FIRST(MeanEdgeShape)
-MESHOPT_INSTANTIATE_WORST_FIRST(VolumeLengthShape)
-}
