@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshOptimizeFilter
  * @brief   raise the worst element quality of a tetrahedral or triangle mesh

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshQualityMinMax
  * @brief   quality of every element, its minimum, maximum and distribution, and the worst elements

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSolutionMetricFilter
  * @brief   where a mesh should be fine, and in which direction: a metric from a solution on it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTetGenFilter
  * @brief   fill a closed surface with tetrahedra, by TetGen
@@ -50,7 +51,6 @@
  * @sa
  * vtkMeshOptimizeFilter vtkDelaunay3D vtkCleanPolyData
  */
-// SPDX-License-Identifier: BSD-3-Clause
 #ifndef vtkTetGenFilter_h
 #define vtkTetGenFilter_h
 

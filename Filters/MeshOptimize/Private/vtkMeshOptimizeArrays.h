@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The input arrays of the filter: region, fixed points, size, metric, corners. Found, checked, and read as
  * the core wants them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeCells.h"
 
 #include "vtkCellData.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * What the cells of a grid are to the optimizer: the simplices that it works on, and the others
  * that pass through. Checks everything that later steps rely on, so that they need not look again.

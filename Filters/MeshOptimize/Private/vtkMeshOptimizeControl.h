@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * Progress, abort and threads of a vtkAlgorithm as the core's Control.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * What the boundary slides along: from the options, the mesh, and the geometry of the second input.
  */

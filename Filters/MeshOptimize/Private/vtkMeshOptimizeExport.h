@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * core -> grid: which points and cells the output has, in which order, and the grid made of them.
  */

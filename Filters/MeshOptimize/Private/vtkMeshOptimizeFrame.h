@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * From the coordinates of a grid to those of the core, and back. In space they are the same; a
  * plane gets two axes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * What the run has to tell: the history table and the figures in the field data.
  */

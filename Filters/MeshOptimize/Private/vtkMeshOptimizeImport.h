@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * grid -> core: the simplices of a grid as the core's MeshInput, with what must be kept.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * One grid through the optimizer: grid -> import -> SimplexMesh -> optimize -> export -> grid.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The wanted sizes: what cannot be asked for, and what became of them, in sentences.
  */

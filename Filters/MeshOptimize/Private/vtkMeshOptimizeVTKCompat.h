@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The one place that knows VTK versions (9.1 and later): every VTK_VERSION_CHECK of the project
  * stands here.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The part of a mesh that may change where only cells under a threshold, and some layers around
  * them, may.

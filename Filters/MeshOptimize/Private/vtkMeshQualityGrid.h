@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * A grid as vtkMeshQualityMinMax reads it: plain pointers to coordinates, types, corners, ghosts and regions.
  * It takes any grid, also one that an optimizer would refuse, and never reads out of its arrays.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshQualityMeasure.h"
 
 #include "Metric/TensorFunctions.h"

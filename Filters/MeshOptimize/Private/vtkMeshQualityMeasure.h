@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The quality of every cell of a grid, and its sums: over the grid and over each region.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * From figures to what a person reads: one set of figures for all ranks, tables, the worst cells as a grid.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without building the
  * adjacency of all cells, and has their bound computed.

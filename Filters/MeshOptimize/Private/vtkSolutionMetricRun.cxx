@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSolutionMetricRun.h"
 
 #include "vtkMeshOptimizeCells.h"

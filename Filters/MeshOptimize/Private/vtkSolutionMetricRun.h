@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * grid -> core -> arrays of the grid: what vtkSolutionMetricFilter does.
  */
