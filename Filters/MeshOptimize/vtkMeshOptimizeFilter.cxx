@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeFilter.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeControl.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeControl.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeCurves.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeRun.h"
-#include "vtkMeshOptimizeVTKCompat.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"

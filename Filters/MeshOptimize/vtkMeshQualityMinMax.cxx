@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshQualityMinMax.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshQualityReport.h"
 
 #include "vtkCellData.h"

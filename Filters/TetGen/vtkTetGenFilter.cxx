@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetGenFilter.h"
 
-#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkTetGenChild.h"
 #include "vtkTetGenExport.h"
 #include "vtkTetGenJob.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkThermoelasticFilter.h"
 
-#include "vtkMeshOptimizeControl.h"
-#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshBridgeControl.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkThermoelasticArrays.h"
 #include "vtkThermoelasticRun.h"
 

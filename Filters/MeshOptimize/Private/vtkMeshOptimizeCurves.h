@@ -5,8 +5,8 @@
 #ifndef vtkMeshOptimizeCurves_h
 #define vtkMeshOptimizeCurves_h
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeFrame.h"
 
 #include "Surface/BoundaryCurves.h"
 

@@ -5,8 +5,8 @@
 #ifndef vtkMeshOptimizeExport_h
 #define vtkMeshOptimizeExport_h
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
 
 #include "Mesh/SimplexMesh.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeRun.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeControl.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeControl.h"
+#include "vtkMeshBridgeImport.h"
 #include "vtkMeshOptimizeCurves.h"
 #include "vtkMeshOptimizeExport.h"
 #include "vtkMeshOptimizeHistory.h"
-#include "vtkMeshOptimizeImport.h"
 #include "vtkMeshOptimizeQuality.h"
 #include "vtkMeshOptimizeSizes.h"
 #include "vtkMeshOptimizeTangle.h"

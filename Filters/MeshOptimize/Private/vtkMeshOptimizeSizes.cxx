@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeSizes.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeCells.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeCells.h"
 #include "vtkMeshOptimizeRun.h"
 
 #include "vtkDataArray.h"

@@ -5,7 +5,7 @@
 #ifndef vtkMeshOptimizeSizes_h
 #define vtkMeshOptimizeSizes_h
 
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeFrame.h"
 
 #include "Metric/NodalMetric.h"
 #include "Run/Report.h"

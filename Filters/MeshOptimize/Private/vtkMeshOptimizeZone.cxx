@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeZone.h"
 
-#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshBridgeImport.h"
 
 #include "vtkUnstructuredGrid.h"
 

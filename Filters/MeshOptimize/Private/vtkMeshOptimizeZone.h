@@ -6,9 +6,9 @@
 #ifndef vtkMeshOptimizeZone_h
 #define vtkMeshOptimizeZone_h
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
 #include "vtkMeshOptimizeRun.h"
 
 #include "Mesh/SimplexMesh.h"

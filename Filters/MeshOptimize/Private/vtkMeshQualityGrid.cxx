@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshQualityGrid.h"
 
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeFrame.h"
 
 #include "Metric/TensorFunctions.h"
 

@@ -6,7 +6,7 @@
 #ifndef vtkMeshQualityGrid_h
 #define vtkMeshQualityGrid_h
 
-#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshBridgeArrays.h"
 
 #include "Mesh/Types.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSolutionMetricRun.h"
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
-#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
+#include "vtkMeshBridgeImport.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"

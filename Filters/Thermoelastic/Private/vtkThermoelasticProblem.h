@@ -5,8 +5,8 @@
 #ifndef vtkThermoelasticProblem_h
 #define vtkThermoelasticProblem_h
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
 #include "vtkThermoelasticArrays.h"
 #include "vtkThermoelasticRun.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkThermoelasticRun.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeImport.h"
 #include "vtkThermoelasticExport.h"
 #include "vtkThermoelasticFilter.h"
 #include "vtkThermoelasticProblem.h"

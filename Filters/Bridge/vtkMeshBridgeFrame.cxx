@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeFrame.h"
 
 #include "vtkPoints.h"
 #include "vtkUnstructuredGrid.h"

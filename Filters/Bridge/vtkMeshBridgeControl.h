@@ -2,8 +2,8 @@
 /**
  * Progress, abort and threads of a vtkAlgorithm as the core's Control.
  */
-#ifndef vtkMeshOptimizeControl_h
-#define vtkMeshOptimizeControl_h
+#ifndef vtkMeshBridgeControl_h
+#define vtkMeshBridgeControl_h
 
 #include "Base/Control.h"
 

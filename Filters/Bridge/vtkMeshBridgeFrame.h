@@ -3,10 +3,10 @@
  * From the coordinates of a grid to those of the core, and back. In space they are the same; a
  * plane gets two axes.
  */
-#ifndef vtkMeshOptimizeFrame_h
-#define vtkMeshOptimizeFrame_h
+#ifndef vtkMeshBridgeFrame_h
+#define vtkMeshBridgeFrame_h
 
-#include "vtkMeshOptimizeCells.h"
+#include "vtkMeshBridgeCells.h"
 
 #include "Mesh/Types.h"
 

@@ -3,8 +3,8 @@
  * What the cells of a grid are to the optimizer: the simplices that it works on, and the others
  * that pass through. Checks everything that later steps rely on, so that they need not look again.
  */
-#ifndef vtkMeshOptimizeCells_h
-#define vtkMeshOptimizeCells_h
+#ifndef vtkMeshBridgeCells_h
+#define vtkMeshBridgeCells_h
 
 #include "vtkType.h"
 

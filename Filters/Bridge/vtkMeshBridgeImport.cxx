@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshBridgeImport.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"

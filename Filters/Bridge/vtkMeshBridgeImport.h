@@ -2,12 +2,12 @@
 /**
  * grid -> core: the simplices of a grid as the core's MeshInput, with what must be kept.
  */
-#ifndef vtkMeshOptimizeImport_h
-#define vtkMeshOptimizeImport_h
+#ifndef vtkMeshBridgeImport_h
+#define vtkMeshBridgeImport_h
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
 
 #include "Mesh/SimplexMesh.h"
 

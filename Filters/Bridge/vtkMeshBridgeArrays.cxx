@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshBridgeArrays.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMeshOptimizeControl.h"
+#include "vtkMeshBridgeControl.h"
 
-#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshBridgeVTKCompat.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkSMPTools.h"

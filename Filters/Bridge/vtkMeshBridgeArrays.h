@@ -3,11 +3,11 @@
  * The input arrays of the filter: region, fixed points, size, metric, corners. Found, checked, and read as
  * the core wants them.
  */
-#ifndef vtkMeshOptimizeArrays_h
-#define vtkMeshOptimizeArrays_h
+#ifndef vtkMeshBridgeArrays_h
+#define vtkMeshBridgeArrays_h
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
 
 #include <string>
 #include <vector>

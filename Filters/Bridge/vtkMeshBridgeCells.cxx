@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMeshOptimizeCells.h"
+#include "vtkMeshBridgeCells.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"

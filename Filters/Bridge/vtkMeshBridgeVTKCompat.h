@@ -3,8 +3,8 @@
  * The one place that knows VTK versions (9.1 and later): every VTK_VERSION_CHECK of the project
  * stands here.
  */
-#ifndef vtkMeshOptimizeVTKCompat_h
-#define vtkMeshOptimizeVTKCompat_h
+#ifndef vtkMeshBridgeVTKCompat_h
+#define vtkMeshBridgeVTKCompat_h
 
 #include "vtkAlgorithm.h"
 #include "vtkVersionMacros.h"
