@@ -1,88 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The input arrays of the filter: region, fixed points, size, metric, corners. Found, checked, and read as
- * the core wants them.
+ * Input arrays that the caller of a filter chooses by vtkAlgorithm::SetInputArrayToProcess(): found,
+ * and checked for their type and number of components. What is wrong is a sentence for the user.
  */
 #ifndef vtkMeshBridgeArrays_h
 #define vtkMeshBridgeArrays_h
 
-#include "vtkMeshBridgeCells.h"
-#include "vtkMeshBridgeFrame.h"
-
+#include <array>
 #include <string>
-#include <vector>
 
 class vtkAbstractArray;
 class vtkAlgorithm;
 class vtkDataArray;
 class vtkUnstructuredGrid;
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 /**
- * Indices of vtkAlgorithm::SetInputArrayToProcess().
+ * What an array is for, and what it must look like.
  */
-enum ArrayIndex
+struct ArrayRole
 {
-  RegionArray = 0,
-  FixedPointArray = 1,
-  SizeArray = 2,
-  MetricArray = 3,
-  CornerArray = 4,
-  NumberOfInputArrays = 5
+  const char* Noun;              ///< "size array"
+  const char* DefaultName;       ///< looked for if none is chosen; nullptr: none then
+  bool OnCells;                  ///< else on points
+  bool IsInteger;                ///< else any number
+  std::array<int, 2> Components; ///< one or the other; 0: no other; { 0, 0 }: any
 };
 
 /**
- * The arrays of one grid; nullptr for those that are not wanted or not there.
- */
-struct InputArrays
-{
-  vtkDataArray* Region = nullptr;
-  vtkDataArray* FixedPoints = nullptr;
-  vtkDataArray* Size = nullptr;
-  vtkDataArray* Metric = nullptr;
-  vtkDataArray* Corners = nullptr;
-};
-
-/**
- * Did the caller of `filter` ask for this array? ParaView's "None" counts as no.
+ * Did the caller of `filter` ask for the array of this index? ParaView's "None" counts as no.
  */
 bool IsWanted(vtkAlgorithm* filter, int index);
 
 /**
- * Finds the arrays that the caller of `filter` wants in `grid`, and checks types and numbers of
- * components. Returns a sentence about the first that cannot be used. One that is not there is no
- * error here: another block may have it.
+ * The array of this index that the caller of `filter` wants, or the default one; nullptr if it is
+ * not there.
  */
-std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays);
+vtkAbstractArray* FindArray(
+  vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index, const ArrayRole& role);
 
 /**
- * Returns a sentence about the first array that the caller of `filter` wants and none of `grids`
- * has; an empty string if there is none, or if no grid has cells (a process without a piece). The
- * array of index `elsewhere` has been found in another place.
+ * A sentence if `array` cannot be used as what it is for.
  */
-std::string CheckArraysAreThere(
-  vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids, int elsewhere = -1);
+std::string CheckArray(vtkAbstractArray* array, const ArrayRole& role);
 
 /**
- * Region of each simplex. Numbers that do not fit into the core's 32 bits are replaced by their
- * ranks.
+ * The sentence about an array that is wanted and not there. `name` may be nullptr.
  */
-std::vector<meshopt::Index> ReadRegions(vtkDataArray* array, const Cells& cells);
+std::string DescribeMissing(const char* name, const ArrayRole& role);
 
-/**
- * Sizes at all points of the grid; 1 at points that no simplex uses, whatever the array has there.
- */
-std::vector<double> ReadSizes(vtkDataArray* array, const Cells& cells);
-
-/**
- * Tensors at all points of the grid, in the frame; the identity at points that no simplex uses.
- */
-template <int D>
-std::vector<meshopt::Tensor<D>> ReadMetric(
-  vtkDataArray* array, const Cells& cells, const Frame<D>& frame);
-
-} // namespace vtkMeshOptimizeBridge
+} // namespace vtkMeshBridge
 
 #endif

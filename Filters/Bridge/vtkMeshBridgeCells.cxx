@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshBridgeCells.h"
 
+#include "vtkMeshBridgeGridView.h"
+
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkCellTypes.h"
@@ -9,15 +11,12 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkSmartPointer.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <array>
 #include <cmath>
 #include <map>
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 namespace
 {
@@ -156,9 +155,6 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
   return {};
 }
 
-/**
- * 3 if there is any cell of dimension three: triangles are then the surface of something.
- */
 int FindDimension(vtkUnstructuredGrid* grid)
 {
   CellDimensions dimensions;
@@ -183,12 +179,12 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
   {
     return error;
   }
-  const vtkIdType numberOfCells = grid->GetNumberOfCells();
+  cells.NumberOfCells = grid->GetNumberOfCells();
   cells.PointUse.assign(static_cast<std::size_t>(grid->GetNumberOfPoints()), 0);
   cells.Dimension = FindDimension(grid);
   const int simplexType = cells.Dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
-  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-  for (vtkIdType c = 0; c < numberOfCells; ++c)
+  const GhostCells ghosts(grid);
+  for (vtkIdType c = 0; c < cells.NumberOfCells; ++c)
   {
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
@@ -208,15 +204,17 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
     {
       return error;
     }
-    const bool isOptimized = isSimplex && !(ghosts && ghosts->GetValue(c) != 0);
+    const bool isOfMesh = isSimplex && !ghosts.Has(c);
     for (vtkIdType k = 0; k < n; ++k)
     {
-      cells.PointUse[ids[k]] |= isOptimized ? UsedBySimplex : UsedByOther;
+      cells.PointUse[ids[k]] |= isOfMesh ? UsedBySimplex : UsedByOther;
     }
-    if (isOptimized)
+    if (isOfMesh)
     {
       cells.Simplices.push_back(c);
     }
+    cells.NumberOfGhostSimplices += isSimplex && !isOfMesh;
+    cells.NumberOfSurfaceTriangles += cells.Dimension == 0 && type == VTK_TRIANGLE;
     cells.NumberOfQuadraticSimplices += type == VTK_QUADRATIC_TETRA ||
       (type == VTK_QUADRATIC_TRIANGLE && cells.Dimension != 3);
   }
@@ -247,4 +245,15 @@ void KeepSimplices(vtkUnstructuredGrid* grid, const std::vector<char>& isKept, C
   cells.Simplices.swap(kept);
 }
 
-} // namespace vtkMeshOptimizeBridge
+std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells)
+{
+  if (cell == meshopt::None || cells.IsIdentity())
+  {
+    return message;
+  }
+  return message + " (Counted among the " + (cells.Dimension == 3 ? "tetrahedra" : "triangles") +
+    " of the mesh; number " + std::to_string(cell) + " of them is cell " +
+    std::to_string(cells.Simplices[cell]) + " of the grid.)";
+}
+
+} // namespace vtkMeshBridge

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What the cells of a grid are to the optimizer: the simplices that it works on, and the others
- * that pass through. Checks everything that later steps rely on, so that they need not look again.
+ * What the cells of a grid are to a filter that needs a mesh: the simplices that it works on, and
+ * the others. Checks everything that later steps rely on, so that they need not look again.
  */
 #ifndef vtkMeshBridgeCells_h
 #define vtkMeshBridgeCells_h
+
+#include "Mesh/Types.h"
 
 #include "vtkType.h"
 
@@ -14,7 +16,7 @@
 
 class vtkUnstructuredGrid;
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 /**
@@ -31,22 +33,32 @@ enum PointUseBits : std::uint8_t
  */
 struct Cells
 {
-  /// 3: tetrahedra are optimized; 2: triangles; 0: there is neither.
+  /// 3: the tetrahedra are the mesh; 2: the triangles; 0: there is none. Triangles beside cells of
+  /// dimension three are the surface of something.
   int Dimension = 0;
 
-  /// The grid's id of each simplex that is optimized, ascending. Ghost cells are not among them.
+  /// All cells of the grid.
+  vtkIdType NumberOfCells = 0;
+
+  /// The grid's id of each simplex of the mesh, ascending. Ghost cells are not among them.
   std::vector<vtkIdType> Simplices;
 
   /// PointUseBits of each point of the grid.
   std::vector<std::uint8_t> PointUse;
 
-  /// Quadratic triangles or tetrahedra that would be optimized if they were linear.
+  /// Ghost cells that would be simplices of the mesh.
+  vtkIdType NumberOfGhostSimplices = 0;
+
+  /// Triangles where the dimension is 0.
+  vtkIdType NumberOfSurfaceTriangles = 0;
+
+  /// Quadratic triangles or tetrahedra that would be simplices of the mesh if they were linear.
   vtkIdType NumberOfQuadraticSimplices = 0;
 
   /// True if cell ids of the grid and of the core are the same.
-  bool IsIdentity(vtkIdType numberOfCells) const
+  bool IsIdentity() const
   {
-    return static_cast<vtkIdType>(this->Simplices.size()) == numberOfCells;
+    return static_cast<vtkIdType>(this->Simplices.size()) == this->NumberOfCells;
   }
 };
 
@@ -63,6 +75,11 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells);
  */
 void KeepSimplices(vtkUnstructuredGrid* grid, const std::vector<char>& isKept, Cells& cells);
 
-} // namespace vtkMeshOptimizeBridge
+/**
+ * A message of the core, and which cell of the grid its `cell` is, if that has another number there.
+ */
+std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells);
+
+} // namespace vtkMeshBridge
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 int ResolveNumberOfThreads(int wanted)
@@ -40,7 +40,7 @@ meshopt::Control MakeControl(
   {
     filter->SetProgressText(text.c_str());
     filter->UpdateProgress(first + (last - first) * std::min(1.0, std::max(0.0, fraction)));
-    return !vtkMeshOptimizeCompat::CheckAbort(filter) && !deadline.HasPassed();
+    return !CheckAbort(filter) && !deadline.HasPassed();
   };
   if (numberOfThreads > 1)
   {
@@ -63,4 +63,4 @@ meshopt::Control MakeControl(
   return control;
 }
 
-} // namespace vtkMeshOptimizeBridge
+} // namespace vtkMeshBridge

@@ -11,7 +11,7 @@
 
 class vtkAlgorithm;
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 /**
@@ -47,6 +47,6 @@ private:
 meshopt::Control MakeControl(
   vtkAlgorithm* filter, int numberOfThreads, double first, double last, Deadline& deadline);
 
-} // namespace vtkMeshOptimizeBridge
+} // namespace vtkMeshBridge
 
 #endif

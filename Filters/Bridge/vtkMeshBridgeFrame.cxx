@@ -1,32 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshBridgeFrame.h"
 
-#include "vtkPoints.h"
-#include "vtkUnstructuredGrid.h"
-
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 using meshopt::Tensor;
 using meshopt::Vec;
 
 //------------------------------------------------------------------------------
-Vec<2> Frame<2>::ToCore(const double x[3]) const
-{
-  if (this->Direct[0] >= 0)
-  {
-    return { x[this->Direct[0]], x[this->Direct[1]] };
-  }
-  const Vec<3> d = Vec<3>(x[0], x[1], x[2]) - this->Origin;
-  return { d.dot(this->Axes[0]), d.dot(this->Axes[1]) };
-}
-
 void Frame<2>::ToGrid(const Vec<2>& u, double x[3]) const
 {
   if (this->Direct[0] >= 0)
@@ -50,17 +38,39 @@ Tensor<2> Frame<2>::ToCore(const Tensor<3>& m) const
   {
     for (int j = 0; j < 2; ++j)
     {
-      inPlane(i, j) = this->Axes[i].dot(m * this->Axes[j]);
+      inPlane(i, j) = this->Direct[0] >= 0 ? m(this->Direct[i], this->Direct[j])
+                                           : this->Axes[i].dot(m * this->Axes[j]);
     }
   }
   return inPlane;
 }
 
-std::string CheckExtent(const Vec<3>& low, const Vec<3>& high)
+//------------------------------------------------------------------------------
+Box::Box()
+  : Low(Vec<3>::Constant(std::numeric_limits<double>::infinity()))
+  , High(-this->Low)
+{
+}
+
+void Box::Add(const Vec<3>& x)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    this->Low[i] = std::min(this->Low[i], x[i]);
+    this->High[i] = std::max(this->High[i], x[i]);
+  }
+}
+
+double Box::GetMagnitude() const
+{
+  return std::max(this->Low.cwiseAbs().maxCoeff(), this->High.cwiseAbs().maxCoeff());
+}
+
+std::string CheckExtent(const Box& box)
 {
   constexpr double least = 1e-100, most = 1e100;
-  const double extent = (high - low).maxCoeff();
-  const double magnitude = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  const double extent = (box.High - box.Low).maxCoeff();
+  const double magnitude = box.GetMagnitude();
   const bool isLarge = magnitude > most, isSmall = extent > 0.0 && extent < least;
   if (!std::isfinite(magnitude) || !std::isfinite(extent) || (!isLarge && !isSmall))
   {
@@ -75,49 +85,35 @@ std::string CheckExtent(const Vec<3>& low, const Vec<3>& high)
   return text.str();
 }
 
+//------------------------------------------------------------------------------
 namespace
 {
 
-struct Box
-{
-  Vec<3> Low = Vec<3>::Constant(std::numeric_limits<double>::infinity());
-  Vec<3> High = -Low;
-  double Diagonal() const { return (this->High - this->Low).norm(); }
-  double Magnitude() const
-  {
-    return std::max(this->Low.cwiseAbs().maxCoeff(), this->High.cwiseAbs().maxCoeff());
-  }
-};
+using TrianglePoints = std::array<vtkIdType, 3>;
 
-Vec<3> GridPoint(vtkUnstructuredGrid* grid, vtkIdType p)
+TrianglePoints PointsOf(const GridView& grid, vtkIdType triangle)
 {
-  Vec<3> x;
-  grid->GetPoint(p, x.data());
-  return x;
+  TrianglePoints ids{};
+  grid.GetCorners(triangle, 3, ids.data());
+  return ids;
 }
 
-Box FindBox(vtkUnstructuredGrid* grid, const Cells& cells)
+Box FindBox(const GridView& grid, const std::vector<vtkIdType>& cells, int corners)
 {
   Box box;
-  for (std::size_t p = 0; p < cells.PointUse.size(); ++p)
+  for (vtkIdType cell : cells)
   {
-    if (cells.PointUse[p] & UsedBySimplex)
-    {
-      const Vec<3> x = GridPoint(grid, static_cast<vtkIdType>(p));
-      box.Low = box.Low.cwiseMin(x);
-      box.High = box.High.cwiseMax(x);
-    }
+    vtkIdType ids[4] = {};
+    grid.GetCorners(cell, corners, ids);
+    std::for_each(ids, ids + corners, [&](vtkIdType p) { box.Add(grid.GetPoint(p)); });
   }
   return box;
 }
 
-Vec<3> AreaVector(vtkUnstructuredGrid* grid, vtkIdType cell)
+Vec<3> AreaVector(const GridView& grid, vtkIdType triangle)
 {
-  vtkIdType n = 0;
-  const vtkIdType* ids = nullptr;
-  grid->GetCellPoints(cell, n, ids);
-  const Vec<3> a = GridPoint(grid, ids[0]), b = GridPoint(grid, ids[1]),
-               c = GridPoint(grid, ids[2]);
+  const TrianglePoints ids = PointsOf(grid, triangle);
+  const Vec<3> a = grid.GetPoint(ids[0]), b = grid.GetPoint(ids[1]), c = grid.GetPoint(ids[2]);
   return 0.5 * Vec<3>(b - a).cross(Vec<3>(c - a));
 }
 
@@ -125,21 +121,21 @@ Vec<3> AreaVector(vtkUnstructuredGrid* grid, vtkIdType cell)
  * Sum of all area vectors, those that look backwards turned round; its sign such that what was
  * turned round is the smaller part. Zero only if no triangle has an area.
  */
-Vec<3> FindNormal(vtkUnstructuredGrid* grid, const Cells& cells)
+Vec<3> FindNormal(const GridView& grid, const std::vector<vtkIdType>& triangles)
 {
   Vec<3> largest = Vec<3>::Zero();
-  for (vtkIdType cell : cells.Simplices)
+  for (vtkIdType triangle : triangles)
   {
-    const Vec<3> area = AreaVector(grid, cell);
+    const Vec<3> area = AreaVector(grid, triangle);
     if (area.squaredNorm() > largest.squaredNorm())
     {
       largest = area;
     }
   }
   Vec<3> sum = Vec<3>::Zero(), turned = Vec<3>::Zero();
-  for (vtkIdType cell : cells.Simplices)
+  for (vtkIdType triangle : triangles)
   {
-    const Vec<3> area = AreaVector(grid, cell);
+    const Vec<3> area = AreaVector(grid, triangle);
     (area.dot(largest) < 0.0 ? turned : sum) += area;
   }
   const Vec<3> normal = sum - turned;
@@ -161,88 +157,117 @@ int FindConstantCoordinate(const Box& box)
   return -1;
 }
 
-void SetDirect(Frame<2>& frame, const Box& box, int constant, bool positive)
+Frame<2> MakeDirect(const Box& box, int constant, bool positive)
 {
-  frame.Origin = Vec<3>::Zero();
+  Frame<2> frame;
   frame.Origin[constant] = box.Low[constant];
   const int first = (constant + 1) % 3, second = (constant + 2) % 3;
   frame.Direct[0] = positive ? first : second;
   frame.Direct[1] = positive ? second : first;
   frame.Axes[0] = Vec<3>::Unit(frame.Direct[0]);
   frame.Axes[1] = Vec<3>::Unit(frame.Direct[1]);
+  return frame;
 }
 
-std::string CheckPlane(vtkUnstructuredGrid* grid, const Cells& cells, const Vec<3>& origin,
-  const Vec<3>& normal, const Box& box)
+/**
+ * `x` is a point of the plane, `middle` one near it.
+ */
+Frame<2> MakeTilted(const Vec<3>& middle, const Vec<3>& x, const Vec<3>& normal)
 {
-  const double precision = grid->GetPoints()->GetDataType() == VTK_DOUBLE
-    ? std::numeric_limits<double>::epsilon()
-    : static_cast<double>(std::numeric_limits<float>::epsilon());
-  const double tolerance = 1e-6 * box.Diagonal() + 4.0 * precision * box.Magnitude();
-  double farthest = 0.0;
-  std::size_t where = 0;
-  for (std::size_t p = 0; p < cells.PointUse.size(); ++p)
+  Frame<2> frame;
+  frame.Direct[0] = frame.Direct[1] = -1;
+  frame.Origin = middle;
+  frame.Origin += normal * normal.dot(x - frame.Origin);
+  frame.Axes[0] = normal.unitOrthogonal();
+  frame.Axes[1] = normal.cross(frame.Axes[0]);
+  return frame;
+}
+
+double DistanceOf(const Frame<2>& frame, const Vec<3>& x)
+{
+  return std::abs(frame.Axes[0].cross(frame.Axes[1]).dot(x - frame.Origin));
+}
+
+/**
+ * Of points that are equally far away the one with the lowest id.
+ */
+void FindFarthest(
+  const GridView& grid, const std::vector<vtkIdType>& triangles, const Vec<3>& normal, Plane& plane)
+{
+  for (vtkIdType triangle : triangles)
   {
-    if (cells.PointUse[p] & UsedBySimplex)
+    for (vtkIdType p : PointsOf(grid, triangle))
     {
-      const double distance = std::abs(
-        normal.dot(GridPoint(grid, static_cast<vtkIdType>(p)) - origin));
-      if (distance > farthest)
+      const double distance = std::abs(normal.dot(grid.GetPoint(p) - plane.Frame.Origin));
+      if (distance > plane.Farthest ||
+        (distance == plane.Farthest && distance > 0.0 && p < plane.FarthestPoint))
       {
-        farthest = distance;
-        where = p;
+        plane.Farthest = distance;
+        plane.FarthestPoint = p;
       }
     }
   }
-  if (farthest <= tolerance)
-  {
-    return {};
-  }
-  std::ostringstream text;
-  text << "The triangles are not in one plane: point " << where << " is " << farthest
-       << " away from it (extent of the mesh " << box.Diagonal()
-       << "). Triangles are optimized in a plane only; a volume needs tetrahedra.";
-  return text.str();
 }
 
-} // namespace
-
-std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>&)
+Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, const Box& box)
 {
-  const Box box = FindBox(grid, cells);
-  return CheckExtent(box.Low, box.High);
-}
-
-std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<2>& frame)
-{
-  const Box box = FindBox(grid, cells);
-  const std::string error = CheckExtent(box.Low, box.High);
-  if (!error.empty())
-  {
-    return error;
-  }
-  Vec<3> normal = FindNormal(grid, cells);
+  Plane plane;
+  plane.Extent = box.GetDiagonal();
+  plane.Tolerance = 1e-6 * plane.Extent + 4.0 * grid.GetPrecision() * box.GetMagnitude();
+  Vec<3> normal = FindNormal(grid, triangles);
   const int constant = FindConstantCoordinate(box);
   if (constant >= 0)
   {
-    SetDirect(frame, box, constant, !(normal[constant] < 0.0));
-    return {};
+    plane.Frame = MakeDirect(box, constant, !(normal[constant] < 0.0));
+    return plane;
   }
   if (normal.squaredNorm() == 0.0) // all on one line
   {
     normal = Vec<3>(box.High - box.Low).unitOrthogonal();
   }
   normal.normalize();
-  frame.Direct[0] = frame.Direct[1] = -1;
-  frame.Origin = 0.5 * (box.Low + box.High);
-  // The middle of the box need not lie in the plane: take a point's height above it away.
-  vtkIdType n = 0;
-  const vtkIdType* ids = nullptr;
-  grid->GetCellPoints(cells.Simplices.front(), n, ids);
-  frame.Origin += normal * normal.dot(GridPoint(grid, ids[0]) - frame.Origin);
-  frame.Axes[0] = normal.unitOrthogonal();
-  frame.Axes[1] = normal.cross(frame.Axes[0]);
-  return CheckPlane(grid, cells, frame.Origin, normal, box);
+  // The middle of the box need not lie in the plane.
+  const Vec<3> x = grid.GetPoint(PointsOf(grid, triangles.front())[0]);
+  plane.Frame = MakeTilted(0.5 * (box.Low + box.High), x, normal);
+  FindFarthest(grid, triangles, normal, plane);
+  return plane;
 }
 
-} // namespace vtkMeshOptimizeBridge
+} // namespace
+
+bool Plane::Has(const Vec<3>& x) const { return DistanceOf(this->Frame, x) <= this->Tolerance; }
+
+Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles)
+{
+  return FindPlane(grid, triangles, FindBox(grid, triangles, 3));
+}
+
+//------------------------------------------------------------------------------
+std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>&)
+{
+  return CheckExtent(FindBox(GridView(grid), cells.Simplices, 4));
+}
+
+std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<2>& frame)
+{
+  const GridView view(grid);
+  const Box box = FindBox(view, cells.Simplices, 3);
+  const std::string error = CheckExtent(box);
+  if (!error.empty())
+  {
+    return error;
+  }
+  const Plane plane = FindPlane(view, cells.Simplices, box);
+  if (!plane.HasAll())
+  {
+    std::ostringstream text;
+    text << "The triangles are not in one plane: point " << plane.FarthestPoint << " is "
+         << plane.Farthest << " away from it (extent of the mesh " << plane.Extent
+         << "). Triangles are optimized in a plane only; a volume needs tetrahedra.";
+    return text.str();
+  }
+  frame = plane.Frame;
+  return {};
+}
+
+} // namespace vtkMeshBridge

@@ -7,14 +7,14 @@
 #define vtkMeshBridgeFrame_h
 
 #include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeGridView.h"
 
 #include "Mesh/Types.h"
 
 #include <string>
+#include <vector>
 
-class vtkUnstructuredGrid;
-
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 template <int D>
@@ -43,16 +43,65 @@ struct Frame<2>
   /// then. Else -1.
   int Direct[2] = { 0, 1 };
 
-  meshopt::Vec<2> ToCore(const double x[3]) const;
+  meshopt::Vec<2> ToCore(const double x[3]) const
+  {
+    if (this->Direct[0] >= 0)
+    {
+      return { x[this->Direct[0]], x[this->Direct[1]] };
+    }
+    const meshopt::Vec<3> d = meshopt::Vec<3>(x[0], x[1], x[2]) - this->Origin;
+    return { d.dot(this->Axes[0]), d.dot(this->Axes[1]) };
+  }
   void ToGrid(const meshopt::Vec<2>& u, double x[3]) const;
+
+  /// The part in the plane. Where the plane is parallel to two axes nothing else is looked at.
   meshopt::Tensor<2> ToCore(const meshopt::Tensor<3>& m) const;
 };
 
 /**
- * A sentence if a mesh from `low` to `high` is so large or so small that its cubed lengths leave the
- * range of double precision; else, and where a bound is not finite, an empty string.
+ * Points of some cells: where they are. NaN changes nothing.
  */
-std::string CheckExtent(const meshopt::Vec<3>& low, const meshopt::Vec<3>& high);
+struct Box
+{
+  meshopt::Vec<3> Low, High; ///< Low > High: no points
+
+  Box();
+  void Add(const meshopt::Vec<3>& x);
+  double GetDiagonal() const { return (this->High - this->Low).norm(); }
+  double GetMagnitude() const;
+};
+
+/**
+ * A sentence if the box is so large or so small that cubed lengths leave the range of double
+ * precision; else, and where it has no points or a bound is not finite, an empty string.
+ */
+std::string CheckExtent(const Box& box);
+
+/**
+ * The plane that triangles lie in.
+ */
+struct Plane
+{
+  vtkMeshBridge::Frame<2> Frame;
+  double Extent = 0.0;    ///< diagonal of the triangles' box
+  double Tolerance = 0.0; ///< 1e-6 of it, and what the type of the coordinates cannot express
+  double Farthest = 0.0;  ///< distance of the point that is farthest away from the plane
+  vtkIdType FarthestPoint = -1;
+
+  bool HasAll() const { return this->Farthest <= this->Tolerance; }
+
+  /// Is this point in the plane, to the tolerance?
+  bool Has(const meshopt::Vec<3>& x) const;
+};
+
+/**
+ * Finds the plane of `triangles`. All their corners must be there and finite; there must be one.
+ *
+ * The side up is that for which most of the area is positive. So a mesh that is numbered clockwise
+ * about z stays so, and no mesh is inverted as a whole. Where the plane is parallel to two axes
+ * coordinates serve as they are; z is left out first.
+ */
+Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles);
 
 /**
  * Nothing to find in space; the extent is checked.
@@ -60,12 +109,10 @@ std::string CheckExtent(const meshopt::Vec<3>& low, const meshopt::Vec<3>& high)
 std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>& frame);
 
 /**
- * The plane of all triangles, turned such that most of their area is positive: a mesh that is
- * numbered clockwise about z stays so. Returns a sentence if they are not in one plane, to 1e-6 of
- * their extent and to what the type of the coordinates can express.
+ * The plane of all triangles. Returns a sentence if they are not in one plane.
  */
 std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<2>& frame);
 
-} // namespace vtkMeshOptimizeBridge
+} // namespace vtkMeshBridge
 
 #endif

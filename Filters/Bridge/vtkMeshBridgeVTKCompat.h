@@ -9,7 +9,7 @@
 #include "vtkAlgorithm.h"
 #include "vtkVersionMacros.h"
 
-namespace vtkMeshOptimizeCompat
+namespace vtkMeshBridge
 {
 
 /**
@@ -41,6 +41,6 @@ inline void KeepOutputAfterAbort(vtkAlgorithm* self)
 #endif
 }
 
-} // namespace vtkMeshOptimizeCompat
+} // namespace vtkMeshBridge
 
 #endif

@@ -225,6 +225,7 @@ private:
   struct Run;
   void StoreFigures(const Run& run);
   void FillOutputs(Run& run, vtkInformationVector* outputVector);
+  void WarnOfNothing(const Run& run);
 
   int QualityMeasure = Shape;
   double Beta = 0.0;

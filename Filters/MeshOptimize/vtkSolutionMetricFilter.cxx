@@ -82,9 +82,9 @@ int vtkSolutionMetricFilter::FillInputPortInformation(int, vtkInformation* info)
 
 //------------------------------------------------------------------------------
 std::string vtkSolutionMetricFilter::Compute(
-  vtkUnstructuredGrid* grid, vtkSolutionMetric::Outcome& outcome)
+  vtkUnstructuredGrid* grid, vtkSolutionMetricBridge::Outcome& outcome)
 {
-  vtkSolutionMetric::Request request;
+  vtkSolutionMetricBridge::Request request;
   request.UseErrors = this->Criterion == ErrorIndicator;
   request.ComputeSizeTensor = this->ComputeSizeTensor;
   meshopt::SizeLimits limits;
@@ -104,11 +104,11 @@ std::string vtkSolutionMetricFilter::Compute(
   errors.convergenceOrder = this->ConvergenceOrder;
   errors.limits = limits;
   errors.countCorrection = this->CountCorrection;
-  const std::string error = vtkSolutionMetric::FindArray(this, grid, request);
-  return error.empty() ? vtkSolutionMetric::AddArrays(grid, request, outcome) : error;
+  const std::string error = vtkSolutionMetricBridge::FindArray(this, grid, request);
+  return error.empty() ? vtkSolutionMetricBridge::AddArrays(grid, request, outcome) : error;
 }
 
-void vtkSolutionMetricFilter::Warn(const vtkSolutionMetric::Outcome& outcome)
+void vtkSolutionMetricFilter::Warn(const vtkSolutionMetricBridge::Outcome& outcome)
 {
   if (outcome.IsEven)
   {
@@ -140,7 +140,7 @@ int vtkSolutionMetricFilter::RequestData(
     return 1;
   }
   output->ShallowCopy(input);
-  vtkSolutionMetric::Outcome outcome;
+  vtkSolutionMetricBridge::Outcome outcome;
   std::string error;
   try
   {
@@ -156,7 +156,7 @@ int vtkSolutionMetricFilter::RequestData(
     // Returning 0 would make the executive add an error of its own.
     vtkErrorMacro(<< error);
     output->Initialize();
-    outcome = vtkSolutionMetric::Outcome();
+    outcome = vtkSolutionMetricBridge::Outcome();
   }
   this->DesiredSize = outcome.DesiredSize;
   this->PredictedNumberOfElements = outcome.PredictedCount;

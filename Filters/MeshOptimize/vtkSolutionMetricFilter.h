@@ -69,7 +69,7 @@
 
 #include <string> // for std::string
 
-namespace vtkSolutionMetric
+namespace vtkSolutionMetricBridge
 {
 struct Outcome;
 }
@@ -241,8 +241,8 @@ private:
   vtkSolutionMetricFilter(const vtkSolutionMetricFilter&) = delete;
   void operator=(const vtkSolutionMetricFilter&) = delete;
 
-  std::string Compute(vtkUnstructuredGrid* grid, vtkSolutionMetric::Outcome& outcome);
-  void Warn(const vtkSolutionMetric::Outcome& outcome);
+  std::string Compute(vtkUnstructuredGrid* grid, vtkSolutionMetricBridge::Outcome& outcome);
+  void Warn(const vtkSolutionMetricBridge::Outcome& outcome);
 
   int Criterion = Hessian;
   int DesiredNumberOfElements = 0;

@@ -164,7 +164,7 @@ bool vtkTetGenFilter::ReportProgress(double fraction, const std::string& phase)
 {
   this->SetProgressText(phase.c_str());
   this->UpdateProgress(fraction);
-  return !vtkMeshOptimizeCompat::CheckAbort(this);
+  return !vtkMeshBridge::CheckAbort(this);
 }
 
 //------------------------------------------------------------------------------

@@ -228,9 +228,9 @@ int vtkThermoelasticFilter::RequestData(
   bridge::Request request;
   bridge::Outcome outcome;
   this->FillRequest(request);
-  vtkMeshOptimizeBridge::Deadline never(0.0);
-  const int threads = vtkMeshOptimizeBridge::ResolveNumberOfThreads(this->NumberOfThreads);
-  request.Control = vtkMeshOptimizeBridge::MakeControl(this, threads, 0.0, 1.0, never);
+  vtkMeshBridge::Deadline never(0.0);
+  const int threads = vtkMeshBridge::ResolveNumberOfThreads(this->NumberOfThreads);
+  request.Control = vtkMeshBridge::MakeControl(this, threads, 0.0, 1.0, never);
   std::string error = this->CheckDistribution(input->GetNumberOfCells() > 0);
   try
   {

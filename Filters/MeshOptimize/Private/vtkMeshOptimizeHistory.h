@@ -5,7 +5,7 @@
 #ifndef vtkMeshOptimizeHistory_h
 #define vtkMeshOptimizeHistory_h
 
-#include "vtkMeshOptimizeRun.h"
+#include "vtkMeshOptimizeRequest.h"
 
 class vtkDataObject;
 class vtkTable;

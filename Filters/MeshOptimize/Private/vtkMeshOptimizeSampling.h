@@ -32,8 +32,7 @@ struct Sample
  * part of space that the changed cells of the output fill. So the cost is that of what has changed.
  */
 template <int D>
-std::vector<Sample> SampleInput(vtkUnstructuredGrid* grid, const Cells& cells,
-  const Frame<D>& frame, const OutputMap& map, const meshopt::SimplexMesh<D>& mesh);
+std::vector<Sample> SampleInput(const Model<D>& model, const OutputMap& map);
 
 } // namespace vtkMeshOptimizeBridge
 

@@ -12,7 +12,7 @@
 
 #include <map>
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 
 /**
@@ -55,6 +55,7 @@ struct Figures
   Sums Total;
   std::map<long long, Sums> Regions; ///< by the value of the region array; empty without one
   meshopt::WorstElements Worst;
+  std::int64_t GhostSimplices = 0; ///< triangles and tetrahedra that are not counted
   bool HasTetrahedra = false, HasTriangles = false;
 };
 
@@ -71,6 +72,6 @@ Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part,
 void MeasureSurface(
   const Grid& grid, const Options& options, const double* quality, Figures& figures);
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge
 
 #endif

@@ -15,7 +15,7 @@ class vtkMultiProcessController;
 class vtkTable;
 class vtkUnstructuredGrid;
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 
 /**
@@ -52,6 +52,7 @@ struct Block
   std::int64_t Part;
   unsigned int FlatIndex;
   vtkUnstructuredGrid* Mesh;
+  vtkMeshOptimizeBridge::InputArrays Arrays; ///< of Mesh
 };
 
 /**
@@ -61,6 +62,6 @@ struct Block
 void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
   const std::vector<Block>& blocks, int rank, bool isComposite, vtkUnstructuredGrid* output);
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge
 
 #endif

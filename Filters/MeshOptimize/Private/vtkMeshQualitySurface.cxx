@@ -18,7 +18,7 @@
 #include <atomic>
 #include <cmath>
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 namespace
 {
@@ -217,6 +217,15 @@ private:
   std::vector<std::atomic<Key>> Numbers;
 };
 
+meshopt::Vec<3> PlaceOf(const Grid& grid, vtkIdType p, std::integral_constant<int, 3>)
+{
+  return grid.GetPoint(p);
+}
+meshopt::Vec<2> PlaceOf(const Grid& grid, vtkIdType p, std::integral_constant<int, 2>)
+{
+  return grid.GetFrame().ToCore(grid.GetPoint(p).data());
+}
+
 /**
  * Points of the surface, numbered anew and in the dimension of the core.
  */
@@ -234,12 +243,7 @@ public:
     if (this->Numbers[p] == meshopt::None)
     {
       this->Numbers[p] = static_cast<Index>(this->Places.size());
-      Vec<D> x;
-      for (int i = 0; i < D; ++i)
-      {
-        x[i] = this->Mesh.GetPoint(p)[i];
-      }
-      this->Places.push_back(x);
+      this->Places.push_back(PlaceOf(this->Mesh, p, std::integral_constant<int, D>()));
     }
     return this->Numbers[p];
   }
@@ -310,7 +314,7 @@ void MeasureSurface(
   const Grid& grid, const Options& options, const double* quality, Figures& figures)
 {
   // With a metric that varies nothing is certain; nor is it for triangles that are not in a plane.
-  const bool known = grid.GetLogTensors().empty() && (grid.HasTetrahedra() || grid.IsFlat()) &&
+  const bool known = !grid.HasMetric() && (grid.HasTetrahedra() || grid.IsFlat()) &&
     grid.GetNumberOfPoints() < std::numeric_limits<Index>::max() &&
     grid.GetNumberOfCells() < std::numeric_limits<Index>::max();
   if (!options.ComputeBound || !known)
@@ -327,4 +331,4 @@ void MeasureSurface(
   }
 }
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge
