@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Input arrays that the caller of a filter chooses by vtkAlgorithm::SetInputArrayToProcess(): found,
- * and checked for their type and number of components. What is wrong is a sentence for the user.
+ * Input arrays that the caller of a filter chooses by vtkAlgorithm::SetInputArrayToProcess():
+ * found, and checked for type and number of components. Errors are sentences for the user.
  */
 #ifndef vtkMeshBridgeArrays_h
 #define vtkMeshBridgeArrays_h

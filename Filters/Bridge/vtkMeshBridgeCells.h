@@ -76,7 +76,7 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells);
 void KeepSimplices(vtkUnstructuredGrid* grid, const std::vector<char>& isKept, Cells& cells);
 
 /**
- * A message of the core, and which cell of the grid its `cell` is, if that has another number there.
+ * A message of the core, and which cell of the grid its `cell` is, if that is another one there.
  */
 std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells);
 

@@ -38,8 +38,7 @@ Tensor<2> Frame<2>::ToCore(const Tensor<3>& m) const
   {
     for (int j = 0; j < 2; ++j)
     {
-      inPlane(i, j) = this->Direct[0] >= 0 ? m(this->Direct[i], this->Direct[j])
-                                           : this->Axes[i].dot(m * this->Axes[j]);
+      inPlane(i, j) = this->Axes[i].dot(m * this->Axes[j]);
     }
   }
   return inPlane;

@@ -54,7 +54,7 @@ struct Frame<2>
   }
   void ToGrid(const meshopt::Vec<2>& u, double x[3]) const;
 
-  /// The part in the plane. Where the plane is parallel to two axes nothing else is looked at.
+  /// The part in the plane.
   meshopt::Tensor<2> ToCore(const meshopt::Tensor<3>& m) const;
 };
 

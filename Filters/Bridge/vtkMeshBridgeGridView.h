@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A vtkUnstructuredGrid by plain pointers: coordinates, kinds and corners of cells, ghosts. It takes
- * any grid, also one that no solver would, and never reads out of its arrays.
+ * A vtkUnstructuredGrid by plain pointers: coordinates, kinds and corners of cells, ghosts. It
+ * takes any grid, also one that no solver would, and never reads out of its arrays.
  */
 #ifndef vtkMeshBridgeGridView_h
 #define vtkMeshBridgeGridView_h

@@ -114,12 +114,11 @@ Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame
   if (array->GetNumberOfComponents() == 6)
   {
     m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
-    return frame.ToCore(m);
+    return frame.ToCore(m); // NaN and infinity anywhere make NaN
   }
   m << t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8];
   const Tensor<3> difference = m - m.transpose();
-  const double skew = frame.ToCore(difference).cwiseAbs().maxCoeff();
-  if (skew > Skew * frame.ToCore(m).cwiseAbs().maxCoeff())
+  if (difference.cwiseAbs().maxCoeff() > Skew * m.cwiseAbs().maxCoeff())
   {
     return Tensor<D>::Constant(std::numeric_limits<double>::quiet_NaN());
   }

@@ -76,7 +76,7 @@ public:
    */
   const std::vector<double>& GetLogSizes() const { return this->LogSizes; }
   /**
-   * ln M at the points: of dimension 2 if the grid is flat, else of dimension 3; the other is empty.
+   * ln M at the points: of dimension 2 if the grid is flat, else 3; the other one is empty.
    */
   template <int D>
   const std::vector<meshopt::Tensor<D>>& GetLogTensors() const;

@@ -60,9 +60,10 @@ struct Figures
 };
 
 /**
- * Writes the quality of each cell to `quality` (one per cell; NaN for cells that are neither triangles
- * nor tetrahedra, that lack a point, or have a coordinate that is not finite) and sums up those that are not ghosts.
- * `part` goes into the worst elements. The same bits for any number of threads.
+ * Writes the quality of each cell to `quality` (one per cell; NaN for cells that are neither
+ * triangles nor tetrahedra, that lack a point, or have a coordinate that is not finite) and sums up
+ * those that are not ghosts. `part` goes into the worst elements. The same bits for any number of
+ * threads.
  */
 Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part, double* quality);
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without building the
- * adjacency of all cells, and has their bound computed.
+ * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without
+ * building the adjacency of all cells, and has their bound computed.
  *
- * Each facet gets a random-looking 64-bit key, the same from both of its cells. Both cells exclusive-or it into a
- * number at the facet's lowest point: facets with two cells cancel out. Points whose number is not 0 have some
- * kept facet; only the facets at those are compared one by one, which are few. A number is 0 by chance once in 2^64.
- * The order in which numbers are combined does not matter, so that threads may do it.
+ * Each facet gets a random-looking 64-bit key, the same from both of its cells. Both cells
+ * exclusive-or it into a number at the facet's lowest point: facets with two cells cancel out.
+ * Points whose number is not 0 have some kept facet; only the facets at those are compared one by
+ * one, which are few. A number is 0 by chance once in 2^64. The order in which numbers are combined
+ * does not matter, so that threads may do it.
  */
 #include "vtkMeshQualityMeasure.h"
 
