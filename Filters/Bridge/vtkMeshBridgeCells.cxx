@@ -221,30 +221,6 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
   return {};
 }
 
-void KeepSimplices(vtkUnstructuredGrid* grid, const std::vector<char>& isKept, Cells& cells)
-{
-  for (std::uint8_t& use : cells.PointUse)
-  {
-    use &= static_cast<std::uint8_t>(~UsedBySimplex);
-  }
-  std::vector<vtkIdType> kept;
-  for (std::size_t k = 0; k < isKept.size(); ++k)
-  {
-    vtkIdType n = 0;
-    const vtkIdType* ids = nullptr;
-    grid->GetCellPoints(cells.Simplices[k], n, ids);
-    for (vtkIdType i = 0; i < n; ++i)
-    {
-      cells.PointUse[ids[i]] |= isKept[k] ? UsedBySimplex : UsedByOther;
-    }
-    if (isKept[k])
-    {
-      kept.push_back(cells.Simplices[k]);
-    }
-  }
-  cells.Simplices.swap(kept);
-}
-
 std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells)
 {
   if (cell == meshopt::None || cells.IsIdentity())

@@ -70,12 +70,6 @@ struct Cells
 std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells);
 
 /**
- * Takes simplices off the list: those that `isKept`, one value for each of them, does not name pass
- * through from now on, as ghost cells do.
- */
-void KeepSimplices(vtkUnstructuredGrid* grid, const std::vector<char>& isKept, Cells& cells);
-
-/**
  * A message of the core, and which cell of the grid its `cell` is, if that is another one there.
  */
 std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells);

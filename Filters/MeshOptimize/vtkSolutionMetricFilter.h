@@ -67,13 +67,6 @@
 #include "vtkFiltersMeshOptimizeModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <string> // for std::string
-
-namespace vtkSolutionMetricBridge
-{
-struct Outcome;
-}
-
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkSolutionMetricFilter : public vtkUnstructuredGridAlgorithm
 {
 public:
@@ -240,9 +233,6 @@ protected:
 private:
   vtkSolutionMetricFilter(const vtkSolutionMetricFilter&) = delete;
   void operator=(const vtkSolutionMetricFilter&) = delete;
-
-  std::string Compute(vtkUnstructuredGrid* grid, vtkSolutionMetricBridge::Outcome& outcome);
-  void Warn(const vtkSolutionMetricBridge::Outcome& outcome);
 
   int Criterion = Hessian;
   int DesiredNumberOfElements = 0;

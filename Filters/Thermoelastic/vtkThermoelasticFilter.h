@@ -74,15 +74,7 @@
 #include "vtkFiltersThermoelasticModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <string> // for std::string
-
 class vtkMultiProcessController;
-
-namespace vtkThermoelasticBridge
-{
-struct Outcome;
-struct Request;
-}
 
 class VTKFILTERSTHERMOELASTIC_EXPORT vtkThermoelasticFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -403,9 +395,8 @@ private:
   vtkThermoelasticFilter(const vtkThermoelasticFilter&) = delete;
   void operator=(const vtkThermoelasticFilter&) = delete;
 
-  std::string CheckDistribution(bool hasCells);
-  void FillRequest(vtkThermoelasticBridge::Request& request);
-  void StoreResults(const vtkThermoelasticBridge::Outcome& outcome);
+  struct Results;
+  void StoreResults(const Results& results);
   void ChooseArray(int index, bool onCells, const char* name);
 
   int TemperatureMode = PointArray;

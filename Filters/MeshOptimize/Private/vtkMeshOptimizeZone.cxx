@@ -129,6 +129,36 @@ std::vector<char> MarkZone(
 }
 
 /**
+ * Takes simplices off the list: those that `isKept`, one value for each of them, does not name pass
+ * through from now on, as ghost cells do.
+ */
+void KeepSimplices(
+  vtkUnstructuredGrid* grid, const std::vector<char>& isKept, vtkMeshBridge::Cells& cells)
+{
+  for (std::uint8_t& use : cells.PointUse)
+  {
+    use &= static_cast<std::uint8_t>(~vtkMeshBridge::UsedBySimplex);
+  }
+  std::vector<vtkIdType> kept;
+  for (std::size_t k = 0; k < isKept.size(); ++k)
+  {
+    vtkIdType n = 0;
+    const vtkIdType* ids = nullptr;
+    grid->GetCellPoints(cells.Simplices[k], n, ids);
+    for (vtkIdType i = 0; i < n; ++i)
+    {
+      cells.PointUse[ids[i]] |= isKept[k] ? vtkMeshBridge::UsedBySimplex
+                                          : vtkMeshBridge::UsedByOther;
+    }
+    if (isKept[k])
+    {
+      kept.push_back(cells.Simplices[k]);
+    }
+  }
+  cells.Simplices.swap(kept);
+}
+
+/**
  * Builds the mesh of the simplices inside, which alone the model's cells name by now.
  */
 template <int D>
@@ -165,7 +195,7 @@ LeftOut RestrictToZone(
   }
   if (!others.empty())
   {
-    vtkMeshBridge::KeepSimplices(model.Grid, isInside, model.Cells);
+    KeepSimplices(model.Grid, isInside, model.Cells);
     BuildZone(isInside, model);
   }
   return rest;
