@@ -509,6 +509,16 @@ void TestBrokenGrids()
     CHECK(answer.Minimum == whole.Minimum && answer.Inverted == 0);
     CHECK(IsNear(answer.Bound, whole.Bound, 1e-9));
   }
+  // Cells with too few points, and no points at all.
+  Grid bare = MakeGrid({});
+  AddCell(bare, VTK_TETRA, {});
+  AddCell(bare, VTK_TRIANGLE, {});
+  CHECK(AskMinMax(bare, 0.0).Errors.empty() && AskMinMax(bare, 0.0).Measured == 0);
+  bare = MakeTetrahedra();
+  const vtkIdType all = bare->GetNumberOfCells();
+  AddCell(bare, VTK_TETRA, { 0, 1 });
+  AddCell(bare, VTK_QUADRATIC_TETRA, { 0, 1, 2 });
+  CHECK(AskMinMax(bare, 0.0).Errors.empty() && AskMinMax(bare, 0.0).Measured == all);
   // A ghost array that is too short says nothing.
   Grid grid = MakeTetrahedra();
   auto ghosts = NewArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 1, 3);
