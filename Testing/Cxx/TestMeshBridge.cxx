@@ -4,10 +4,8 @@
 #include "MeshOptimizeFilterTesting.h"
 
 #include "vtkDataSetAttributes.h"
-#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkMeshQualityMinMax.h"
-#include "vtkStringArray.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 
