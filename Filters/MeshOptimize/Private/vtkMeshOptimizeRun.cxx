@@ -106,12 +106,12 @@ void Export(const Request& request, Model<D>& model, vtkUnstructuredGrid* output
 
 template <int D>
 Model<D> StartModel(vtkUnstructuredGrid* input, const InputArrays& arrays,
-  const vtkMeshBridge::Cells& cells, const Request& request)
+  vtkMeshBridge::Cells&& cells, const Request& request)
 {
   Model<D> model;
   model.Grid = input;
   model.Arrays = arrays;
-  model.Cells = cells;
+  model.Cells = std::move(cells);
   model.Metric = meshopt::NodalMetric<D>(request.Options.desiredSize);
   return model;
 }
@@ -182,8 +182,10 @@ std::string OptimizeGrid(vtkUnstructuredGrid* input, const InputArrays& arrays,
   else
   {
     error = cells.Dimension == 3
-      ? OptimizeSimplices(request, StartModel<3>(input, arrays, cells, request), output, outcome)
-      : OptimizeSimplices(request, StartModel<2>(input, arrays, cells, request), output, outcome);
+      ? OptimizeSimplices(
+          request, StartModel<3>(input, arrays, std::move(cells), request), output, outcome)
+      : OptimizeSimplices(
+          request, StartModel<2>(input, arrays, std::move(cells), request), output, outcome);
     output->GetFieldData()->DeepCopy(input->GetFieldData());
   }
   AddFigures(outcome, output);
