@@ -225,7 +225,7 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   o.armijo = filter->GetArmijoFactor();
   o.maximumNumberOfAlternations = filter->GetMaximumNumberOfAlternations();
   o.effort = static_cast<meshopt::Effort>(filter->GetEffort());
-  o.numberOfThreads = vtkMeshBridge::ResolveNumberOfThreads(filter->GetNumberOfThreads());
+  request.NumberOfThreads = vtkMeshBridge::ResolveNumberOfThreads(filter->GetNumberOfThreads());
   o.growthBudget = filter->GetGrowthBudget();
   o.timeLimit = filter->GetTimeLimit();
   request.OptimizeBelow = filter->GetOptimizeBelow();
@@ -342,7 +342,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
     request.Control = vtkMeshBridge::MakeControl(
-      filter, request.Options.numberOfThreads, first, last, deadline);
+      filter, request.NumberOfThreads, first, last, deadline);
     const Task& task = tasks[i];
     const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;

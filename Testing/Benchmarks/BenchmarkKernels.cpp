@@ -100,7 +100,7 @@ struct Bench
     while (this->nodes.size() < 1024)
     {
       const Index p = static_cast<Index>(random() % this->mesh.numberOfInputPoints());
-      if (!this->mesh.isFixed(p))
+      if (this->mesh.isFree(p))
       {
         this->nodes.push_back(p);
       }
@@ -281,6 +281,7 @@ void insertionCavity(benchmark::State& state)
 {
   Bench& bench = Bench::instance();
   Cavity<3, Shape> cavity;
+  const std::size_t start = bench.editor.begin();
   const Index p = bench.editor.addPoint(Vec<3>::Zero());
   std::size_t k = 0, cells = 0;
   const InTets count(state);
@@ -292,7 +293,7 @@ void insertionCavity(benchmark::State& state)
     benchmark::DoNotOptimize(cavity.grow(bench.editor, bench.model, c, p, middle, {}));
     cells += cavity.cells().size();
   }
-  bench.editor.dropPoint(p);
+  bench.editor.rollback(start);
   state.counters["cells"] = benchmark::Counter(double(cells), benchmark::Counter::kAvgIterations);
 }
 

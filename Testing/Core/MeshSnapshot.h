@@ -25,6 +25,7 @@ struct Snapshot
       for (int i = 0; i <= D; ++i)
       {
         this->numbers.push_back(mesh.adjacent(c, i));
+        this->numbers.push_back(mesh.patch(c, i));
       }
       const auto& data = mesh.cellData(c);
       this->add(std::array<std::int64_t, 5>{
@@ -36,11 +37,9 @@ struct Snapshot
       const auto& data = mesh.pointData(p);
       this->add(std::array<std::int64_t, 4>{ data.cell, data.stamp, data.owner, data.flags });
       this->values.insert(this->values.end(), data.x.data(), data.x.data() + D);
-      if constexpr (D == 2)
-      {
-        this->numbers.push_back(data.curve);
-        this->values.push_back(data.parameter);
-      }
+      const Place place = mesh.place(p);
+      this->add(std::array<std::int64_t, 2>{ static_cast<int>(place.freedom), place.part });
+      this->values.push_back(place.parameter);
     }
     this->numbers.push_back(-7);
     this->add(editor.freeCells());

@@ -171,7 +171,7 @@ inline std::vector<Index> slidingPoints(const SimplexMesh<2>& mesh)
   std::vector<Index> points;
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
-    if (mesh.isPointAlive(p) && mesh.pointData(p).curve != None)
+    if (mesh.isPointAlive(p) && mesh.freedom(p) == Freedom::Curve)
     {
       points.push_back(p);
     }
@@ -186,8 +186,9 @@ inline void expectOnCurves(
 {
   for (Index p : slidingPoints(mesh))
   {
-    const auto& data = mesh.pointData(p);
-    EXPECT_LE((curves.at(data.curve, data.parameter) - data.x).norm(), tolerance) << "point " << p;
+    const Place place = mesh.place(p);
+    EXPECT_LE((curves.at(place.part, place.parameter) - mesh.point(p)).norm(), tolerance)
+      << "point " << p;
   }
   forKeptFacets(mesh,
     [&](Index c, int i)
@@ -196,12 +197,12 @@ inline void expectOnCurves(
       const auto span = curves.span(mesh, f[0], f[1]);
       if (span)
       {
-        EXPECT_LE((curves.at(span->piece, span->from) - mesh.point(f[0])).norm(), tolerance);
-        EXPECT_LE((curves.at(span->piece, span->to) - mesh.point(f[1])).norm(), tolerance);
+        EXPECT_LE((curves.at(span->part, span->from) - mesh.point(f[0])).norm(), tolerance);
+        EXPECT_LE((curves.at(span->part, span->to) - mesh.point(f[1])).norm(), tolerance);
       }
       else
       {
-        EXPECT_TRUE(mesh.pointData(f[0]).curve == None && mesh.pointData(f[1]).curve == None)
+        EXPECT_TRUE(mesh.place(f[0]).part == None && mesh.place(f[1]).part == None)
           << f[0] << " " << f[1];
       }
     });

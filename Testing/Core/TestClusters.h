@@ -55,10 +55,10 @@ Cluster<D> clusterOf(SimplexMesh<D>& mesh, Index cell, int level)
   {
     editor.setQuality(c, quality.value(mesh.corners(c), ElementMetric<D>{}));
   }
-  ClusterGatherer<D> gatherer(editor);
+  ClusterGatherer<D> gatherer;
   Cluster<D> cluster;
   gatherer.gather(
-    cell, level, [&](Index p) { return !mesh.isFixed(p); }, cluster);
+    editor, cell, level, [&](Index p) { return mesh.isFree(p); }, cluster);
   return cluster;
 }
 

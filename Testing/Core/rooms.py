@@ -10,7 +10,7 @@ import re
 import sys
 
 FILTERS = pathlib.Path(__file__).resolve().parents[2] / "Filters"
-ROOMS = [["Base"], ["Mesh"], ["Metric"], ["Quality"], ["Surface", "Bound"], ["Reposition"], ["Operations"], ["Run"],
+ROOMS = [["Base"], ["Mesh"], ["Metric"], ["Quality"], ["Surface", "Bound"], ["Reposition"], ["Edit"], ["Operations"], ["Run"],
          ["WorstFirst", "Sizes", "Paper1996"], ["Optimize", "Thermoelastic"]]
 MODULES = [["Core"], ["Bridge"], ["MeshOptimize", "Thermoelastic", "TetGen"]]
 INCLUDE = re.compile(r'^\s*#\s*include\s+["<]([^">]+)[">]', re.MULTILINE)

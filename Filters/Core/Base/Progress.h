@@ -43,6 +43,8 @@ public:
     return !this->cancelled_;
   }
   bool cancelled() const { return this->cancelled_; }
+  /// The next report is told at once: other work begins.
+  void expectNews() { this->first_ = true; }
 
 private:
   using Clock = std::chrono::steady_clock;

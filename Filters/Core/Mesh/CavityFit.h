@@ -170,6 +170,108 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     eulerCharacteristic<D>(cells) == eulerCharacteristic<D>(old) &&
     fitting::staysTogether<D>(old, cells, outer, within);
 }
+
+/// Whether one of `cells` has an edge or a facet that is there already outside of the cavity. Where
+/// no cell is inverted geometry forbids it; it is the link condition of an edge contraction, and its
+/// like for other changes. `pinched`: see PinchedPoints.h. The cost goes with the stars of points.
+template <int D>
+bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells, const std::vector<std::uint8_t>& pinched)
+{
+  const auto isPinched = [&](Index p)
+  { return p < static_cast<Index>(pinched.size()) && pinched[p]; };
+  std::vector<Index> star;
+  Index centre = None; // of the star
+  // a face of a new cell: its points, the first `n` of `face`
+  const auto isNewAndTaken = [&](const Index* face, int n)
+  {
+    const auto has = [&](Index c)
+    { return std::all_of(face, face + n, [&](Index p) { return mesh.localIndex(c, p) >= 0; }); };
+    if (std::any_of(cavity.begin(), cavity.end(), has) ||
+      !std::all_of(face, face + n, [&](Index p) { return mesh.isPointAlive(p); }))
+    {
+      return false;
+    }
+    // The star at hand if it will do; else that of the last point, the apex that many new cells share.
+    const Index* whole = std::find(face, face + n, centre);
+    for (int k = n; whole == face + n && k-- > 0;)
+    {
+      whole = isPinched(face[k]) ? whole : face + k;
+    }
+    if (whole != face + n)
+    {
+      if (*whole != centre)
+      {
+        centre = *whole;
+        mesh.star(centre, star);
+      }
+      return std::any_of(star.begin(), star.end(), has);
+    }
+    bool found = false; // no star of these points is all of it; there are few such points
+    for (Index c = 0; c < mesh.numberOfCellSlots() && !found; ++c)
+    {
+      found = mesh.isAlive(c) && has(c);
+    }
+    return found;
+  };
+  for (const Simplex<D>& cell : cells)
+  {
+    for (const auto& e : Local<D>::edges)
+    {
+      const Index edge[] = { cell[e[0]], cell[e[1]] };
+      if (isNewAndTaken(edge, 2))
+      {
+        return true;
+      }
+    }
+    for (const auto& f : Local<D>::facets)
+    {
+      Index facet[D];
+      std::transform(std::begin(f), std::end(f), facet, [&](int k) { return cell[k]; });
+      if (isNewAndTaken(facet, D))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether every kept edge of the cavity is an edge of one of `cells`, or goes by the change.
+template <int D>
+bool keepsEdges(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells, const KeptChange<D>* change = nullptr)
+{
+  if (!mesh.hasConstrainedEdges())
+  {
+    return true;
+  }
+  for (Index c : cavity)
+  {
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      if (!mesh.isEdgeConstrained(c, e))
+      {
+        continue;
+      }
+      const Index a = mesh.nodes(c)[Local<D>::edges[e][0]];
+      const Index b = mesh.nodes(c)[Local<D>::edges[e][1]];
+      const auto isSame = [&](const std::array<Index, 2>& gone)
+      { return (gone[0] == a && gone[1] == b) || (gone[0] == b && gone[1] == a); };
+      const auto has = [&](const Simplex<D>& cell)
+      {
+        return std::find(cell.begin(), cell.end(), a) != cell.end() &&
+          std::find(cell.begin(), cell.end(), b) != cell.end();
+      };
+      if (std::none_of(cells.begin(), cells.end(), has) &&
+        !(change && std::any_of(change->goneEdges.begin(), change->goneEdges.end(), isSame)))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
 }
 
 #endif

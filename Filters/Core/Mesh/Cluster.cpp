@@ -22,22 +22,22 @@ double Cluster<D>::meanEdge() const
 }
 
 template <int D>
-int ClusterGatherer<D>::localNumber(Index p, Cluster<D>& cluster)
+int ClusterGatherer<D>::localNumber(const SimplexMesh<D>& mesh, Index p, Cluster<D>& cluster)
 {
   const int k = this->numbers_.add(p);
   if (k == static_cast<int>(cluster.points.size()))
   {
     cluster.points.push_back(p);
-    cluster.x.push_back(this->editor_->mesh().point(p));
+    cluster.x.push_back(mesh.point(p));
   }
   return k;
 }
 
 /// Neighbours of the cell, order by order, in front_.
 template <int D>
-void ClusterGatherer<D>::findNeighbours(Index cell, int level)
+void ClusterGatherer<D>::findNeighbours(MeshEditor<D>& editor, Index cell, int level)
 {
-  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  const SimplexMesh<D>& mesh = editor.mesh();
   this->numbers_.clear();
   this->front_.assign(mesh.nodes(cell).begin(), mesh.nodes(cell).end());
   for (Index p : this->front_)
@@ -49,7 +49,7 @@ void ClusterGatherer<D>::findNeighbours(Index cell, int level)
     const std::size_t end = this->front_.size();
     for (; begin < end; ++begin)
     {
-      this->editor_->star(this->front_[begin], this->star_);
+      editor.star(this->front_[begin], this->star_);
       for (Index c : this->star_)
       {
         for (Index p : mesh.nodes(c))
@@ -67,9 +67,9 @@ void ClusterGatherer<D>::findNeighbours(Index cell, int level)
 
 /// Moving nodes, those of front_, first; then their cells with whatever other nodes these have.
 template <int D>
-void ClusterGatherer<D>::collect(Cluster<D>& cluster)
+void ClusterGatherer<D>::collect(MeshEditor<D>& editor, Cluster<D>& cluster)
 {
-  const SimplexMesh<D>& mesh = this->editor_->mesh();
+  const SimplexMesh<D>& mesh = editor.mesh();
   cluster.points.clear();
   cluster.x.clear();
   cluster.cells.clear();
@@ -78,20 +78,20 @@ void ClusterGatherer<D>::collect(Cluster<D>& cluster)
   this->numbers_.clear();
   for (Index p : this->front_)
   {
-    this->localNumber(p, cluster);
+    this->localNumber(mesh, p, cluster);
   }
   cluster.numberOfMoving = static_cast<int>(cluster.points.size());
   // star() uses marks of its own: a cell is taken at its first moving node in local order.
   for (int k = 0; k < cluster.numberOfMoving; ++k)
   {
-    this->editor_->star(cluster.points[k], this->star_);
+    editor.star(cluster.points[k], this->star_);
     for (Index c : this->star_)
     {
       Simplex<D> local;
       int first = cluster.numberOfMoving;
       for (int i = 0; i <= D; ++i)
       {
-        local[i] = this->localNumber(mesh.nodes(c)[i], cluster);
+        local[i] = this->localNumber(mesh, mesh.nodes(c)[i], cluster);
         first = std::min<int>(first, local[i]);
       }
       if (first == k)

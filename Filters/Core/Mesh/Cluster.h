@@ -57,31 +57,26 @@ template <int D>
 class ClusterGatherer
 {
 public:
-  explicit ClusterGatherer(MeshEditor<D>& editor)
-    : editor_(&editor)
-  {
-  }
-
   /// The cluster of `cell`: nodes in its neighbourhood of order `level` (0: its own nodes; 1: also
   /// those joined to them by an edge; and so on) for which movable(p) is true become moving nodes, in
   /// the order of distance; the cells are those that contain one. What the editor does not own is not
   /// seen.
   template <class Movable>
-  void gather(Index cell, int level, Movable&& movable, Cluster<D>& cluster)
+  void gather(
+    MeshEditor<D>& editor, Index cell, int level, Movable&& movable, Cluster<D>& cluster)
   {
-    this->findNeighbours(cell, level);
+    this->findNeighbours(editor, cell, level);
     this->front_.erase(std::remove_if(this->front_.begin(), this->front_.end(),
                          [&](Index p) { return !movable(p); }),
       this->front_.end());
-    this->collect(cluster);
+    this->collect(editor, cluster);
   }
 
 private:
-  void findNeighbours(Index cell, int level);
-  void collect(Cluster<D>& cluster);
-  int localNumber(Index p, Cluster<D>& cluster);
+  void findNeighbours(MeshEditor<D>& editor, Index cell, int level);
+  void collect(MeshEditor<D>& editor, Cluster<D>& cluster);
+  int localNumber(const SimplexMesh<D>& mesh, Index p, Cluster<D>& cluster);
 
-  MeshEditor<D>* editor_;
   LocalNumbers numbers_;
   std::vector<Index> front_, star_;
 };

@@ -55,7 +55,7 @@ struct Audit
     {
       for (Index p : f)
       {
-        if (!this->mesh.isFixed(p) || !this->mesh.isBoundary(p))
+        if (this->mesh.isFree(p) || !this->mesh.isBoundary(p))
         {
           this->fault(name + " is kept but its point " + std::to_string(p) + " is free");
         }

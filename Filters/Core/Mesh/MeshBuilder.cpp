@@ -140,7 +140,7 @@ struct MeshBuilder
       this->mesh.points_[p].x = this->input.points[p];
       if (!this->input.fixedPoints.empty() && this->input.fixedPoints[p])
       {
-        this->mesh.points_[p].flags = Mesh::PointFixed | Mesh::PointFixedByUser;
+        this->mesh.points_[p].flags = Mesh::PointHeld | Mesh::PointFixedByUser;
       }
     }
     for (std::size_t c = 0; c < n; ++c)
@@ -324,7 +324,7 @@ struct MeshBuilder
     this->mesh.cellData_[c].flags |= std::uint16_t(1u << i);
     for (Index p : this->mesh.facet(c, i))
     {
-      this->mesh.points_[p].flags |= Mesh::PointFixed | Mesh::PointBoundary;
+      this->mesh.points_[p].flags |= Mesh::PointHeld | Mesh::PointBoundary;
     }
   }
 
@@ -376,8 +376,8 @@ struct MeshBuilder
         if (std::binary_search(edges.begin(), edges.end(), e))
         {
           this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
-          this->mesh.points_[a].flags |= Mesh::PointFixed;
-          this->mesh.points_[b].flags |= Mesh::PointFixed;
+          this->mesh.points_[a].flags |= Mesh::PointHeld;
+          this->mesh.points_[b].flags |= Mesh::PointHeld;
           this->mesh.hasConstrainedEdges_ = true;
         }
       }
@@ -408,12 +408,12 @@ struct MeshBuilder
     }
     for (Index p = 0; p < this->mesh.numberOfPointSlots(); ++p)
     {
-      if (count[p] > 0 && !this->mesh.isFixed(p))
+      if (count[p] > 0 && this->mesh.isFree(p))
       {
         this->mesh.star(p, star);
         if (static_cast<Index>(star.size()) != count[p])
         {
-          this->mesh.points_[p].flags |= Mesh::PointFixed;
+          this->mesh.points_[p].flags |= Mesh::PointHeld;
         }
       }
     }

@@ -24,11 +24,63 @@ MeshEditor<D>::MeshEditor(Mesh& mesh)
 }
 
 template <int D>
-MeshEditor<D>::MeshEditor(Mesh& mesh, std::uint32_t clock, std::uint32_t mark)
-  : mesh_(&mesh)
-  , clock_(clock)
-  , mark_(mark)
+MeshEditor<D> MeshEditor<D>::beside(const MeshEditor& other)
 {
+  MeshEditor editor;
+  editor.mesh_ = other.mesh_;
+  editor.clock_ = other.clock_;
+  editor.mark_ = other.mark_;
+  for (PointAttachment<D>* attachment : other.attachments_)
+  {
+    editor.attach(*attachment);
+  }
+  return editor;
+}
+
+// --- attachments
+
+template <int D>
+void MeshEditor<D>::attach(PointAttachment<D>& attachment)
+{
+  assert(this->depth_ == 0);
+  attachment.reserve(this->mesh_->numberOfPointSlots());
+  this->attachments_.push_back(&attachment);
+  this->attachmentJournals_.push_back(attachment.makeJournal());
+}
+
+template <int D>
+void MeshEditor<D>::detach(PointAttachment<D>& attachment)
+{
+  assert(this->depth_ == 0);
+  const auto at = std::find(this->attachments_.begin(), this->attachments_.end(), &attachment);
+  this->attachmentJournals_.erase(
+    this->attachmentJournals_.begin() + (at - this->attachments_.begin()));
+  this->attachments_.erase(at);
+}
+
+/// Patches are for all cell slots or for none; `isFirst`: from now on for all.
+template <int D>
+void MeshEditor<D>::growPatches(bool isFirst)
+{
+  if (isFirst || !this->mesh_->patches_.empty())
+  {
+    Patches none;
+    none.fill(None);
+    this->mesh_->patches_.resize(this->mesh_->cells_.size(), none);
+  }
+}
+
+template <int D>
+void MeshEditor<D>::growAttachments()
+{
+  if (!this->mesh_->places_.empty())
+  {
+    this->mesh_->places_.resize(this->mesh_->points_.size());
+  }
+  for (PointAttachment<D>* attachment : this->attachments_)
+  {
+    attachment->reserve(this->mesh_->numberOfPointSlots());
+  }
 }
 
 // --- slots
@@ -39,6 +91,7 @@ void MeshEditor<D>::growCells(Index n)
   const Index first = this->mesh_->numberOfCellSlots();
   this->mesh_->cells_.resize(first + n);
   this->mesh_->cellData_.resize(first + n);
+  this->growPatches();
   for (Index c = first + n; c-- > first;)
   {
     this->freeCells_.push_back(c);
@@ -50,6 +103,7 @@ void MeshEditor<D>::growPoints(Index n)
 {
   const Index first = this->mesh_->numberOfPointSlots();
   this->mesh_->points_.resize(first + n);
+  this->growAttachments();
   for (Index p = first + n; p-- > first;)
   {
     this->freePoints_.push_back(p);
@@ -81,6 +135,7 @@ Index MeshEditor<D>::takeCell()
   }
   this->mesh_->cells_.emplace_back();
   this->mesh_->cellData_.emplace_back();
+  this->growPatches();
   if (this->depth_ > 0)
   {
     this->journal_.push_back(Entry::CellGrown);
@@ -100,55 +155,55 @@ void MeshEditor<D>::freeCell(Index c)
   }
 }
 
+/// A slot for a new point; None if there is none in the pool and the mesh may not grow.
 template <int D>
-Index MeshEditor<D>::addPoint(const Vec<D>& x)
+Index MeshEditor<D>::takePoint()
 {
-  Index p = None;
   if (!this->freePoints_.empty())
   {
-    p = this->freePoints_.back();
+    const Index p = this->freePoints_.back();
     this->freePoints_.pop_back();
     if (this->depth_ > 0)
     {
       this->journal_.push_back(Entry::PointTaken);
       this->slotRecords_.push_back(p);
       this->savePoint(p);
+      this->savePlace(p);
     }
+    return p;
   }
-  else if (this->owner_ == None)
-  {
-    p = this->mesh_->numberOfPointSlots();
-    this->mesh_->points_.emplace_back();
-    if (this->depth_ > 0)
-    {
-      this->journal_.push_back(Entry::PointGrown);
-    }
-  }
-  else
+  if (this->owner_ != None)
   {
     this->blocked_ = true;
     return None;
   }
-  Point& point = this->mesh_->points_[p];
-  point.x = x;
-  point.cell = None;
-  point.stamp = ++this->clock_;
-  point.owner = this->owner_ == None ? 0 : this->owner_;
-  point.flags = Mesh::PointMoved;
-  static_cast<CurvePlace<D>&>(point) = CurvePlace<D>();
-  return p;
+  this->mesh_->points_.emplace_back();
+  this->growAttachments();
+  if (this->depth_ > 0)
+  {
+    this->journal_.push_back(Entry::PointGrown);
+  }
+  return this->mesh_->numberOfPointSlots() - 1;
 }
 
 template <int D>
-void MeshEditor<D>::dropPoint(Index p)
+Index MeshEditor<D>::addPoint(const Vec<D>& x)
 {
-  assert(!this->mesh_->isPointAlive(p) && p >= this->mesh_->inputPoints_);
-  this->savePoint(p);
-  this->freePoints_.push_back(p);
-  if (this->depth_ > 0)
+  const Index p = this->takePoint();
+  if (p != None)
   {
-    this->journal_.push_back(Entry::PointFreed);
+    Point& point = this->mesh_->points_[p];
+    point.x = x;
+    point.cell = None;
+    point.stamp = ++this->clock_;
+    point.owner = this->owner_ == None ? 0 : this->owner_;
+    point.flags = 0;
+    if (!this->mesh_->places_.empty())
+    {
+      this->mesh_->places_[p] = Place();
+    }
   }
+  return p;
 }
 
 // --- journal
@@ -160,6 +215,10 @@ void MeshEditor<D>::saveCell(Index c)
   {
     this->journal_.push_back(Entry::CellChanged);
     this->cellRecords_.push_back({ c, this->mesh_->cells_[c], this->mesh_->cellData_[c] });
+    if (!this->mesh_->patches_.empty())
+    {
+      this->patchRecords_.push_back(this->mesh_->patches_[c]);
+    }
   }
 }
 
@@ -170,6 +229,29 @@ void MeshEditor<D>::savePoint(Index p)
   {
     this->journal_.push_back(Entry::PointChanged);
     this->pointRecords_.push_back({ p, this->mesh_->points_[p] });
+  }
+}
+
+template <int D>
+void MeshEditor<D>::savePlace(Index p)
+{
+  if (this->depth_ > 0 && !this->mesh_->places_.empty())
+  {
+    this->journal_.push_back(Entry::PlaceChanged);
+    this->placeRecords_.push_back({ p, this->mesh_->places_[p] });
+  }
+}
+
+template <int D>
+void MeshEditor<D>::saveAttachments(Index p)
+{
+  if (this->depth_ > 0 && !this->attachments_.empty())
+  {
+    this->journal_.push_back(Entry::AttachmentsChanged);
+    for (const auto& values : this->attachmentJournals_)
+    {
+      values->save(p);
+    }
   }
 }
 
@@ -187,14 +269,32 @@ void MeshEditor<D>::commit(std::size_t)
   {
     this->journal_.clear();
     this->cellRecords_.clear();
+    this->patchRecords_.clear();
     this->linkRecords_.clear();
     this->pointRecords_.clear();
+    this->placeRecords_.clear();
     this->slotRecords_.clear();
+    for (const auto& values : this->attachmentJournals_)
+    {
+      values->clear();
+    }
   }
 }
 
 template <int D>
 void MeshEditor<D>::rollback(std::size_t place)
+{
+  while (this->journal_.size() > place)
+  {
+    const Entry last = this->journal_.back();
+    this->journal_.pop_back();
+    this->undo(last);
+  }
+  this->commit(place);
+}
+
+template <int D>
+void MeshEditor<D>::undo(Entry entry)
 {
   const auto pop = [](auto& stack)
   {
@@ -202,72 +302,119 @@ void MeshEditor<D>::rollback(std::size_t place)
     stack.pop_back();
     return last;
   };
-  while (this->journal_.size() > place)
+  switch (entry)
   {
-    switch (pop(this->journal_))
+    case Entry::CellChanged:
     {
-      case Entry::CellChanged:
+      const CellRecord r = pop(this->cellRecords_);
+      const std::uint32_t mark = this->mesh_->cellData_[r.id].mark;
+      this->mesh_->cells_[r.id] = r.cell;
+      this->mesh_->cellData_[r.id] = r.data;
+      this->mesh_->cellData_[r.id].mark = mark;
+      if (!this->mesh_->patches_.empty())
       {
-        const CellRecord r = pop(this->cellRecords_);
-        const std::uint32_t mark = this->mesh_->cellData_[r.id].mark;
-        this->mesh_->cells_[r.id] = r.cell;
-        this->mesh_->cellData_[r.id] = r.data;
-        this->mesh_->cellData_[r.id].mark = mark;
-        break;
+        this->mesh_->patches_[r.id] = pop(this->patchRecords_);
       }
-      case Entry::LinkChanged:
-      {
-        const LinkRecord r = pop(this->linkRecords_);
-        this->mesh_->cells_[Mesh::cellOf(r.handle)].adjacent[Mesh::facetOf(r.handle)] = r.adjacent;
-        break;
-      }
-      case Entry::PointChanged:
-      {
-        const PointRecord r = pop(this->pointRecords_);
-        this->mesh_->points_[r.id].restore(r.point);
-        break;
-      }
-      case Entry::CellTaken:
-        this->freeCells_.push_back(pop(this->slotRecords_));
-        break;
-      case Entry::CellGrown:
-        this->mesh_->cells_.pop_back();
-        this->mesh_->cellData_.pop_back();
-        break;
-      case Entry::CellFreed:
-        this->freeCells_.pop_back();
-        break;
-      case Entry::PointTaken:
-        this->freePoints_.push_back(pop(this->slotRecords_));
-        break;
-      case Entry::PointGrown:
-        this->mesh_->points_.pop_back();
-        break;
-      case Entry::PointFreed:
-        this->freePoints_.pop_back();
-        break;
+      break;
     }
+    case Entry::LinkChanged:
+    {
+      const LinkRecord r = pop(this->linkRecords_);
+      this->mesh_->cells_[Mesh::cellOf(r.handle)].adjacent[Mesh::facetOf(r.handle)] = r.adjacent;
+      break;
+    }
+    case Entry::PointChanged:
+    {
+      const PointRecord r = pop(this->pointRecords_);
+      this->mesh_->points_[r.id].restore(r.point);
+      break;
+    }
+    case Entry::PlaceChanged:
+    {
+      const PlaceRecord r = pop(this->placeRecords_);
+      this->mesh_->places_[r.id] = r.place;
+      break;
+    }
+    case Entry::AttachmentsChanged:
+      for (const auto& values : this->attachmentJournals_)
+      {
+        values->undo();
+      }
+      break;
+    case Entry::CellTaken:
+      this->freeCells_.push_back(pop(this->slotRecords_));
+      break;
+    case Entry::CellGrown:
+      this->mesh_->cells_.pop_back();
+      this->mesh_->cellData_.pop_back();
+      if (!this->mesh_->patches_.empty())
+      {
+        this->mesh_->patches_.pop_back();
+      }
+      break;
+    case Entry::CellFreed:
+      this->freeCells_.pop_back();
+      break;
+    case Entry::PointTaken:
+      this->freePoints_.push_back(pop(this->slotRecords_));
+      break;
+    case Entry::PointGrown:
+      this->mesh_->points_.pop_back();
+      if (!this->mesh_->places_.empty())
+      {
+        this->mesh_->places_.pop_back();
+      }
+      break;
+    case Entry::PointFreed:
+      this->freePoints_.pop_back();
+      break;
   }
-  this->commit(place);
 }
 
 // --- edits
 
 template <int D>
-void MeshEditor<D>::movePoint(Index p, const Vec<D>& x)
+void MeshEditor<D>::movePoint(Index p, const Vec<D>& x, Index near)
 {
   this->savePoint(p);
+  this->saveAttachments(p);
   Point& point = this->mesh_->points_[p];
+  point.stamp = point.x == x ? point.stamp : ++this->clock_;
   point.x = x;
-  point.flags |= Mesh::PointMoved;
-  point.stamp = ++this->clock_;
+  for (PointAttachment<D>* attachment : this->attachments_)
+  {
+    attachment->pointPlaced(p, x, near == None ? p : near);
+  }
 }
 
 template <int D>
-void MeshEditor<D>::setCurvePlace(Index p, const CurvePlace<D>& place)
+void MeshEditor<D>::setPlace(Index p, const Place& place)
 {
-  this->savePoint(p);
-  static_cast<CurvePlace<D>&>(this->mesh_->points_[p]) = place;
+  if (this->mesh_->places_.empty())
+  {
+    assert(this->owner_ == None && this->depth_ == 0);
+    this->mesh_->places_.resize(this->mesh_->points_.size());
+  }
+  this->savePlace(p);
+  this->mesh_->places_[p] = place;
+}
+
+template <int D>
+void MeshEditor<D>::setPatch(Index c, int i, Index patch)
+{
+  if (this->mesh_->patches_.empty())
+  {
+    assert(this->owner_ == None && this->depth_ == 0);
+    this->growPatches(true);
+  }
+  this->saveCell(c);
+  this->mesh_->patches_[c][i] = patch;
+  const Index h = this->mesh_->adjacent(c, i);
+  if (h != None)
+  {
+    this->saveCell(Mesh::cellOf(h));
+    this->mesh_->patches_[Mesh::cellOf(h)][Mesh::facetOf(h)] = patch;
+  }
 }
 
 template <int D>

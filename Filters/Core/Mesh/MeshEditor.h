@@ -4,24 +4,43 @@
 #ifndef meshopt_Mesh_MeshEditor_h
 #define meshopt_Mesh_MeshEditor_h
 
+#include "Mesh/PointAttachment.h"
 #include "Mesh/SimplexMesh.h"
+
+#include <memory>
 
 namespace meshopt
 {
-/// How a replacement changes what is kept, where the boundary itself is remeshed.
+/// How a replacement changes what is kept, where the surface itself is remeshed.
 template <int D>
 struct KeptChange
 {
+  using Edge = std::array<Index, 2>;
+
   std::vector<Facet<D>> gone; ///< kept facets of the cavity, at its boundary or inside, that vanish
   std::vector<Facet<D>> come; ///< facets of the new cells that are kept from now on
-  std::vector<Index> regions; ///< of each new cell
+  std::vector<Index> patches; ///< SimplexMesh::patch() of each that comes; empty: None for all
+  std::vector<Edge> goneEdges, comeEdges; ///< the same for kept edges (D = 3)
+  std::vector<Index> regions;             ///< of each new cell
+
+  void clear()
+  {
+    this->gone.clear();
+    this->come.clear();
+    this->patches.clear();
+    this->goneEdges.clear();
+    this->comeEdges.clear();
+    this->regions.clear();
+  }
 };
 
 /// Edits a mesh through two operations, both journalled while a transaction is open:
 ///  - replace(): exchange a cavity (cells) for other cells that fill the same boundary;
 ///  - movePoint().
-/// The editor keeps adjacency, kept facets and edges, cells of points, regions, parents and stamps. Qualities
-/// are given by the caller, who has just computed them to decide.
+/// The journal carries cells, adjacency, kept facets and edges, regions, parents, points and their
+/// stamps, places on the surface, and the attachments (values at points that are kept elsewhere, such
+/// as the metric): rollback() brings all of it back, bit for bit. Qualities are given by the caller,
+/// who has just computed them to decide.
 ///
 /// Geometry is not looked at: whether the new cells are positively oriented, or better, is the
 /// caller's business; that they fill the cavity's boundary exactly is asserted in debug builds.
@@ -36,11 +55,17 @@ public:
 
   /// Scans the mesh for the latest mark and stamp; linear.
   explicit MeshEditor(Mesh& mesh);
-  /// Goes on from a clock and a mark that are not behind those of any other editor; O(1).
-  MeshEditor(Mesh& mesh, std::uint32_t clock, std::uint32_t mark);
+  /// One more editor of the same mesh, with the same attachments, clock and marks; O(1).
+  static MeshEditor beside(const MeshEditor& other);
 
   Mesh& mesh() { return *this->mesh_; }
   const Mesh& mesh() const { return *this->mesh_; }
+
+  /// From now on the values of `attachment` follow the points, and the journal carries them. It must
+  /// live as long as the editor. Not within a transaction.
+  void attach(PointAttachment<D>& attachment);
+  /// Ends that. Not within a transaction.
+  void detach(PointAttachment<D>& attachment);
 
   /// Replaces the cells `cavity` by `cells` (positively numbered point ids, points from the cavity
   /// or from addPoint), with the qualities `qualities`. New cell ids, in the order of `cells`, are
@@ -55,16 +80,20 @@ public:
   const std::vector<Index>& created() const { return this->created_; }
 
   /// A new point at x that no cell uses yet; None if no slot is left in the editor's pool.
+  /// Attachments get their values for it when it is placed by movePoint().
   Index addPoint(const Vec<D>& x);
 
-  /// Gives back the point that addPoint() returned last and that no cell uses.
-  void dropPoint(Index p);
+  /// Moves a point, and stamps it unless it is there already. Attachments follow. `near`: a point near x, for a new point that has
+  /// no value yet; None: the point itself. Qualities of its star are the caller's to set.
+  void movePoint(Index p, const Vec<D>& x, Index near = None);
 
-  /// Moves a point; stamps it. Qualities of its star are the caller's to set.
-  void movePoint(Index p, const Vec<D>& x);
+  /// Says where on the surface the point lies; changes nothing else. The first call must be outside of
+  /// transactions.
+  void setPlace(Index p, const Place& place);
 
-  /// Says where on a curve the point lies; changes nothing else.
-  void setCurvePlace(Index p, const CurvePlace<D>& place);
+  /// Says of which patch of the surface the kept facet i of cell c is; on both of its sides. The
+  /// first call must be outside of transactions.
+  void setPatch(Index c, int i, Index patch);
 
   void setQuality(Index c, double q);
   /// Stamps all points of these cells with a new time: their stars have changed.
@@ -105,10 +134,9 @@ public:
   void setLastMark(std::uint32_t m) { this->mark_ = m; }
 
   // --- parallel rounds
-  /// Restricts the editor to cells all of whose points have this owner, and to the slots given by
-  /// addFreeCells/addFreePoints. None (the default): all cells, and the mesh grows as needed.
+  /// Restricts the editor to cells all of whose points have this owner, and to the slots of
+  /// freeCells() and freePoints(). None (the default): all cells, and the mesh grows as needed.
   void setOwner(Index owner) { this->owner_ = owner; }
-  Index owner() const { return this->owner_; }
   bool owns(Index c) const
   {
     if (this->owner_ == None)
@@ -145,19 +173,23 @@ private:
   using Cell = typename Mesh::Cell;
   using CellData = typename Mesh::CellData;
   using Point = typename Mesh::Point;
+  using AttachmentJournal = typename PointAttachment<D>::Journal;
 
   enum class Entry : std::uint8_t
   {
     CellChanged,
     LinkChanged,
     PointChanged,
-    CellTaken, // from the pool
+    PlaceChanged,
+    AttachmentsChanged, // of one point
+    CellTaken,          // from the pool
     CellGrown,
     CellFreed,
     PointTaken,
     PointGrown,
     PointFreed
   };
+  using Patches = std::array<Index, D + 1>;
   struct CellRecord
   {
     Index id;
@@ -176,34 +208,49 @@ private:
     Index id;
     Point point;
   };
+  struct PlaceRecord
+  {
+    Index id;
+    Place place;
+  };
   /// A facet met while a cavity is refilled: one of its boundary, or one between new cells.
   struct OpenFacet
   {
     Facet<D> key;  // sorted
     Index outside; // handle across it (boundary of the cavity, or first new cell), or None: surface
     Index parent;  // input cell of the cavity cell behind it
+    Index patch;
     bool kept;
     bool closed; // both sides are known
   };
 
+  MeshEditor() = default;
+
   bool reserveCells(std::size_t n);
   Index takeCell();
   void freeCell(Index c);
+  Index takePoint();
   void saveCell(Index c);
   void savePoint(Index p);
+  void savePlace(Index p);
+  void saveAttachments(Index p);
+  void growAttachments();
+  void growPatches(bool isFirst = false);
+  void undo(Entry entry);
   void collectOpenFacets(
     const std::vector<Index>& cavity, std::uint32_t inCavity, const KeptChange<D>* change);
-  void collectKeptEdges(const std::vector<Index>& cavity);
+  void collectKeptEdges(const std::vector<Index>& cavity, const KeptChange<D>* change);
   void killPoints(const std::vector<Index>& cavity);
   void buryPoints();
   void hashOpenFacets(std::size_t numberOfNewCells);
   void create(const Simplex<D>& nodes, double quality, Index region);
   Index linkFacet(Index c, int i);
   void keepEdges(Index c);
-  void keepFacets(const std::vector<Facet<D>>& facets);
+  void keepFacets(const KeptChange<D>& change);
   Index parentIn(Index region) const;
 
-  Mesh* mesh_;
+  Mesh* mesh_ = nullptr;
+  std::vector<PointAttachment<D>*> attachments_;
   Index owner_ = None;
   mutable bool blocked_ = false;
   std::uint32_t clock_ = 0;
@@ -214,8 +261,11 @@ private:
   int depth_ = 0;
   std::vector<Entry> journal_;
   std::vector<CellRecord> cellRecords_;
+  std::vector<Patches> patchRecords_; // one per cell record, or none
   std::vector<LinkRecord> linkRecords_;
   std::vector<PointRecord> pointRecords_;
+  std::vector<PlaceRecord> placeRecords_;
+  std::vector<std::unique_ptr<AttachmentJournal>> attachmentJournals_; // one per attachment
   std::vector<Index> slotRecords_;
 
   // scratch of replace(): an open-addressing hash of facets

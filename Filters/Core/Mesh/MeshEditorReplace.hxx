@@ -4,47 +4,13 @@
 #ifndef meshopt_Mesh_MeshEditorReplace_hxx
 #define meshopt_Mesh_MeshEditorReplace_hxx
 
+#include "Mesh/Ids.h"
+
 #include <algorithm>
 #include <cassert>
 
 namespace meshopt
 {
-namespace replacing
-{
-template <int D>
-Facet<D> sorted(Facet<D> f)
-{
-  if (f[0] > f[1])
-  {
-    std::swap(f[0], f[1]);
-  }
-  if constexpr (D == 3)
-  {
-    if (f[1] > f[2])
-    {
-      std::swap(f[1], f[2]);
-    }
-    if (f[0] > f[1])
-    {
-      std::swap(f[0], f[1]);
-    }
-  }
-  return f;
-}
-
-template <int D>
-std::size_t hash(const Facet<D>& f)
-{
-  std::uint32_t h = std::uint32_t(f[0]) * 2654435761u;
-  h = (h ^ std::uint32_t(f[1])) * 2246822519u;
-  if constexpr (D == 3)
-  {
-    h = (h ^ std::uint32_t(f[2])) * 3266489917u;
-  }
-  return h ^ (h >> 15);
-}
-}
-
 template <int D>
 void MeshEditor<D>::collectOpenFacets(
   const std::vector<Index>& cavity, std::uint32_t inCavity, const KeptChange<D>* change)
@@ -54,7 +20,7 @@ void MeshEditor<D>::collectOpenFacets(
   {
     return change &&
       std::any_of(change->gone.begin(), change->gone.end(),
-        [&](const Facet<D>& f) { return replacing::sorted<D>(f) == key; });
+        [&](const Facet<D>& f) { return sortedIds(f) == key; });
   };
   for (Index c : cavity)
   {
@@ -62,14 +28,14 @@ void MeshEditor<D>::collectOpenFacets(
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
       const bool kept = this->mesh_->isConstrained(c, i);
-      if (kept && isGone(replacing::sorted<D>(this->mesh_->facet(c, i))))
+      if (kept && isGone(sortedIds(this->mesh_->facet(c, i))))
       {
         continue;
       }
       if (h == None || !this->owns(Mesh::cellOf(h)) || !this->isMarked(Mesh::cellOf(h), inCavity))
       {
-        this->facets_.push_back({ replacing::sorted<D>(this->mesh_->facet(c, i)), h,
-          this->mesh_->parent(c), kept, false });
+        this->facets_.push_back({ sortedIds(this->mesh_->facet(c, i)), h,
+          this->mesh_->parent(c), this->mesh_->patch(c, i), kept, false });
       }
       else
       {
@@ -79,14 +45,18 @@ void MeshEditor<D>::collectOpenFacets(
   }
 }
 
+/// The kept edges that the new cells are to have: those of the cavity, as the change wants them.
 template <int D>
-void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity)
+void MeshEditor<D>::collectKeptEdges(
+  const std::vector<Index>& cavity, const KeptChange<D>* change)
 {
   this->keptEdges_.clear();
   if (!this->mesh_->hasConstrainedEdges_)
   {
     return;
   }
+  const auto isSame = [](const std::array<Index, 2>& e, Index a, Index b)
+  { return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a); };
   for (Index c : cavity)
   {
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
@@ -95,9 +65,19 @@ void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity)
       {
         const Simplex<D>& t = this->mesh_->nodes(c);
         const Index a = t[Local<D>::edges[e][0]], b = t[Local<D>::edges[e][1]];
-        this->keptEdges_.push_back({ std::min(a, b), std::max(a, b) });
+        if (!change ||
+          std::none_of(change->goneEdges.begin(), change->goneEdges.end(),
+            [&](const std::array<Index, 2>& gone) { return isSame(gone, a, b); }))
+        {
+          this->keptEdges_.push_back({ std::min(a, b), std::max(a, b) });
+        }
       }
     }
+  }
+  for (std::size_t k = 0; change && k < change->comeEdges.size(); ++k)
+  {
+    const std::array<Index, 2>& e = change->comeEdges[k];
+    this->keptEdges_.push_back({ std::min(e[0], e[1]), std::max(e[0], e[1]) });
   }
 }
 
@@ -117,23 +97,29 @@ void MeshEditor<D>::keepEdges(Index c)
   }
 }
 
-/// Marks facets of the new cells as kept, and their points as fixed.
+/// Marks the facets that come as kept, and their points as held.
 template <int D>
-void MeshEditor<D>::keepFacets(const std::vector<Facet<D>>& facets)
+void MeshEditor<D>::keepFacets(const KeptChange<D>& change)
 {
   for (Index c : this->created_)
   {
     for (int i = 0; i <= D; ++i)
     {
-      const Facet<D> key = replacing::sorted<D>(this->mesh_->facet(c, i));
-      if (std::any_of(facets.begin(), facets.end(),
-            [&](const Facet<D>& f) { return replacing::sorted<D>(f) == key; }))
+      const Facet<D> key = sortedIds(this->mesh_->facet(c, i));
+      const auto come = std::find_if(change.come.begin(), change.come.end(),
+        [&](const Facet<D>& f) { return sortedIds(f) == key; });
+      if (come == change.come.end())
       {
-        this->mesh_->cellData_[c].flags |= std::uint16_t(1u << i);
-        for (Index p : key) // saved already: they are of the cavity, or new
-        {
-          this->mesh_->points_[p].flags |= Mesh::PointFixed | Mesh::PointBoundary;
-        }
+        continue;
+      }
+      this->mesh_->cellData_[c].flags |= std::uint16_t(1u << i);
+      if (!this->mesh_->patches_.empty() && !change.patches.empty())
+      {
+        this->mesh_->patches_[c][i] = change.patches[come - change.come.begin()];
+      }
+      for (Index p : key) // saved already: they are of the cavity, or new
+      {
+        this->mesh_->points_[p].flags |= Mesh::PointHeld | Mesh::PointBoundary;
       }
     }
   }
@@ -192,7 +178,7 @@ void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
   this->table_.assign(size, None);
   for (std::size_t f = 0; f < this->facets_.size(); ++f)
   {
-    std::size_t k = replacing::hash<D>(this->facets_[f].key) & (size - 1);
+    std::size_t k = hashIds(this->facets_[f].key) & (size - 1);
     while (this->table_[k] != None)
     {
       k = (k + 1) & (size - 1);
@@ -214,6 +200,10 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
   data.stamp = 0;
   data.level = 0;
   data.flags = Mesh::CellAlive;
+  if (!this->mesh_->patches_.empty())
+  {
+    this->mesh_->patches_[c].fill(None);
+  }
   for (Index p : nodes)
   {
     Point& point = this->mesh_->points_[p];
@@ -232,9 +222,9 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
 template <int D>
 Index MeshEditor<D>::linkFacet(Index c, int i)
 {
-  const Facet<D> key = replacing::sorted<D>(this->mesh_->facet(c, i));
+  const Facet<D> key = sortedIds(this->mesh_->facet(c, i));
   const std::size_t mask = this->table_.size() - 1;
-  std::size_t k = replacing::hash<D>(key) & mask;
+  std::size_t k = hashIds(key) & mask;
   while (this->table_[k] != None && this->facets_[this->table_[k]].key != key)
   {
     k = (k + 1) & mask;
@@ -242,7 +232,7 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   if (this->table_[k] == None)
   {
     this->table_[k] = static_cast<Index>(this->facets_.size());
-    this->facets_.push_back({ key, Mesh::handle(c, i), None, false, false });
+    this->facets_.push_back({ key, Mesh::handle(c, i), None, None, false, false });
     return None;
   }
   OpenFacet& f = this->facets_[this->table_[k]];
@@ -250,6 +240,10 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   f.closed = true;
   this->mesh_->cells_[c].adjacent[i] = f.outside;
   this->mesh_->cellData_[c].flags |= std::uint16_t(f.kept ? 1u << i : 0u);
+  if (f.patch != None)
+  {
+    this->mesh_->patches_[c][i] = f.patch;
+  }
   if (f.outside != None)
   {
     Index& link = this->mesh_->cells_[Mesh::cellOf(f.outside)].adjacent[Mesh::facetOf(f.outside)];
@@ -294,7 +288,7 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
     this->setMark(c, inCavity);
   }
   this->collectOpenFacets(cavity, inCavity, change);
-  this->collectKeptEdges(cavity);
+  this->collectKeptEdges(cavity, change);
   this->killPoints(cavity);
   const Index region = this->mesh_->region(cavity[0]);
   this->parents_.clear();
@@ -329,7 +323,7 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
   }
   if (change)
   {
-    this->keepFacets(change->come);
+    this->keepFacets(*change);
   }
 #ifndef NDEBUG
   for (const OpenFacet& f : this->facets_)

@@ -7,6 +7,7 @@
 #ifndef meshopt_Mesh_SimplexMesh_h
 #define meshopt_Mesh_SimplexMesh_h
 
+#include "Mesh/Place.h"
 #include "Mesh/Types.h"
 
 #include <algorithm>
@@ -44,19 +45,6 @@ struct MeshError
   Index point = None; ///< first offending point of the input, or None
 };
 
-/// Where a point lies on a curve of the boundary that it may slide along (D = 2). It is kept with the
-/// point, so that what undoes a move of the point takes it back, too.
-template <int D>
-struct CurvePlace
-{
-};
-template <>
-struct CurvePlace<2>
-{
-  Index curve = None;     ///< of BoundaryCurves, or None: the point does not slide
-  double parameter = 0.0; ///< along the curve
-};
-
 /// A conforming mesh of simplices. Cells and points live in slots; a slot may be dead after an
 /// edit and be used again. Slots of the input's points are never used for another point, so that
 /// point p < numberOfInputPoints() is always point p of the input.
@@ -64,8 +52,6 @@ template <int D>
 class SimplexMesh
 {
 public:
-  static constexpr int NodesPerCell = D + 1;
-
   enum CellFlag : std::uint16_t
   {
     /// Bits 0..3: facet i is kept (surface, interface between regions, or the caller's).
@@ -78,9 +64,8 @@ public:
 
   enum PointFlag : std::uint8_t
   {
-    PointFixed = 1,    ///< must not move or vanish (on a kept facet, kept edge, or the caller's)
+    PointHeld = 1,     ///< is not free: on a kept facet, a kept edge, or fixed by the caller
     PointBoundary = 2, ///< lies on a kept facet
-    PointMoved = 4,    ///< has another place than in the input
     PointAlive = 8,    ///< is used by a cell
     PointFixedByUser = 16
   };
@@ -105,7 +90,7 @@ public:
     std::uint8_t level = 0; ///< free for algorithms: effort of the last failed try
   };
 
-  struct Point : CurvePlace<D>
+  struct Point
   {
     Vec<D> x;
     Index cell = None;              ///< a cell that uses the point
@@ -118,7 +103,6 @@ public:
     /// Takes over all of `old` but the owner, which threads of other chunks may read at this moment.
     void restore(const Point& old)
     {
-      static_cast<CurvePlace<D>&>(*this) = old;
       this->x = old.x;
       this->cell = old.cell;
       this->stamp = old.stamp;
@@ -160,6 +144,14 @@ public:
   {
     return (this->cellData_[c].flags >> (FirstEdgeBit + e)) & 1;
   }
+  /// True if edge e in the numbering of Local<D>::edgeFirst is kept by itself: in space by the caller's
+  /// wish, in the plane as a facet.
+  bool isEdgeKept(Index c, int e) const
+  {
+    return D == 2 ? this->isConstrained(c, e) : this->isEdgeConstrained(c, e);
+  }
+  /// Number of the patch of the surface that kept facet i belongs to; None where there are no patches.
+  Index patch(Index c, int i) const { return this->patches_.empty() ? None : this->patches_[c][i]; }
   double quality(Index c) const { return this->cellData_[c].quality; }
   /// The least of the stored qualities; infinity if there are no cells.
   double worstQuality(const std::vector<Index>& cells) const
@@ -209,10 +201,16 @@ public:
   // --- points
   const Vec<D>& point(Index p) const { return this->points_[p].x; }
   const Point& pointData(Index p) const { return this->points_[p]; }
-  bool isFixed(Index p) const { return (this->points_[p].flags & PointFixed) != 0; }
+  /// True if the point is on nothing that is kept: it may move anywhere, and vanish.
+  bool isFree(Index p) const { return (this->points_[p].flags & PointHeld) == 0; }
+  Freedom freedom(Index p) const
+  {
+    return this->isFree(p) ? Freedom::Free : this->place(p).freedom;
+  }
+  /// Where on the surface the point lies if it slides.
+  Place place(Index p) const { return this->places_.empty() ? Place() : this->places_[p]; }
   bool isBoundary(Index p) const { return (this->points_[p].flags & PointBoundary) != 0; }
   bool isPointAlive(Index p) const { return (this->points_[p].flags & PointAlive) != 0; }
-  bool isMoved(Index p) const { return (this->points_[p].flags & PointMoved) != 0; }
   Index cellOfPoint(Index p) const { return this->points_[p].cell; }
 
   /// Cells that share point p, reached over facets from one of them (also over kept facets, and
@@ -247,6 +245,8 @@ private:
   std::vector<Cell> cells_;
   std::vector<CellData> cellData_;
   std::vector<Point> points_;
+  std::vector<Place> places_; // one per point slot, or none: nothing slides
+  std::vector<std::array<Index, D + 1>> patches_; // of the facets of each cell slot, or none
   Index inputPoints_ = 0;
   Index inputCells_ = 0;
   Index reoriented_ = 0;

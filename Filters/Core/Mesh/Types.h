@@ -39,6 +39,8 @@ using Facet = std::array<Index, D>;
 /// Local numbering. Facet i lies opposite to node i and is ordered such that
 /// (facet nodes, node i) is an even permutation of the simplex: replacing node i by a point on
 /// the same side of the facet gives a positively oriented simplex again.
+/// edgeFirst[e] is an even permutation of the simplex that begins with an edge: in the plane that of
+/// facet e, in space edges[e].
 template <int D>
 struct Local;
 
@@ -47,6 +49,7 @@ struct Local<2>
 {
   static constexpr int facets[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
   static constexpr int edges[3][2] = { { 0, 1 }, { 0, 2 }, { 1, 2 } };
+  static constexpr int edgeFirst[3][3] = { { 1, 2, 0 }, { 2, 0, 1 }, { 0, 1, 2 } };
   static constexpr int numberOfEdges = 3;
 };
 
@@ -55,6 +58,8 @@ struct Local<3>
 {
   static constexpr int facets[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
   static constexpr int edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+  static constexpr int edgeFirst[6][4] = { { 0, 1, 2, 3 }, { 0, 2, 3, 1 }, { 0, 3, 1, 2 },
+    { 1, 2, 0, 3 }, { 1, 3, 2, 0 }, { 2, 3, 0, 1 } };
   static constexpr int numberOfEdges = 6;
 };
 

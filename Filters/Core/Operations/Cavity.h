@@ -15,7 +15,7 @@
 
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
-#include "Operations/QualityModel.h"
+#include "Edit/QualityModel.h"
 
 #include <algorithm>
 
@@ -203,7 +203,7 @@ bool Cavity<D, Shape>::take(
     if (this->points_[local[i]].facets == 0)
     {
       ++this->swallowed_;
-      if (mesh.isFixed(mesh.nodes(c)[i]) || this->swallowed_ > limit)
+      if (!mesh.isFree(mesh.nodes(c)[i]) || this->swallowed_ > limit)
       {
         return false;
       }

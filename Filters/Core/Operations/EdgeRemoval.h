@@ -11,7 +11,7 @@
 #define meshopt_Operations_EdgeRemoval_h
 
 #include "Mesh/MeshEditor.h"
-#include "Operations/QualityModel.h"
+#include "Edit/QualityModel.h"
 
 #include <algorithm>
 
@@ -86,16 +86,14 @@ bool EdgeRemoval<D, Shape>::gather(const MeshEditor<D>& editor, Index t, int e)
     {
       return false;
     }
-    // (low, high, c, d) an even permutation of the nodes
-    static constexpr int other[6][2] = { { 2, 3 }, { 3, 1 }, { 1, 2 }, { 0, 3 }, { 2, 0 },
-      { 0, 1 } };
-    this->low_ = nodes[Local<3>::edges[e][0]];
-    this->high_ = nodes[Local<3>::edges[e][1]];
-    this->ring_[0] = nodes[other[e][0]];
-    this->ring_[1] = nodes[other[e][1]];
+    const auto& local = Local<3>::edgeFirst[e];
+    this->low_ = nodes[local[0]];
+    this->high_ = nodes[local[1]];
+    this->ring_[0] = nodes[local[2]];
+    this->ring_[1] = nodes[local[3]];
     this->n_ = 2;
     Index current = t;
-    int exit = other[e][0]; // leave through the facet opposite to the older ring point
+    int exit = local[2]; // leave through the facet opposite to the older ring point
     while (true)
     {
       const Index h = mesh.adjacent(current, exit);

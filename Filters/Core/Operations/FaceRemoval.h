@@ -5,7 +5,7 @@
 #define meshopt_Operations_FaceRemoval_h
 
 #include "Mesh/MeshEditor.h"
-#include "Operations/QualityModel.h"
+#include "Edit/QualityModel.h"
 
 #include <algorithm>
 

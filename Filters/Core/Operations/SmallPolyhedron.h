@@ -16,7 +16,7 @@
 #include "Bound/ApexBound.h"
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
-#include "Operations/QualityModel.h"
+#include "Edit/QualityModel.h"
 #include "Operations/PolyhedronSearch.h"
 
 #include <algorithm>

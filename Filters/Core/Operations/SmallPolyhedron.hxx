@@ -95,7 +95,7 @@ int SmallPolyhedron<Shape>::numberOf(Index p)
   if (k == static_cast<int>(this->numberOf_.size()))
   {
     const SimplexMesh<3>& mesh = this->editor_->mesh();
-    const bool stay = mesh.isFixed(p) || !this->limits_.mayDropPoints;
+    const bool stay = !mesh.isFree(p) || !this->limits_.mayDropPoints;
     this->numberOf_.push_back(static_cast<std::uint8_t>(this->addPoint(mesh.point(p), p, stay)));
   }
   return this->numberOf_[k];

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimize/Optimizer.h"
 
-#include "Mesh/MeshEditor.h"
-#include "Surface/KeptSizes.h"
 #include "Paper1996/Paper1996.h"
+#include "Run/Run.h"
 #include "Sizes/SizeStage.h"
-#include "Run/Summary.h"
+#include "Surface/KeptSizes.h"
 #include "WorstFirst/WorstFirst.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 namespace meshopt
 {
 namespace
 {
-/// What may be added once the number of elements is what the sizes ask for; in small meshes CellsOfTwoNodes.
+/// Growth that is left once the number of elements is what the sizes ask for, as a part of it; in
+/// small meshes CellsOfTwoNodes.
 constexpr double GrowthAfterSizes = 0.05;
-/// Inverted cells are worked on until the worst cell is as good as that: just positive is soon tangled again.
+/// Inverted cells are worked on until the worst cell is as good as that: just positive is soon tangled
+/// again.
 constexpr double UntangledQuality = 0.3;
 /// Less is rounding: a cell that is flat, in a mesh that need not be tangled.
 constexpr double FlatQuality = 1e-9;
@@ -26,193 +26,224 @@ constexpr double FlatQuality = 1e-9;
 constexpr double Untangled = 0.2, Sized = 0.6;
 
 template <int D>
-bool wantsSizes(const NodalMetric<D>& metric, const Options& options, const BoundaryCurves* curves)
+class Optimizer
 {
-  return (options.beta > 0.0 || curves) && (options.desiredSize > 0.0 || metric.hasSizes());
-}
-
-/// A control whose progress goes from `first` to `last` of the whole.
-Control partOf(const Control& control, double first, double last)
-{
-  Control part = control;
-  if (control.progress)
+public:
+  explicit Optimizer(Run<D>& run)
+    : run_(run)
   {
-    part.progress = [&control, first, last](double fraction, const std::string& text)
-    { return control.progress(first + fraction * (last - first), text); };
   }
-  return part;
-}
+  void optimize();
+
+private:
+  bool wantsSizes() const
+  {
+    const Options& o = this->run_.options;
+    return (o.beta > 0.0 || this->run_.surface) &&
+      (o.desiredSize > 0.0 || this->run_.metric.hasSizes());
+  }
+  bool untangle();
+  bool repairForSizes();
+  void optimizeSizesToo();
+  std::optional<NodalMetric<D>> attainable();
+  void followAndOptimize(NodalMetric<D>& followed, double growth);
+  void judgeByWantedSizes();
+  void giveSizesUp(const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, double worst);
+
+  Run<D>& run_;
+};
 
 template <int D>
-void appendRow(const char* stage, const SimplexMesh<D>& mesh, double target, Report& report)
+void Optimizer<D>::optimize()
 {
-  PassRecord row = summarize(mesh, target);
-  row.stage = stage;
-  row.pass = static_cast<int>(report.history.size());
-  report.history.push_back(row);
+  Report& report = this->run_.report;
+  const PassRecord input = report.history.back();
+  if (input.cells == 0)
+  {
+    report.stopReason = StopReason::NothingToDo;
+    return;
+  }
+  if (this->run_.options.algorithm == Algorithm::Paper1996)
+  {
+    optimizePaper1996<D>(this->run_);
+    return;
+  }
+  const long growth = growthOf(this->run_.options, input.cells, D);
+  this->run_.growth = growth;
+  const bool isTangled = input.worst < -FlatQuality;
+  if (isTangled && !this->untangle())
+  {
+    return;
+  }
+  this->run_.growth = std::max(0L, input.cells + growth - report.history.back().cells);
+  const Clock::Part part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
+  this->wantsSizes() ? this->optimizeSizesToo() : optimizeWorstFirst<D>(this->run_);
 }
+
+/// Inverted cells are left to the clusters of 1996: moves of single nodes, which come first in the fast
+/// engine, press tangled cells flat rather than part them. One row of the history; false if that was all
+/// there is time for.
+template <int D>
+bool Optimizer<D>::untangle()
+{
+  Options options = this->run_.options;
+  options.targetQuality = std::min(options.targetQuality, UntangledQuality);
+  options.lookAhead = false;
+  const Run<D>& run = this->run_;
+  Run<D> untangling{ run.editor, run.metric, run.surface, options, run.control, run.clock,
+    run.report, run.growth };
+  std::vector<PassRecord>& history = run.report.history;
+  const std::size_t rows = history.size();
+  {
+    const Clock::Part part(run.clock, 0.0, Untangled);
+    optimizePaper1996<D>(untangling);
+  }
+  PassRecord row = summarize(run.mesh(), run.options.targetQuality);
+  row.stage = "untangling";
+  row.pass = static_cast<int>(rows);
+  for (; history.size() > rows; history.pop_back())
+  {
+    row.addWork(history.back());
+  }
+  history.push_back(row);
+  return !run.clock.hasStopped();
+}
+
+// --- wanted sizes
 
 /// In the plane, where edges that must stay are much longer than wanted: the metric with the sizes that
 /// can be had beside them. In the wanted ones no quality can be high there, and to raise the worst of
 /// them by a little would cost the sizes all around. Else nothing.
 template <int D>
-std::optional<NodalMetric<D>> attainable([[maybe_unused]] const SimplexMesh<D>& mesh,
-  [[maybe_unused]] const NodalMetric<D>& metric, [[maybe_unused]] const Options& options,
-  [[maybe_unused]] const BoundaryCurves* curves, [[maybe_unused]] Report& report)
+std::optional<NodalMetric<D>> Optimizer<D>::attainable()
 {
-  if constexpr (D == 2)
+  const Run<D>& run = this->run_;
+  auto floor = keptSizeFloor(
+    run.mesh(), run.metric, run.surface, run.report.sizes.longestKept);
+  if (floor && run.options.beta > 0.0)
   {
-    auto floor = keptSizeFloor(mesh, metric, curves, report.sizes.longestKept);
-    if (floor && options.beta > 0.0)
-    {
-      return metric.raised(mesh, std::move(floor));
-    }
+    return run.metric.raised(run.mesh(), std::move(floor));
   }
   return std::nullopt;
 }
 
 /// From the attainable sizes back to the wanted ones.
 template <int D>
-void judgeByWantedSizes(
-  MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options, Report& report)
+void Optimizer<D>::judgeByWantedSizes()
 {
-  for (Index p = 0; p < editor.mesh().numberOfPointSlots(); ++p)
+  const Run<D>& run = this->run_;
+  for (Index p = 0; p < run.mesh().numberOfPointSlots(); ++p)
   {
-    if (editor.mesh().isPointAlive(p))
+    if (run.mesh().isPointAlive(p))
     {
-      metric.resample(p, editor.mesh().point(p));
+      run.metric.resample(p, run.mesh().point(p));
     }
   }
-  computeQualities<D>(editor, metric, options.measure, options.beta);
-  appendRow<D>("sizes as wanted", editor.mesh(), options.targetQuality, report);
-  if (report.stopReason == StopReason::TargetReached &&
-    report.history.back().worst < options.targetQuality)
+  computeQualities<D>(run.editor, run.metric, run.options.measure, run.options.beta);
+  const PassRecord& row = this->run_.record("sizes as wanted");
+  if (run.report.stopReason == StopReason::TargetReached && row.worst < run.options.targetQuality)
   {
-    report.stopReason = StopReason::NoFurtherGain;
+    run.report.stopReason = StopReason::NoFurtherGain;
   }
 }
 
-/// What is left of the time limit, of which so much is spent.
-double timeLeft(const Options& options, std::chrono::steady_clock::time_point begin)
-{
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  return options.timeLimit > 0.0 ? std::max(options.timeLimit - spent.count(), 1e-9) : 0.0;
-}
-
-/// Inverted cells are left to the clusters of 1996: moves of single nodes, which come first in the fast
-/// engine, press tangled cells flat rather than part them. At most `growth` cells may come. One row of
-/// the history; false if that was all there is time for.
+/// Where cells overlap lengths say little: these first. False if some are left, or time is not.
 template <int D>
-bool untangle(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report, long growth)
+bool Optimizer<D>::repairForSizes()
 {
-  const auto begin = std::chrono::steady_clock::now();
-  bool isLate = false;
-  const Control untangling = partOf(control, 0.0, Untangled);
-  Control limited = control;
-  limited.progress = [&](double fraction, const std::string& text)
+  long inverted = 0;
+  summarize(this->run_.mesh(), this->run_.options.targetQuality, &inverted);
+  if (inverted > 0)
   {
-    isLate = options.timeLimit > 0.0 && timeLeft(options, begin) <= 1e-9;
-    return !isLate && (!untangling.progress || untangling.progress(fraction, text));
+    const Clock::Part part(this->run_.clock, 0.0, Untangled);
+    optimizeWorstFirst<D>(this->run_);
+    summarize(this->run_.mesh(), this->run_.options.targetQuality, &inverted);
+    return inverted == 0 && !this->run_.clock.hasStopped();
+  }
+  return true;
+}
+
+/// Gives the mesh its sizes, then raises its worst cells. `growth`: most growth after the sizes, as a
+/// part of the cells then.
+template <int D>
+void Optimizer<D>::followAndOptimize(NodalMetric<D>& followed, double growth)
+{
+  const Run<D>& all = this->run_;
+  Run<D> run{ all.editor, followed, all.surface, all.options, all.control, all.clock, all.report };
+  const auto sized = [&]
+  {
+    const Clock::Part part(run.clock, Untangled, Sized);
+    return followSizes<D>(run, run.report.sizes.predictedCells);
   };
-  Options first = options;
-  first.targetQuality = std::min(options.targetQuality, UntangledQuality);
-  first.lookAhead = false;
-  const std::size_t rows = report.history.size();
-  optimizePaper1996<D>(editor, metric, first, limited, report, growth);
-  PassRecord row = summarize(editor.mesh(), options.targetQuality);
-  row.stage = "untangling";
-  row.pass = static_cast<int>(rows);
-  for (; report.history.size() > rows; report.history.pop_back())
+  const bool more = sized();
+  computeQualities<D>(run.editor, followed, run.options.measure, run.options.beta);
+  if (!more)
   {
-    row.addWork(report.history.back());
+    run.report.stopReason = run.stopped();
+    return;
   }
-  report.history.push_back(row);
-  if (report.stopReason == StopReason::Aborted && isLate)
+  const auto cells = static_cast<double>(run.report.history.back().cells);
+  const double part = std::min(growth, std::max(GrowthAfterSizes, CellsOfTwoNodes<D> / cells));
+  run.growth = std::lround(part * static_cast<double>(run.mesh().countCells()));
+  const Clock::Part improving(run.clock, Sized, 1.0);
+  optimizeWorstFirst<D>(run);
+}
+
+/// All is undone, and the mesh is optimized with its sizes as they were.
+template <int D>
+void Optimizer<D>::giveSizesUp(
+  const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, double worst)
+{
+  const Run<D>& run = this->run_;
+  run.editor.mesh() = mesh;
+  run.metric = metric;
+  run.editor = MeshEditor<D>(run.editor.mesh());
+  this->run_.record("sizes given up");
+  run.report.sizes.isGivenUp = true;
+  run.report.sizes.worstWithSizes = worst;
+  if (!run.clock.hasStopped())
   {
-    report.stopReason = StopReason::TimeLimit;
+    const Clock::Part part(run.clock, 1.0, 1.0);
+    optimizeWorstFirst<D>(this->run_);
   }
-  return report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit;
 }
 
 /// Sizes first, then the worst elements. Should the worst be lower in the end than it was and than is
-/// wanted, all is undone, and the mesh is optimized with its sizes as they are.
+/// wanted, the sizes are given up.
 template <int D>
-void optimizeSizesToo(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report, const BoundaryCurves* curves)
+void Optimizer<D>::optimizeSizesToo()
 {
-  const auto begin = std::chrono::steady_clock::now();
-  const auto optionsLeft = [&] // for what is still to be done
+  const Run<D>& run = this->run_;
+  const double growth = static_cast<double>(run.growth) /
+    static_cast<double>(run.report.history.back().cells);
+  if (!this->repairForSizes())
   {
-    Options left = options;
-    left.timeLimit = timeLeft(options, begin);
-    return left;
-  };
-  long inverted = 0;
-  summarize(editor.mesh(), options.targetQuality, &inverted);
-  if (inverted > 0) // where cells overlap, lengths say little: these first
-  {
-    const Control untangling = partOf(control, 0.0, Untangled);
-    optimizeWorstFirst<D>(editor, metric, optionsLeft(), untangling, report, curves);
-    summarize(editor.mesh(), options.targetQuality, &inverted);
-    if (inverted > 0 || report.stopReason == StopReason::Aborted ||
-      report.stopReason == StopReason::TimeLimit)
-    {
-      return;
-    }
+    return;
   }
-  const SimplexMesh<D> meshBefore = editor.mesh();
-  const NodalMetric<D> metricBefore = metric;
-  const double worstBefore = report.history.back().worst;
-  const Control sizing = partOf(control, Untangled, Sized), improving = partOf(control, Sized, 1.0);
-  report.sizes.predictedCells = metric.predictedNumberOfElements(editor.mesh());
-  std::optional<NodalMetric<D>> raised = attainable<D>(
-    editor.mesh(), metric, options, curves, report);
-  NodalMetric<D>& followed = raised ? *raised : metric;
-  const bool more = followSizes<D>(
-    editor, followed, report.sizes.predictedCells, optionsLeft(), sizing, curves, report);
-  computeQualities<D>(editor, followed, options.measure, options.beta);
-  if (more)
-  {
-    Options rest = optionsLeft();
-    const auto cells = static_cast<double>(report.history.back().cells);
-    rest.growthBudget = std::min(
-      rest.growthBudget, std::max(GrowthAfterSizes, CellsOfTwoNodes<D> / cells));
-    optimizeWorstFirst<D>(editor, followed, rest, improving, report, curves);
-  }
-  else
-  {
-    const bool isLate = options.timeLimit > 0.0 && timeLeft(options, begin) <= 1e-9;
-    report.stopReason = isLate ? StopReason::TimeLimit : StopReason::Aborted;
-  }
+  const SimplexMesh<D> meshBefore = run.mesh();
+  const NodalMetric<D> metricBefore = run.metric;
+  const double worstBefore = run.report.history.back().worst;
+  run.report.sizes.predictedCells = run.metric.predictedNumberOfElements(run.mesh());
+  std::optional<NodalMetric<D>> raised = this->attainable();
+  this->followAndOptimize(raised ? *raised : run.metric, growth);
   if (raised)
   {
-    judgeByWantedSizes<D>(editor, metric, options, report);
+    this->judgeByWantedSizes();
   }
-  const double worst = summarize(editor.mesh(), options.targetQuality).worst;
-  if (worst < std::min(worstBefore, options.targetQuality))
+  const double worst = summarize(run.mesh(), run.options.targetQuality).worst;
+  if (worst < std::min(worstBefore, run.options.targetQuality))
   {
-    editor.mesh() = meshBefore;
-    metric = metricBefore;
-    editor = MeshEditor<D>(editor.mesh());
-    appendRow<D>("sizes given up", editor.mesh(), options.targetQuality, report);
-    report.sizes.isGivenUp = true;
-    report.sizes.worstWithSizes = worst;
-    if (report.stopReason != StopReason::Aborted && report.stopReason != StopReason::TimeLimit)
-    {
-      optimizeWorstFirst<D>(
-        editor, metric, optionsLeft(), partOf(control, 1.0, 1.0), report, curves);
-    }
+    this->giveSizesUp(meshBefore, metricBefore, worst);
   }
 }
 }
 
 template <int D>
 Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options,
-  const Control& control, const BoundaryCurves* curves)
+  const Control& control, const Surface<D>* surface)
 {
-  const auto begin = std::chrono::steady_clock::now();
   Report report;
+  Clock clock(control, options.timeLimit);
   MeshEditor<D> editor(mesh);
   computeQualities<D>(editor, metric, options.measure, options.beta);
   PassRecord input = summarize(mesh, options.targetQuality, &report.invertedBefore);
@@ -221,44 +252,18 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   report.meanBefore = input.mean;
   report.history.push_back(input);
 
-  if (input.cells == 0)
-  {
-    report.stopReason = StopReason::NothingToDo;
-  }
-  else if (options.algorithm == Algorithm::Paper1996)
-  {
-    optimizePaper1996<D>(editor, metric, options, control, report);
-  }
-  else
-  {
-    const bool isTangled = input.worst < -FlatQuality;
-    const long growth = growthOf(options, input.cells, D);
-    const bool more = !isTangled || untangle<D>(editor, metric, options, control, report, growth);
-    const Control rest = isTangled ? partOf(control, Untangled, 1.0) : control;
-    Options left = options;
-    left.timeLimit = timeLeft(options, begin);
-    const long cells = report.history.back().cells;
-    const long room = std::max(0L, input.cells + growth - cells);
-    left.growthBudget = static_cast<double>(room) / static_cast<double>(cells);
-    if (more && wantsSizes(metric, options, curves))
-    {
-      optimizeSizesToo<D>(editor, metric, left, rest, report, curves);
-    }
-    else if (more)
-    {
-      optimizeWorstFirst<D>(editor, metric, left, rest, report, curves);
-    }
-  }
+  Run<D> run{ editor, metric, surface, options, control, clock, report };
+  Optimizer<D>(run).optimize();
 
   const PassRecord output = summarize(mesh, options.targetQuality, &report.invertedAfter);
   report.worstAfter = output.worst;
   report.meanAfter = output.mean;
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = clock.seconds();
   return report;
 }
 
 template Report optimize<2>(
-  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const BoundaryCurves*);
+  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const Surface<2>*);
 template Report optimize<3>(
-  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, const BoundaryCurves*);
+  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, const Surface<3>*);
 }

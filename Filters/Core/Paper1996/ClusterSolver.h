@@ -8,11 +8,10 @@
 #ifndef meshopt_Paper1996_ClusterSolver_h
 #define meshopt_Paper1996_ClusterSolver_h
 
-#include "Metric/NodalMetric.h"
+#include "Edit/Judge.h"
 #include "Paper1996/LocalAlgorithm.h"
 
 #include <cmath>
-#include <limits>
 
 namespace meshopt
 {
@@ -20,13 +19,9 @@ template <int D, class Shape>
 class ClusterSolver
 {
 public:
-  ClusterSolver(MeshEditor<D>& editor, NodalMetric<D>& metric,
-    const ElementQuality<D, Shape>& quality, const LocalParameters& parameters, double leastGain)
-    : editor_(editor)
-    , metric_(metric)
-    , quality_(quality)
-    , gatherer_(editor)
-    , local_(quality, parameters)
+  ClusterSolver(Judge<D, Shape>& judge, const LocalParameters& parameters, double leastGain)
+    : judge_(judge)
+    , local_(judge.model().quality, parameters)
     , leastGain_(leastGain)
   {
   }
@@ -39,30 +34,19 @@ public:
   /// The cluster solved last, as it is now, and the qualities of its cells before.
   const Cluster<D>& cluster() const { return this->cluster_; }
   const std::vector<double>& oldQuality() const { return this->oldQuality_; }
-  /// The metric at its moving nodes before, if the metric is not trivial.
-  const std::vector<typename NodalMetric<D>::Sample>& oldSamples() const
-  {
-    return this->oldSamples_;
-  }
 
 private:
   void setMetrics();
-  bool accept();
-  bool isGain(double before, double after) const
-  {
-    return after > before + this->leastGain_ * std::abs(before);
-  }
+  bool offer(double required);
 
-  MeshEditor<D>& editor_;
-  NodalMetric<D>& metric_;
-  ElementQuality<D, Shape> quality_;
+  Judge<D, Shape>& judge_;
   ClusterGatherer<D> gatherer_;
   LocalAlgorithm<D, Shape> local_;
   double leastGain_;
   Cluster<D> cluster_;
   std::vector<double> oldQuality_;
-  std::vector<typename NodalMetric<D>::Sample> oldSamples_;
   std::vector<ElementMetric<D>> metrics_;
+  Proposal<D> proposal_;
 };
 
 // The metric of each element, frozen while the cluster is solved; a single one where it is the same
@@ -70,12 +54,12 @@ private:
 template <int D, class Shape>
 void ClusterSolver<D, Shape>::setMetrics()
 {
-  const SimplexMesh<D>& mesh = this->editor_.mesh();
+  const NodalMetric<D>& metric = *this->judge_.model().metric;
   this->metrics_.clear();
-  const std::size_t count = this->metric_.isTrivial() ? 1 : this->cluster_.cells.size();
+  const std::size_t count = metric.isTrivial() ? 1 : this->cluster_.cells.size();
   for (std::size_t k = 0; k < count; ++k)
   {
-    this->metrics_.push_back(this->metric_.element(mesh.nodes(this->cluster_.cells[k])));
+    this->metrics_.push_back(metric.element(this->judge_.mesh().nodes(this->cluster_.cells[k])));
   }
 }
 
@@ -83,7 +67,7 @@ template <int D, class Shape>
 bool ClusterSolver<D, Shape>::solve(Index cell, int level, const std::vector<std::uint8_t>& movable)
 {
   this->gatherer_.gather(
-    cell, level, [&](Index p) { return movable[p] != 0; }, this->cluster_);
+    this->judge_.editor(), cell, level, [&](Index p) { return movable[p] != 0; }, this->cluster_);
   this->oldQuality_ = this->cluster_.quality;
   if (this->cluster_.cells.empty())
   {
@@ -91,76 +75,45 @@ bool ClusterSolver<D, Shape>::solve(Index cell, int level, const std::vector<std
   }
   this->setMetrics();
   const LocalResult result = this->local_.solve(this->cluster_, this->metrics_);
-  if (!this->isGain(result.before, result.after) ||
-    !(result.after > 0.0 || this->cluster_.isAmidPoints()))
-  {
-    return false;
-  }
-  const std::size_t place = this->editor_.begin();
-  this->oldSamples_.clear();
-  for (int k = 0; k < this->cluster_.numberOfMoving && !this->metric_.isTrivial(); ++k)
-  {
-    this->oldSamples_.push_back(this->metric_.sample(this->cluster_.points[k]));
-  }
-  for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
-  {
-    const Index p = this->cluster_.points[k];
-    if (this->cluster_.x[k] != this->editor_.mesh().point(p))
-    {
-      this->editor_.movePoint(p, this->cluster_.x[k]);
-    }
-  }
-  if (!this->accept())
-  {
-    this->editor_.rollback(place);
-    for (std::size_t k = 0; k < this->oldSamples_.size(); ++k)
-    {
-      this->metric_.setSample(this->cluster_.points[k], this->oldSamples_[k]);
-    }
-    return false;
-  }
-  this->editor_.commit(place);
-  return true;
+  const double required = result.before + this->leastGain_ * std::abs(result.before);
+  return result.after > required && (result.after > 0.0 || this->cluster_.isAmidPoints()) &&
+    this->offer(required);
 }
 
-// Sets the qualities of the cluster; with a metric that varies, those in the metric as it is now.
+/// The qualities that the algorithm has found are those of the mesh unless the metric varies: then it
+/// has to be asked at the new places.
 template <int D, class Shape>
-bool ClusterSolver<D, Shape>::accept()
+bool ClusterSolver<D, Shape>::offer(double required)
 {
   Cluster<D>& cluster = this->cluster_;
-  if (!this->metric_.isTrivial())
+  const bool varies = !this->judge_.model().metric->isTrivial();
+  Proposal<D>& p = this->proposal_;
+  p.clear();
+  p.cavity = cluster.cells;
+  p.least = required;
+  p.keepsPositive = varies;
+  for (int k = 0; k < cluster.numberOfMoving; ++k)
   {
-    for (int k = 0; k < cluster.numberOfMoving; ++k)
+    if (varies || cluster.x[k] != this->judge_.mesh().point(cluster.points[k]))
     {
-      this->metric_.resample(cluster.points[k], cluster.x[k]);
+      p.moves.push_back({ cluster.points[k], cluster.x[k], {} });
     }
-    double before = std::numeric_limits<double>::infinity(), after = before;
-    bool inverts = false;
-    for (std::size_t k = 0; k < cluster.cells.size(); ++k)
-    {
-      const Index c = cluster.cells[k];
-      const double q = this->quality_.value(
-        cluster.corners(static_cast<int>(k)), this->metric_.element(this->editor_.mesh().nodes(c)));
-      cluster.quality[k] = q;
-      before = std::min(before, this->oldQuality_[k]);
-      after = q < after || q != q ? q : after;
-      inverts = inverts || (!(q > 0.0) && this->oldQuality_[k] > 0.0);
-    }
-    if (inverts || !this->isGain(before, after))
-    {
-      return false;
-    }
+  }
+  if (!varies)
+  {
+    p.qualities = cluster.quality;
+  }
+  this->judge_.start();
+  if (!this->judge_.accept(p))
+  {
+    return false;
   }
   for (std::size_t k = 0; k < cluster.cells.size(); ++k)
   {
-    if (cluster.quality[k] != this->oldQuality_[k])
-    {
-      this->editor_.setQuality(cluster.cells[k], cluster.quality[k]);
-    }
+    cluster.quality[k] = this->judge_.mesh().quality(cluster.cells[k]);
   }
   return true;
 }
-
 }
 
 #endif

@@ -8,20 +8,14 @@
 #ifndef meshopt_Paper1996_Fan_h
 #define meshopt_Paper1996_Fan_h
 
+#include "Edit/Proposal.h"
 #include "Paper1996/FanCluster.h"
 
-#include <vector>
+#include <algorithm>
+#include <limits>
 
 namespace meshopt
 {
-/// The cells of a filling, with ids of mesh points, and their qualities.
-template <int D>
-struct Fan
-{
-  std::vector<Simplex<D>> cells;
-  std::vector<double> quality;
-};
-
 /// Where the apex of a fan is: a boundary point of the cluster (`local` >= 0), or elsewhere.
 template <int D>
 struct Apex
@@ -43,15 +37,17 @@ Vec<D> clusterCentre(const FanCluster<D>& cluster)
   return sum / static_cast<double>(cluster.x.size());
 }
 
-/// Fills the cluster from the apex: a cell for every facet that does not contain it. Gives up, and
-/// returns false, as soon as a cell's quality is not above `required`, or there are more cells of
-/// quality <= 0 than the cluster had. `qualityOf(nodes, corners)` is the quality of a cell.
+/// Fills the cluster from the apex: a cell for every facet that does not contain it, in the proposal
+/// with its quality. Gives up, and returns false, as soon as a cell's quality is not above
+/// proposal.least, or there are more cells of quality <= 0 than the cluster had. `qualityOf(nodes,
+/// corners)` is the quality of a cell.
 template <int D, class QualityOf>
-bool fillFromApex(const FanCluster<D>& cluster, const Apex<D>& apex, double required,
-  const QualityOf& qualityOf, Fan<D>& fan)
+bool fillFromApex(const FanCluster<D>& cluster, const Apex<D>& apex, const QualityOf& qualityOf,
+  Proposal<D>& proposal)
 {
-  fan.cells.clear();
-  fan.quality.clear();
+  proposal.cells.clear();
+  proposal.qualities.clear();
+  proposal.newWorst = std::numeric_limits<double>::infinity();
   int inverted = 0;
   for (std::size_t f = 0; f < cluster.facets.size(); ++f)
   {
@@ -71,34 +67,16 @@ bool fillFromApex(const FanCluster<D>& cluster, const Apex<D>& apex, double requ
     x[D] = apex.x;
     const double q = qualityOf(cell, x);
     inverted += q <= 0.0 ? 1 : 0;
-    if (!(q > required) || inverted > cluster.inverted)
+    if (!(q > proposal.least) || inverted > cluster.inverted)
     {
       return false;
     }
-    fan.cells.push_back(cell);
-    fan.quality.push_back(q);
+    proposal.cells.push_back(cell);
+    proposal.qualities.push_back(q);
+    proposal.newWorst = std::min(proposal.newWorst, q);
   }
-  return !fan.cells.empty();
+  return !proposal.cells.empty();
 }
-
-/// True if the fan from boundary point `apex` has no edge, facet or cell in common with the cells
-/// `outside`, which are those around the apex that are not in the cluster, but what lies on the
-/// cluster's boundary. Where no element is inverted this holds by geometry; it is the link
-/// condition of an edge contraction, and its like for other fans.
-template <int D>
-bool isFanSafe(const FanCluster<D>& cluster, const Apex<D>& apex,
-  const std::vector<Simplex<D>>& outside);
-
-/// True if each of the `edges` (pairs of point ids) is an edge of a cell of the fan.
-template <int D>
-bool fanHasEdges(const Fan<D>& fan, const std::vector<std::array<Index, 2>>& edges);
-
-extern template bool isFanSafe<2>(
-  const FanCluster<2>&, const Apex<2>&, const std::vector<Simplex<2>>&);
-extern template bool isFanSafe<3>(
-  const FanCluster<3>&, const Apex<3>&, const std::vector<Simplex<3>>&);
-extern template bool fanHasEdges<2>(const Fan<2>&, const std::vector<std::array<Index, 2>>&);
-extern template bool fanHasEdges<3>(const Fan<3>&, const std::vector<std::array<Index, 2>>&);
 }
 
 #endif

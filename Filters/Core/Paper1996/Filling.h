@@ -95,7 +95,7 @@ bool ElementClusters<D>::fromBoundary(const SimplexMesh<D>& mesh, const Part<D>&
 {
   const FanCluster<D>& cluster = part.cluster;
   const Filling kind = part.kindFromBoundary();
-  if (!part.usable || (kind == Filling::BoundaryNode && mesh.isFixed(part.core[0])))
+  if (!part.usable || (kind == Filling::BoundaryNode && !mesh.isFree(part.core[0])))
   {
     return false;
   }
@@ -116,7 +116,7 @@ template <class F>
 bool ElementClusters<D>::fromCentre(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f)
 {
   const bool moves = part.cluster.coreInside;
-  if (!part.usable || (moves && mesh.isFixed(part.core[0])))
+  if (!part.usable || (moves && !mesh.isFree(part.core[0])))
   {
     return false;
   }

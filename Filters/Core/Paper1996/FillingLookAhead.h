@@ -19,22 +19,20 @@
 namespace meshopt
 {
 template <int D, class Shape>
-class LookAhead
+class FillingLookAhead
 {
 public:
-  LookAhead(MeshEditor<D>& editor, NodalMetric<D>& metric,
-    const ElementQuality<D, Shape>& quality, double leastGain)
-    : editor_(editor)
-    , metric_(metric)
-    , trial_(editor, metric, quality)
-    , solver_(editor, metric, quality, LocalParameters{}, leastGain)
+  FillingLookAhead(Judge<D, Shape>& judge, double leastGain)
+    : judge_(judge)
+    , trial_(judge)
+    , solver_(judge, LocalParameters{}, leastGain)
     , leastGain_(leastGain)
   {
   }
 
   /// Tries one filling (but Filling::Centre). If it is kept, changed() are the cells that are new
   /// or have another quality.
-  bool improve(const Part<D>& part, Apex<D> apex);
+  bool improve(const Part<D>& part, const Apex<D>& apex);
   const std::vector<Index>& changed() const { return this->changed_; }
 
 private:
@@ -43,23 +41,21 @@ private:
   void reposition(double& before);
   double worstOfChanged() const;
 
-  MeshEditor<D>& editor_;
-  NodalMetric<D>& metric_;
+  Judge<D, Shape>& judge_;
   FillingTrial<D, Shape> trial_;
   ClusterSolver<D, Shape> solver_;
   double leastGain_;
   std::vector<std::uint8_t> movable_;
   std::vector<Index> changed_;
-  std::vector<std::pair<Index, typename NodalMetric<D>::Sample>> samples_; // before, in order
 };
 
 template <int D, class Shape>
-double LookAhead<D, Shape>::worstOfChanged() const
+double FillingLookAhead<D, Shape>::worstOfChanged() const
 {
   double worst = std::numeric_limits<double>::infinity();
   for (Index c : this->changed_)
   {
-    worst = std::min(worst, this->editor_.mesh().quality(c));
+    worst = std::min(worst, this->judge_.mesh().quality(c));
   }
   return worst;
 }
@@ -67,12 +63,12 @@ double LookAhead<D, Shape>::worstOfChanged() const
 // Solves around the worst new cell. `before` falls to the old quality of cells that change and do
 // not belong to the filling.
 template <int D, class Shape>
-void LookAhead<D, Shape>::reposition(double& before)
+void FillingLookAhead<D, Shape>::reposition(double& before)
 {
-  const SimplexMesh<D>& mesh = this->editor_.mesh();
+  const SimplexMesh<D>& mesh = this->judge_.mesh();
   for (Index p = static_cast<Index>(this->movable_.size()); p < mesh.numberOfPointSlots(); ++p)
   {
-    this->movable_.push_back(!mesh.isFixed(p));
+    this->movable_.push_back(mesh.isFree(p));
   }
   const std::vector<Index> made = this->changed_;
   for (int k = 0; k < Solves; ++k)
@@ -95,37 +91,27 @@ void LookAhead<D, Shape>::reposition(double& before)
         before = std::min(before, old);
       }
     }
-    for (std::size_t i = 0; i < this->solver_.oldSamples().size(); ++i)
-    {
-      this->samples_.emplace_back(cluster.points[i], this->solver_.oldSamples()[i]);
-    }
   }
 }
 
 template <int D, class Shape>
-bool LookAhead<D, Shape>::improve(const Part<D>& part, Apex<D> apex)
+bool FillingLookAhead<D, Shape>::improve(const Part<D>& part, const Apex<D>& apex)
 {
   // A filling may be worse for now, but not more inverted.
   const double required = std::min(0.0, part.cluster.worst);
-  const std::size_t place = this->editor_.begin();
-  this->samples_.clear();
-  if (this->trial_.isBetter(part, apex, required))
+  const auto mark = this->judge_.begin();
+  if (this->trial_.make(part, apex, required))
   {
-    this->trial_.make(part, apex);
     this->changed_ = this->trial_.made();
     double before = part.cluster.worst;
     this->reposition(before);
     if (this->worstOfChanged() > before + this->leastGain_ * std::abs(before))
     {
-      this->editor_.commit(place);
+      this->judge_.commit(mark);
       return true;
     }
   }
-  this->editor_.rollback(place);
-  for (std::size_t k = this->samples_.size(); k-- > 0;)
-  {
-    this->metric_.setSample(this->samples_[k].first, this->samples_[k].second);
-  }
+  this->judge_.rollback(mark);
   return false;
 }
 }

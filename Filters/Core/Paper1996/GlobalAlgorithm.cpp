@@ -2,6 +2,7 @@
 #include "Paper1996/GlobalAlgorithm.h"
 
 #include "Paper1996/WorstQueue.h"
+#include "Run/Run.h"
 #include "Paper1996/ClusterSolver.h"
 
 namespace meshopt
@@ -12,13 +13,16 @@ template <int D, class Shape>
 class GlobalAlgorithm
 {
 public:
-  GlobalAlgorithm(MeshEditor<D>& editor, NodalMetric<D>& metric,
-    const ElementQuality<D, Shape>& quality, const RepositionParameters& parameters)
+  GlobalAlgorithm(
+    MeshEditor<D>& editor, NodalMetric<D>& metric, double beta, const RepositionParameters& parameters)
     : editor_(editor)
     , parameters_(parameters)
-    , solver_(editor, metric, quality, parameters.local, parameters.leastGain)
+    , model_(editor.mesh(), metric, beta)
+    , judge_(editor, this->model_, this->switches_)
+    , solver_(this->judge_, parameters.local, parameters.leastGain)
     , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
   {
+    this->judge_.setStampsStars(false);
   }
 
   RepositionResult run(const KeepGoing& keepGoing, std::vector<Index>* sequence);
@@ -29,6 +33,9 @@ private:
 
   MeshEditor<D>& editor_;
   RepositionParameters parameters_;
+  Switches switches_;
+  QualityModel<D, Shape> model_;
+  Judge<D, Shape> judge_;
   ClusterSolver<D, Shape> solver_;
   WorstQueue<D> queue_;
   std::vector<std::uint8_t> movable_;
@@ -41,7 +48,7 @@ void GlobalAlgorithm<D, Shape>::initialize()
   this->movable_.assign(mesh.numberOfPointSlots(), 0);
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
-    this->movable_[p] = mesh.isPointAlive(p) && !mesh.isFixed(p);
+    this->movable_[p] = mesh.isPointAlive(p) && mesh.isFree(p);
   }
   this->queue_.fill();
 }
@@ -123,12 +130,12 @@ RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measu
   double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,
   std::vector<Index>* sequence)
 {
+  const FollowedMetric<D> follows(editor, metric);
   return dispatch<D>(measure,
     [&](auto shape)
     {
       using Shape = decltype(shape);
-      const ElementQuality<D, Shape> quality{ beta };
-      GlobalAlgorithm<D, Shape> algorithm(editor, metric, quality, parameters);
+      GlobalAlgorithm<D, Shape> algorithm(editor, metric, beta, parameters);
       return algorithm.run(keepGoing, sequence);
     });
 }

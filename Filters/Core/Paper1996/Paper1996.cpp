@@ -2,14 +2,12 @@
 #include "Paper1996/Paper1996.h"
 
 #include "Bound/Caps.h"
-#include "Base/Progress.h"
-#include "Run/Summary.h"
-#include "Paper1996/Reconnection.h"
 #include "Paper1996/GlobalAlgorithm.h"
+#include "Paper1996/Reconnection.h"
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace meshopt
 {
@@ -22,18 +20,15 @@ template <int D>
 class Paper1996
 {
 public:
-  Paper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-    const Control& control, Report& report, long growth)
-    : editor_(editor)
-    , metric_(metric)
-    , options_(options)
-    , report_(report)
-    , growth_(growth)
-    , progress_(control)
+  explicit Paper1996(Run<D>& run)
+    : run_(run)
+    , editor_(run.editor)
+    , options_(run.options)
+    , passBegin_(run.clock.seconds())
   {
   }
 
-  StopReason run();
+  StopReason optimize();
 
 private:
   using Counts = std::array<long, NumberOfOperations>;
@@ -45,34 +40,31 @@ private:
   void repositionAll();
   void record(const char* stage, const Counts& tried, const Counts& done);
   void touchMoved(const std::vector<Vec<D>>& before);
-  bool keepGoing(const char* stage, double worst);
-  double worst() const { return this->report_.history.back().worst; }
+  bool goesOn(const char* stage, double worst);
+  double worst() const { return this->run_.report.history.back().worst; }
 
+  Run<D>& run_;
   MeshEditor<D>& editor_;
-  NodalMetric<D>& metric_;
   const Options& options_;
-  Report& report_;
-  long growth_; // cells that may still come
-  Progress progress_;
   ReconnectionMemory<D> memory_;
   bool limitReached_ = false;
   long steps_ = 0, expectedSteps_ = 1;
-  std::chrono::steady_clock::time_point passBegin_ = std::chrono::steady_clock::now();
+  double passBegin_; // by the clock
 };
 
 // How far the work is, is not known beforehand: the fraction approaches 1 as steps are made.
 template <int D>
-bool Paper1996<D>::keepGoing(const char* stage, double worst)
+bool Paper1996<D>::goesOn(const char* stage, double worst)
 {
   ++this->steps_;
   const double ratio = static_cast<double>(this->steps_) /
     static_cast<double>(this->expectedSteps_);
-  return this->progress_.report(1.0 - 1.0 / (1.0 + ratio),
+  return this->run_.clock.goesOn(1.0 - 1.0 / (1.0 + ratio),
     [&]
     {
       char text[96];
       std::snprintf(text, sizeof text, "%s %d: worst element %.4f", stage,
-        static_cast<int>(this->report_.history.size() + 1) / 2, worst);
+        static_cast<int>(this->run_.report.history.size() + 1) / 2, worst);
       return std::string(text);
     });
 }
@@ -80,15 +72,11 @@ bool Paper1996<D>::keepGoing(const char* stage, double worst)
 template <int D>
 void Paper1996<D>::record(const char* stage, const Counts& tried, const Counts& done)
 {
-  PassRecord row = summarize(this->editor_.mesh(), this->options_.targetQuality);
-  row.pass = static_cast<int>(this->report_.history.size());
-  row.stage = stage;
+  PassRecord& row = this->run_.record(stage);
   row.tried = tried;
   row.done = done;
-  const auto now = std::chrono::steady_clock::now();
-  row.seconds = std::chrono::duration<double>(now - this->passBegin_).count();
-  this->passBegin_ = now;
-  this->report_.history.push_back(row);
+  const double now = this->run_.clock.seconds();
+  row.seconds = now - std::exchange(this->passBegin_, now);
 }
 
 Operation operationOf(Filling kind)
@@ -116,7 +104,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   ReconnectionParameters parameters;
   parameters.target = o.targetQuality;
   parameters.naiveSearch = o.naiveSearch;
-  parameters.growth = this->growth_;
+  parameters.growth = this->run_.growth;
   parameters.lookAhead = o.moveNodes && o.lookAhead ? lookAhead : 0;
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
@@ -128,10 +116,10 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   allow(Filling::Midpoint, o.insertNodes);
 
   const char* stage = lookAhead > 0 ? "look-ahead" : "reconnection";
-  const ReconnectionResult result = reconnect<D>(this->editor_, this->metric_, o.measure, o.beta,
+  const ReconnectionResult result = reconnect<D>(this->editor_, this->run_.metric, o.measure, o.beta,
     parameters, this->memory_,
-    [this, stage](double worst) { return this->keepGoing(stage, worst); });
-  this->growth_ -= result.growth;
+    [this, stage](double worst) { return this->goesOn(stage, worst); });
+  this->run_.growth -= result.growth;
   Counts tried{}, done{};
   for (int k = 0; k < NumberOfFillings; ++k)
   {
@@ -190,8 +178,8 @@ void Paper1996<D>::repositionAll()
   {
     before[p] = mesh.point(p);
   }
-  const RepositionResult result = reposition<D>(this->editor_, this->metric_, o.measure, o.beta,
-    parameters, [this](double worst) { return this->keepGoing("repositioning", worst); });
+  const RepositionResult result = reposition<D>(this->editor_, this->run_.metric, o.measure, o.beta,
+    parameters, [this](double worst) { return this->goesOn("repositioning", worst); });
   this->touchMoved(before);
   this->limitReached_ = this->limitReached_ || result.limitReached;
   Counts tried{}, done{};
@@ -210,7 +198,7 @@ bool Paper1996<D>::alternate(int lookAhead)
   {
     this->reconnectAll(lookAhead);
   }
-  if (o.moveNodes && !this->progress_.cancelled() && this->worst() < o.targetQuality)
+  if (o.moveNodes && !this->run_.clock.hasStopped() && this->worst() < o.targetQuality)
   {
     this->repositionAll();
   }
@@ -224,11 +212,11 @@ void Paper1996<D>::countCapped()
   const SimplexMesh<D>& mesh = this->editor_.mesh();
   const double target = this->options_.targetQuality;
   Caps<D> caps;
-  caps.build(mesh, this->options_.measure, target, this->metric_.isTrivial());
-  this->report_.bound = caps.bound();
+  caps.build(mesh, this->options_.measure, target, this->run_.metric.isTrivial());
+  this->run_.report.bound = caps.bound();
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
-    this->report_.cappedCells += mesh.isAlive(c) && mesh.quality(c) < target &&
+    this->run_.report.cappedCells += mesh.isAlive(c) && mesh.quality(c) < target &&
         caps.isCapped(mesh, c)
       ? 1
       : 0;
@@ -236,12 +224,12 @@ void Paper1996<D>::countCapped()
 }
 
 template <int D>
-StopReason Paper1996<D>::run()
+StopReason Paper1996<D>::optimize()
 {
   StopReason reason = this->iterate();
   this->countCapped();
-  const long below = this->report_.history.back().belowTarget;
-  if (reason == StopReason::NoFurtherGain && below == this->report_.cappedCells)
+  const long below = this->run_.report.history.back().belowTarget;
+  if (reason == StopReason::NoFurtherGain && below == this->run_.report.cappedCells)
   {
     reason = StopReason::CappedBySurface;
   }
@@ -252,7 +240,7 @@ template <int D>
 StopReason Paper1996<D>::iterate()
 {
   const Options& o = this->options_;
-  this->expectedSteps_ = std::max(1L, 4 * this->report_.history.back().belowTarget);
+  this->expectedSteps_ = std::max(1L, 4 * this->run_.report.history.back().belowTarget);
   bool rises = true; // in the last alternation
   for (int k = 0; k < o.maximumNumberOfAlternations; ++k)
   {
@@ -262,9 +250,9 @@ StopReason Paper1996<D>::iterate()
     }
     const bool looksAhead = !rises;
     rises = this->alternate(looksAhead ? LookAheads : 0);
-    if (this->progress_.cancelled())
+    if (this->run_.clock.hasStopped())
     {
-      return StopReason::Aborted;
+      return this->run_.stopped();
     }
     if (looksAhead && !rises)
     {
@@ -276,15 +264,11 @@ StopReason Paper1996<D>::iterate()
 }
 
 template <int D>
-void optimizePaper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report, long growth)
+void optimizePaper1996(Run<D>& run)
 {
-  Paper1996<D> paper(editor, metric, options, control, report, growth);
-  report.stopReason = paper.run();
+  run.report.stopReason = Paper1996<D>(run).optimize();
 }
 
-template void optimizePaper1996<2>(
-  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, long);
-template void optimizePaper1996<3>(
-  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&, long);
+template void optimizePaper1996<2>(Run<2>&);
+template void optimizePaper1996<3>(Run<3>&);
 }

@@ -12,25 +12,18 @@
 #ifndef meshopt_Paper1996_Paper1996_h
 #define meshopt_Paper1996_Paper1996_h
 
-#include "Mesh/MeshEditor.h"
-#include "Metric/NodalMetric.h"
-#include "Base/Control.h"
-#include "Run/Options.h"
-#include "Run/Report.h"
-#include "Paper1996/Reconnection.h"
+#include "Run/Run.h"
 
 namespace meshopt
 {
 /// Optimizes the mesh, whose qualities must be up to date (and are kept so); appends two rows per
-/// alternation to report.history and sets report.stopReason. At most `growth` cells may come.
+/// alternation to the history and sets report.stopReason. The surface is kept. At most run.growth cells
+/// may come.
 template <int D>
-void optimizePaper1996(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-  const Control& control, Report& report, long growth = AnyGrowth);
+void optimizePaper1996(Run<D>& run);
 
-extern template void optimizePaper1996<2>(
-  MeshEditor<2>&, NodalMetric<2>&, const Options&, const Control&, Report&, long);
-extern template void optimizePaper1996<3>(
-  MeshEditor<3>&, NodalMetric<3>&, const Options&, const Control&, Report&, long);
+extern template void optimizePaper1996<2>(Run<2>&);
+extern template void optimizePaper1996<3>(Run<3>&);
 }
 
 #endif

@@ -2,6 +2,8 @@
 #include "Paper1996/Reconnection.h"
 
 #include "Paper1996/WorstQueue.h"
+#include "Mesh/PinchedPoints.h"
+#include "Run/Run.h"
 #include "Paper1996/FillingTrial.h"
 #include "Paper1996/FillingLookAhead.h"
 
@@ -17,17 +19,27 @@ template <int D, class Shape>
 class Reconnection
 {
 public:
-  Reconnection(MeshEditor<D>& editor, NodalMetric<D>& metric,
-    const ElementQuality<D, Shape>& quality, const ReconnectionParameters& parameters,
-    ReconnectionMemory<D>& memory)
+  Reconnection(MeshEditor<D>& editor, NodalMetric<D>& metric, double beta,
+    const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory)
     : editor_(editor)
     , mesh_(editor.mesh())
     , parameters_(parameters)
     , memory_(memory)
     , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
-    , trial_(editor, metric, quality)
-    , ahead_(editor, metric, quality, parameters.leastGain)
+    , model_(editor.mesh(), metric, beta)
+    , pinched_(pinchedPoints<D>(editor.mesh()))
+    , judge_(editor, this->model_, this->switches_)
+    , aheadJudge_(editor, this->model_, this->switches_)
+    , trial_(this->judge_)
+    , ahead_(this->aheadJudge_, parameters.leastGain)
   {
+    // A fan may cross what lies around its cluster: topology is always looked at.
+    for (Judge<D, Shape>* judge : { &this->judge_, &this->aheadJudge_ })
+    {
+      judge->setTangled(true, true, this->pinched_);
+      judge->setStampsStars(false);
+    }
+    this->judge_.growth.left = parameters.growth;
   }
 
   ReconnectionResult run(
@@ -54,8 +66,12 @@ private:
   ReconnectionParameters parameters_;
   ReconnectionMemory<D>& memory_;
   WorstQueue<D> queue_;
+  Switches switches_;
+  QualityModel<D, Shape> model_;
+  std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
+  Judge<D, Shape> judge_, aheadJudge_; // growth is limited for the first one only
   FillingTrial<D, Shape> trial_;
-  LookAhead<D, Shape> ahead_;
+  FillingLookAhead<D, Shape> ahead_;
   ElementClusters<D> clusters_;
   ReconnectionResult result_;
   std::vector<Index> star_, candidates_;
@@ -98,7 +114,7 @@ bool Reconnection<D, Shape>::improveCell(Index c)
 {
   this->clusters_.gather(this->editor_, c, this->memory_, this->memory_.failed[c]);
   return this->clusters_.forEach(this->mesh_,
-    [&](const Part<D>& part, Filling kind, Apex<D> apex)
+    [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
     {
       if (!this->isAllowed(kind))
       {
@@ -106,15 +122,10 @@ bool Reconnection<D, Shape>::improveCell(Index c)
       }
       ++this->result_.tried[static_cast<int>(kind)];
       const double worst = part.cluster.worst;
-      const double required = worst + this->parameters_.leastGain * std::abs(worst);
-      if (!this->trial_.isBetter(part, apex, required) ||
-        this->trial_.growth(part) > this->parameters_.growth - this->result_.growth)
+      if (!this->trial_.make(part, apex, worst + this->parameters_.leastGain * std::abs(worst)))
       {
-        this->trial_.giveUp(part, apex);
         return false;
       }
-      this->result_.growth += this->trial_.growth(part);
-      this->trial_.make(part, apex);
       this->touch(this->trial_.made(), part.cluster.points);
       ++this->result_.done[static_cast<int>(kind)];
       return true;
@@ -280,6 +291,7 @@ ReconnectionResult Reconnection<D, Shape>::run(
     this->lookAhead(keepGoing))
   {
   }
+  this->result_.growth = this->parameters_.growth - this->judge_.growth.left;
   return this->result_;
 }
 }
@@ -289,12 +301,12 @@ ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Meas
   double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
 {
+  const FollowedMetric<D> follows(editor, metric);
   return dispatch<D>(measure,
     [&](auto shape)
     {
       using Shape = decltype(shape);
-      const ElementQuality<D, Shape> quality{ beta };
-      Reconnection<D, Shape> reconnection(editor, metric, quality, parameters, memory);
+      Reconnection<D, Shape> reconnection(editor, metric, beta, parameters, memory);
       return reconnection.run(keepGoing, sequence);
     });
 }

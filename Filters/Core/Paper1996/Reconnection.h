@@ -35,6 +35,7 @@
 #ifndef meshopt_Paper1996_Reconnection_h
 #define meshopt_Paper1996_Reconnection_h
 
+#include "Edit/Growth.h"
 #include "Mesh/MeshEditor.h"
 #include "Metric/NodalMetric.h"
 #include "Quality/ElementQuality.h"
@@ -42,13 +43,9 @@
 
 #include <array>
 #include <functional>
-#include <limits>
 
 namespace meshopt
 {
-/// As a number of cells that may come: no limit. Such numbers are added and subtracted.
-inline constexpr long AnyGrowth = std::numeric_limits<long>::max() / 2;
-
 struct ReconnectionParameters
 {
   double target = 1.0;     ///< elements of this quality or a better one are left alone

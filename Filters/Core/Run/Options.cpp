@@ -72,10 +72,6 @@ std::string checkEngine(const Options& o)
   {
     return "The effort is none of the known ones.";
   }
-  if (o.numberOfThreads < 0)
-  {
-    return "The number of threads must be >= 0 (0: all).";
-  }
   if (!(o.growthBudget >= 0.0) || !std::isfinite(o.growthBudget))
   {
     return "The growth budget must be a number >= 0.";

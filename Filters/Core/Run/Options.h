@@ -4,6 +4,7 @@
 #ifndef meshopt_Run_Options_h
 #define meshopt_Run_Options_h
 
+#include "Edit/Switches.h"
 #include "Quality/Measure.h"
 
 #include <string>
@@ -23,7 +24,7 @@ enum class Effort
   Best = 2     ///< past the target, with more look-ahead, until nothing lifts the worst cell
 };
 
-struct Options
+struct Options : Switches
 {
   Algorithm algorithm = Algorithm::WorstFirst;
   Measure measure = Measure::Shape;
@@ -33,15 +34,6 @@ struct Options
   double desiredSize = 0.0;
   /// Stop once the worst quality is at least this. In ]0, 1].
   double targetQuality = 0.6;
-
-  bool moveNodes = true;   ///< node repositioning (section 2.2)
-  bool reconnect = true;   ///< changes of topology that keep the points
-  bool insertNodes = true; ///< changes of topology that add points
-  bool removeNodes = true; ///< changes of topology that take points away
-
-  /// When nothing else gains: changes that pay only together, or after nodes have moved. The paper
-  /// has no such thing; without it Algorithm::Paper1996 is what the paper says.
-  bool lookAhead = true;
 
   // --- the paper's parameters
   int neighborhoodLevel = 1;            ///< NL >= 0
@@ -53,7 +45,6 @@ struct Options
 
   // --- the fast engine's
   Effort effort = Effort::Default;
-  int numberOfThreads = 0; ///< 0: all
   /// Greatest net growth of the number of cells, as a fraction; growthOf() for small meshes.
   double growthBudget = 0.15;
   double timeLimit = 0.0; ///< seconds, 0: none. Results are then not reproducible.

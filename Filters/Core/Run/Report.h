@@ -4,7 +4,7 @@
 #ifndef meshopt_Run_Report_h
 #define meshopt_Run_Report_h
 
-#include "Operations/Operation.h"
+#include "Edit/Operation.h"
 
 #include <array>
 #include <string>

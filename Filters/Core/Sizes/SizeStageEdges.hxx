@@ -8,44 +8,12 @@ namespace meshopt
 {
 namespace sizes
 {
-
-/// Takes over the metric at p; `near`: a point whose neighbourhood p is in, if p is new or has moved.
-template <int D>
-void SizeStage<D>::sample(Index p, Index near)
-{
-  if (near != None)
-  {
-    this->metric_.resample(p, this->mesh().point(p), near);
-  }
-  if (static_cast<Index>(this->units_.size()) <= p)
-  {
-    this->units_.resize(this->mesh().numberOfPointSlots(), Tensor<D>::Identity());
-  }
-  this->units_[p] = this->metric_.unitTensor(p);
-}
-
 template <int D>
 double SizeStage<D>::length(Index a, Index b) const
 {
   const Vec<D> e = this->mesh().point(b) - this->mesh().point(a);
   return logMeanLength(lengthIn<D>(this->units_[a], e), lengthIn<D>(this->units_[b], e)) /
     this->scale_;
-}
-
-/// Whether all these cells are better than `least`; their qualities go to qualities_.
-template <int D>
-bool SizeStage<D>::measure(const std::vector<Simplex<D>>& cells, double least)
-{
-  this->qualities_.clear();
-  for (const Simplex<D>& c : cells)
-  {
-    this->qualities_.push_back(this->model_(c));
-    if (!(this->qualities_.back() > least))
-    {
-      return false;
-    }
-  }
-  return true;
 }
 
 template <int D>
@@ -93,8 +61,8 @@ void SizeStage<D>::swapAround(Push&& push)
     if (this->options_.reconnect && this->mesh().quality(c) < SwapBelow<D> &&
       this->improver_.swap(c))
     {
-      this->stack_.insert(
-        this->stack_.end(), this->improver_.changed().begin(), this->improver_.changed().end());
+      const std::vector<Index>& changed = this->judge().changed();
+      this->stack_.insert(this->stack_.end(), changed.begin(), changed.end());
     }
     else
     {
@@ -140,32 +108,56 @@ bool SizeStage<D>::isAboutLongest(const std::vector<Index>& cells, double length
   return true;
 }
 
+/// The cell may have been changed since the edge was queued.
+template <int D>
+bool SizeStage<D>::isThere(const Edge& edge) const
+{
+  return this->mesh().isAlive(edge.cell) && this->mesh().localIndex(edge.cell, edge.a) >= 0 &&
+    this->mesh().localIndex(edge.cell, edge.b) >= 0;
+}
+
 template <int D>
 long SizeStage<D>::split()
 {
   long done = 0, cells = this->mesh().countCells();
-  long& cellsAtBrake = this->report_.sizes.cellsAtBrake;
+  long& cellsAtBrake = this->run_.report.sizes.cellsAtBrake;
   this->collectQueue(true);
   while (!this->queue_.empty() && this->options_.insertNodes && cellsAtBrake == 0)
   {
     const Edge edge = this->queue_.top();
     this->queue_.pop();
-    if (!this->mesh().isAlive(edge.cell) || this->mesh().localIndex(edge.cell, edge.a) < 0 ||
-      this->mesh().localIndex(edge.cell, edge.b) < 0 || !this->splitEdge(edge))
+    if (!this->isThere(edge) || !this->splitEdge(edge))
     {
       continue;
     }
     ++done;
-    cells += static_cast<long>(this->change_.cells.size() - this->change_.cavity.size());
+    cells += this->proposal_.growth();
     cellsAtBrake = cells > this->mostCells_ ? cells : 0;
     this->swapAround([this](Index c) { this->push(c, true); });
-    if (done % 256 == 0 && !this->keepGoing())
+    if (done % TriesPerLook == 0 && !this->goesOn())
     {
       break;
     }
   }
   this->splits_ += done;
   return done;
+}
+
+/// The span of the edge on a curve of the surface, if it is kept and has one.
+template <int D>
+std::optional<Span> SizeStage<D>::spanOf(const Edge& edge, bool& isKept) const
+{
+  const Simplex<D>& nodes = this->mesh().nodes(edge.cell);
+  isKept = false;
+  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+  {
+    const Index p = nodes[Local<D>::edgeFirst[e][0]], q = nodes[Local<D>::edgeFirst[e][1]];
+    isKept = isKept ||
+      (std::min(p, q) == edge.a && std::max(p, q) == edge.b &&
+        this->mesh().isEdgeKept(edge.cell, e));
+  }
+  return isKept && this->run_.surface ? this->run_.surface->span(this->mesh(), edge.a, edge.b)
+                                      : std::nullopt;
 }
 
 template <int D>
@@ -177,41 +169,33 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
   // nothing gains.
   const double t = metricMiddle(lengthIn<D>(this->units_[a], e), lengthIn<D>(this->units_[b], e)) +
     Jitter * noise(a, b);
-  Vec<D> x = this->mesh().point(a) + t * e;
-  CurvePlace<D> place;
-  if constexpr (D == 2)
+  bool isKept = false;
+  const std::optional<Span> span = this->spanOf(edge, isKept);
+  if (isKept && !span)
   {
-    const int i = 3 - this->mesh().localIndex(edge.cell, a) - this->mesh().localIndex(edge.cell, b);
-    const bool kept = this->mesh().isConstrained(edge.cell, i);
-    const auto span = kept && this->curves_ ? this->curves_->span(this->mesh(), a, b)
-                                            : std::nullopt;
-    if (kept && !span)
-    {
-      return false;
-    }
-    if (span)
-    {
-      place.curve = span->piece;
-      place.parameter = span->from + t * (span->to - span->from);
-      x = this->curves_->at(place.curve, place.parameter);
-    }
+    return false;
   }
+  const double parameter = span ? span->from + t * (span->to - span->from) : 0.0;
+  const Vec<D> x = span ? this->run_.surface->at(span->part, parameter)
+                        : Vec<D>(this->mesh().point(a) + t * e);
+  const auto mark = this->judge().begin();
   const Index p = this->editor_.addPoint(x);
-  this->sample(p, a);
-  if (this->change_.split(this->editor_, this->curves_, edge.cell, a, b, p) &&
-    this->isAboutLongest(this->change_.cavity, edge.length))
+  this->editor_.movePoint(p, x, a);
+  if (span)
   {
-    const double worst = this->mesh().worstQuality(this->change_.cavity);
-    if (this->measure(this->change_.cells, std::min(WorstSplit * worst, GoodEnough)))
-    {
-      this->editor_.setCurvePlace(p, place);
-      this->editor_.replace(
-        this->change_.cavity, this->change_.cells, this->qualities_, this->change_.keptChange());
-      return true;
-    }
+    this->editor_.setPlace(p, { Freedom::Curve, span->part, parameter });
   }
-  this->editor_.dropPoint(p);
-  return false;
+  Proposal<D>& proposal = this->proposal_;
+  bool done = proposeSplit(this->editor_, this->run_.surface, edge.cell, a, b, p, proposal) &&
+    this->isAboutLongest(proposal.cavity, edge.length);
+  if (done)
+  {
+    proposal.least = std::min(WorstSplit * proposal.oldWorst, GoodEnough);
+    this->judge().start();
+    done = this->judge().measure(proposal) && this->judge().accept(proposal);
+  }
+  done ? this->judge().commit(mark) : this->judge().rollback(mark);
+  return done;
 }
 
 // --- edges that are too short
@@ -221,27 +205,27 @@ long SizeStage<D>::contract()
 {
   long done = 0;
   this->collectQueue(false);
-  EdgeChange<D> best;
+  Proposal<D> best;
   while (!this->queue_.empty() && this->options_.removeNodes)
   {
     const Edge edge = this->queue_.top();
     this->queue_.pop();
-    if (!this->mesh().isAlive(edge.cell) || this->mesh().localIndex(edge.cell, edge.a) < 0 ||
-      this->mesh().localIndex(edge.cell, edge.b) < 0)
+    best.clear();
+    best.newWorst = Proposal<D>::Never;
+    if (!this->isThere(edge))
     {
       continue;
     }
-    double above = -std::numeric_limits<double>::infinity();
-    const bool first = this->contractEdge(edge.a, edge.b, above, best);
-    const bool second = this->contractEdge(edge.b, edge.a, above, best);
-    if (!first && !second)
+    const bool first = this->contractEdge(edge.a, edge.b, best);
+    const bool second = this->contractEdge(edge.b, edge.a, best);
+    this->judge().start();
+    if ((!first && !second) || !this->judge().accept(best))
     {
       continue;
     }
-    this->editor_.replace(best.cavity, best.cells, this->bestQualities_, best.keptChange());
     ++done;
     this->swapAround([this](Index c) { this->push(c, false); });
-    if (done % 256 == 0 && !this->keepGoing())
+    if (done % TriesPerLook == 0 && !this->goesOn())
     {
       break;
     }
@@ -250,31 +234,37 @@ long SizeStage<D>::contract()
   return done;
 }
 
-/// Whether v can go to u such that the worst cell is better than `above`, which then is that worst.
+/// Whether v can go to u such that the worst cell is better than with `best`, which this then is.
 template <int D>
-bool SizeStage<D>::contractEdge(Index v, Index u, double& above, EdgeChange<D>& best)
+bool SizeStage<D>::contractEdge(Index v, Index u, Proposal<D>& best)
 {
-  if (!this->change_.contract(this->editor_, this->curves_, v, u))
+  Proposal<D>& p = this->proposal_;
+  if (!proposeContraction(this->editor_, this->run_.surface, v, u, p))
   {
     return false;
   }
-  const double least = std::max(
-    above, std::max(0.0, std::min(this->mesh().worstQuality(this->change_.cavity), GoodEnough)));
-  if (!this->measure(this->change_.cells, least) ||
-    (this->overlaps_ &&
-      !this->improver_.fits(this->change_.cavity, this->change_.cells, this->change_.keptChange())))
+  p.least = std::max(best.newWorst, std::max(0.0, std::min(p.oldWorst, GoodEnough)));
+  if (!this->judge().measure(p) || !this->judge().fits(p) || !this->makesNoneLonger(p, v, u))
   {
     return false;
   }
+  std::swap(best, p);
+  return true;
+}
+
+/// Whether the edges that u gets in place of v are no longer than the longest of v, or short enough.
+template <int D>
+bool SizeStage<D>::makesNoneLonger(const Proposal<D>& p, Index v, Index u) const
+{
   double longest = Longest;
-  for (Index c : this->change_.cavity)
+  for (Index c : p.cavity)
   {
     for (Index w : this->mesh().nodes(c))
     {
       longest = w != v ? std::max(longest, this->length(v, w)) : longest;
     }
   }
-  for (const Simplex<D>& cell : this->change_.cells)
+  for (const Simplex<D>& cell : p.cells)
   {
     for (Index w : cell)
     {
@@ -284,9 +274,6 @@ bool SizeStage<D>::contractEdge(Index v, Index u, double& above, EdgeChange<D>& 
       }
     }
   }
-  above = *std::min_element(this->qualities_.begin(), this->qualities_.end());
-  best = this->change_;
-  this->bestQualities_ = this->qualities_;
   return true;
 }
 }

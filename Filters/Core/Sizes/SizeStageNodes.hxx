@@ -24,32 +24,18 @@ double SizeStage<D>::energyAround(Index v)
 /// Puts v at x if its edges get nearer to the wanted length and no cell gets bad.
 template <int D>
 bool SizeStage<D>::tryPlace(
-  Index v, const Vec<D>& x, const CurvePlace<D>& place, double worst, double energy)
+  Index v, const Vec<D>& x, const Place& place, double worst, double energy)
 {
-  const std::size_t start = this->editor_.begin();
-  const auto sampleBefore = this->metric_.sample(v);
-  const Tensor<D> unit = this->units_[v];
-  this->editor_.movePoint(v, x);
-  this->editor_.setCurvePlace(v, place);
-  this->sample(v, v);
-  bool good = this->energyAround(v) < WorthMoving * energy;
-  for (std::size_t k = 0; k < this->star_.size() && good; ++k)
-  {
-    const double q = this->model_(this->mesh().nodes(this->star_[k]));
-    good = q > 0.0 && q >= std::min(worst, 2.0 * GoodEnough);
-    this->editor_.setQuality(this->star_[k], q);
-  }
-  if (good)
-  {
-    this->editor_.commit(start);
-  }
-  else
-  {
-    this->editor_.rollback(start);
-    this->metric_.setSample(v, sampleBefore);
-    this->units_[v] = unit;
-  }
-  return good;
+  Proposal<D>& p = this->proposal_;
+  p.clear();
+  p.cavity = this->star_;
+  p.moves.push_back({ v, x, place });
+  p.oldWorst = worst;
+  // as good as the worst was, or good enough; and positive
+  p.least = std::max(0.0, std::nextafter(std::min(worst, 2.0 * GoodEnough), -1.0));
+  this->judge().start();
+  return this->judge().acceptIf(
+    p, [&] { return this->energyAround(v) < WorthMoving * energy; });
 }
 
 template <int D>
@@ -86,33 +72,30 @@ bool SizeStage<D>::moveNode(Index v)
   }
   this->failedAt_[v] = this->editor_.clock();
   const double worst = this->mesh().worstQuality(this->star_), energy = this->energyAround(v);
-  return this->mesh().isFixed(v) ? this->moveSlidingNode(v, worst, energy)
-                                 : this->moveFreeNode(v, worst, energy);
+  return this->mesh().isFree(v) ? this->moveFreeNode(v, worst, energy)
+                                : this->moveSlidingNode(v, worst, energy);
 }
 
-/// Towards that neighbour on its piece which is farther away.
+/// Towards that neighbour on its curve which is farther away.
 template <int D>
-bool SizeStage<D>::moveSlidingNode(
-  [[maybe_unused]] Index v, [[maybe_unused]] double worst, [[maybe_unused]] double energy)
+bool SizeStage<D>::moveSlidingNode(Index v, double worst, double energy)
 {
-  if constexpr (D == 2)
+  const auto range = this->run_.surface->range(this->mesh(), this->star_, v);
+  if (!range)
   {
-    const auto range = slidingRange(*this->curves_, this->mesh(), this->star_, v);
-    if (!range)
+    return false;
+  }
+  const double l0 = this->length(v, range->ends[0]), l1 = this->length(v, range->ends[1]);
+  const double to = l0 > l1 ? range->low : range->high;
+  Place place = this->mesh().place(v);
+  const double s = place.parameter;
+  for (double part : { 0.5, 0.25 })
+  {
+    place.parameter = s + part * std::fabs(l0 - l1) / std::max(l0, l1) * (to - s);
+    const Vec<D> x = this->run_.surface->at(place.part, place.parameter);
+    if (this->tryPlace(v, x, place, worst, energy))
     {
-      return false;
-    }
-    const double l0 = this->length(v, range->ends[0]), l1 = this->length(v, range->ends[1]);
-    const double to = l0 > l1 ? range->low : range->high;
-    CurvePlace<2> place = this->mesh().pointData(v);
-    const double s = place.parameter;
-    for (double part : { 0.5, 0.25 })
-    {
-      place.parameter = s + part * std::fabs(l0 - l1) / std::max(l0, l1) * (to - s);
-      if (this->tryPlace(v, this->curves_->at(place.curve, place.parameter), place, worst, energy))
-      {
-        return true;
-      }
+      return true;
     }
   }
   return false;
@@ -132,7 +115,7 @@ bool SizeStage<D>::moveFreeNode(Index v, double worst, double energy)
   target /= static_cast<double>(this->neighbours_.size());
   for (double part : { 1.0, 0.5, 0.25 })
   {
-    if (this->tryPlace(v, Vec<D>(x + part * (target - x)), CurvePlace<D>(), worst, energy))
+    if (this->tryPlace(v, Vec<D>(x + part * (target - x)), Place(), worst, energy))
     {
       return true;
     }
@@ -151,11 +134,9 @@ void SizeStage<D>::smooth()
       {
         continue;
       }
-      bool mayMove = !this->mesh().isFixed(v);
-      if constexpr (D == 2)
-      {
-        mayMove |= this->mesh().pointData(v).curve != None;
-      }
+      const Freedom freedom = this->mesh().freedom(v);
+      const bool mayMove = freedom == Freedom::Free ||
+        (freedom == Freedom::Curve && this->run_.surface);
       this->motions_ += mayMove && this->moveNode(v);
     }
     this->swapWhatChanged();

@@ -4,18 +4,20 @@
 #ifndef meshopt_Sizes_SizeStageRun_h
 #define meshopt_Sizes_SizeStageRun_h
 
-#include "Surface/SurfaceFaults.h"
 #include "Mesh/PinchedPoints.h"
 #include "Metric/EdgeLengths.h"
-#include "Run/Improver.h"
-#include "Base/Progress.h"
-#include "Run/Summary.h"
+#include "Operations/EdgeContraction.h"
+#include "Operations/EdgeSplit.h"
 #include "Quality/Shape.h"
+#include "Run/Improver.h"
+#include "Run/Run.h"
+#include "Sizes/UnitTensors.h"
+#include "Surface/SurfaceFaults.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 
 namespace meshopt
@@ -41,6 +43,7 @@ constexpr long BrakeSlack = 1000;
 constexpr double MostPredicted = 1e9; // more than ids can number
 /// Edges are split so far from their middle, at random.
 constexpr double Jitter = 0.1;
+constexpr long TriesPerLook = 256; // changes between two looks at the clock
 /// An edge is split if no cell at it has one that is longer than it by more than this factor.
 constexpr double LongestFirst = 0.7;
 /// A contraction or a motion makes no quality lower than both this (a motion: twice this) and the worst
@@ -72,9 +75,9 @@ template <int D>
 class SizeStage
 {
 public:
-  SizeStage(MeshEditor<D>& editor, NodalMetric<D>& metric, const Options& options,
-    const Control& control, const BoundaryCurves* curves, Report& report);
-  bool run(double predicted);
+  explicit SizeStage(Run<D>& run);
+  ~SizeStage() { this->editor_.detach(this->units_); }
+  bool follow(double predicted);
 
 private:
   using Shape = MeanEdgeShape<D>;
@@ -98,39 +101,37 @@ private:
 
   double longestEdge() const;
   bool isAboutLongest(const std::vector<Index>& cells, double length) const;
+  bool isThere(const Edge& edge) const;
+  std::optional<Span> spanOf(const Edge& edge, bool& isKept) const;
   bool splitEdge(const Edge& edge);
-  bool contractEdge(Index v, Index u, double& above, EdgeChange<D>& best);
+  bool contractEdge(Index v, Index u, Proposal<D>& best);
+  bool makesNoneLonger(const Proposal<D>& p, Index v, Index u) const;
   bool moveNode(Index v);
   bool moveFreeNode(Index v, double worst, double energy);
   bool moveSlidingNode(Index v, double worst, double energy);
-  bool tryPlace(Index v, const Vec<D>& x, const CurvePlace<D>& place, double worst, double energy);
+  bool tryPlace(Index v, const Vec<D>& x, const Place& place, double worst, double energy);
   template <class Push>
   void swapAround(Push&& push);
   void collectQueue(bool isLong);
   void push(Index c, bool isLong);
-  bool measure(const std::vector<Simplex<D>>& cells, double least);
   double energyAround(Index v);
-  void sample(Index p, Index near);
   double length(Index a, Index b) const;
   void record();
-  bool keepGoing();
+  bool goesOn();
 
   const SimplexMesh<D>& mesh() const { return this->editor_.mesh(); }
+  Judge<D, Shape>& judge() { return this->improver_.judge(); }
 
+  Run<D>& run_;
   MeshEditor<D>& editor_;
-  NodalMetric<D>& metric_;
   const Options& options_;
-  const BoundaryCurves* curves_;
-  Report& report_;
-  Progress progress_;
   QualityModel<D, Shape> model_;
-  Caps<D> caps_; // none: what is capped matters later
   Improver<D, Shape> improver_;
-  EdgeChange<D> change_;
+  UnitTensors<D> units_;
+  Proposal<D> proposal_;
   std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
   bool overlaps_;                     // cells may lie on each other
 
-  std::vector<Tensor<D>> units_; // M / h*^2 at the points
   int round_ = 0;
   long mostCells_ = 0;       // brake
   double scale_ = 1.0;       // of h*
@@ -139,9 +140,7 @@ private:
   std::vector<std::uint32_t> failedAt_; // when a node could not be moved to advantage
   Queue queue_;
   std::vector<Index> star_, neighbours_, stack_;
-  std::vector<double> qualities_, bestQualities_;
   long splits_ = 0, contractions_ = 0, motions_ = 0;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 }
 }

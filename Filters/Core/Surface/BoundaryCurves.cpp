@@ -11,6 +11,8 @@ namespace
 {
 constexpr double Tolerance = 1e-3;         ///< of the diagonal of the mesh
 constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
+/// How far the curve may go from a new edge of the boundary, in parts of the edge's length.
+constexpr double Sagitta = 0.1;
 
 double diagonal(const SimplexMesh<2>& mesh)
 {
@@ -186,8 +188,8 @@ void BoundaryCurves::addPiece(
   const std::size_t first = chain.isClosed ? 0 : 1;
   for (std::size_t k = first; k + first < chain.points.size(); ++k)
   {
-    editor.setCurvePlace(
-      chain.points[k], { static_cast<Index>(this->pieces_.size()), parameters[k] });
+    editor.setPlace(chain.points[k],
+      { Freedom::Curve, static_cast<Index>(this->pieces_.size()), parameters[k] });
   }
   this->pieces_.push_back(piece);
 }
@@ -309,7 +311,7 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   {
     for (Index p = 0; p < editor.mesh().numberOfPointSlots(); ++p)
     {
-      editor.setCurvePlace(p, CurvePlace<2>());
+      editor.setPlace(p, Place());
     }
   }
   this->join();
@@ -339,12 +341,11 @@ void BoundaryCurves::join()
   }
 }
 
-std::optional<BoundaryCurves::Span> BoundaryCurves::span(
+std::optional<Span> BoundaryCurves::span(
   const SimplexMesh<2>& mesh, Index a, Index b) const
 {
-  const CurvePlace<2>& pa = mesh.pointData(a);
-  const CurvePlace<2>& pb = mesh.pointData(b);
-  if (pa.curve == None && pb.curve == None)
+  const Place pa = mesh.place(a), pb = mesh.place(b);
+  if (pa.part == None && pb.part == None)
   {
     const auto found = this->betweenCorners_.find({ std::min(a, b), std::max(a, b) });
     if (found == this->betweenCorners_.end() || found->second == None)
@@ -355,17 +356,17 @@ std::optional<BoundaryCurves::Span> BoundaryCurves::span(
     const bool forward = piece.ends[0] == a;
     return Span{ found->second, piece.range[forward ? 0 : 1], piece.range[forward ? 1 : 0] };
   }
-  const Index k = pa.curve != None ? pa.curve : pb.curve;
+  const Index k = pa.part != None ? pa.part : pb.part;
   const Piece& piece = this->pieces_[k];
   // Parameter of p, as seen from the neighbour at s.
-  const auto parameter = [&](Index p, const CurvePlace<2>& place, double s) -> std::optional<double>
+  const auto parameter = [&](Index p, const Place& place, double s) -> std::optional<double>
   {
-    if (place.curve == k)
+    if (place.part == k)
     {
       return place.parameter;
     }
     const bool isFirst = piece.ends[0] == p, isLast = piece.ends[1] == p;
-    if (place.curve != None || (!isFirst && !isLast))
+    if (place.part != None || (!isFirst && !isLast))
     {
       return std::nullopt;
     }
@@ -390,7 +391,7 @@ std::optional<BoundaryCurves::Span> BoundaryCurves::span(
 
 bool BoundaryCurves::mayBeNeighbours(const Span& s) const
 {
-  const Piece& piece = this->pieces_[s.piece];
+  const Piece& piece = this->pieces_[s.part];
   if (piece.ends[0] != piece.ends[1])
   {
     return true;
@@ -398,5 +399,72 @@ bool BoundaryCurves::mayBeNeighbours(const Span& s) const
   const double all = piece.ends[0] == None ? this->period(piece)
                                            : std::fabs(piece.range[1] - piece.range[0]);
   return std::fabs(s.to - s.from) <= FarthestNeighbours * all;
+}
+
+Place BoundaryCurves::project(const Place& place, const Vec<2>& x, Vec<2>& there) const
+{
+  Place result = place;
+  double distance = 0.0;
+  result.parameter = this->curves_[this->pieces_[place.part].curve].closest(x, distance);
+  there = this->at(result.part, result.parameter);
+  return result;
+}
+
+int BoundaryCurves::tangents(
+  const Place& place, const Vec<2>&, std::array<Vec<2>, 2>& basis) const
+{
+  basis[0] = this->curves_[this->pieces_[place.part].curve].direction(place.parameter);
+  return 1;
+}
+
+std::optional<SlidingRange> BoundaryCurves::range(
+  const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const
+{
+  std::vector<Index> ends; // over kept facets
+  for (Index c : star)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const Facet<2> f = mesh.facet(c, i);
+      if (mesh.isConstrained(c, i) && (f[0] == v || f[1] == v))
+      {
+        ends.push_back(f[0] == v ? f[1] : f[0]);
+      }
+    }
+  }
+  std::sort(ends.begin(), ends.end()); // the order of the star must not matter
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  if (mesh.freedom(v) != Freedom::Curve || ends.size() != 2)
+  {
+    return std::nullopt;
+  }
+  const auto low = this->span(mesh, v, ends[0]), high = this->span(mesh, v, ends[1]);
+  return low && high ? std::optional<SlidingRange>({ { ends[0], ends[1] }, low->to, high->to })
+                     : std::nullopt;
+}
+
+bool BoundaryCurves::mayJoin(
+  const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v, Index u) const
+{
+  const auto range = this->range(mesh, star, v);
+  if (!range || (range->ends[0] != u && range->ends[1] != u))
+  {
+    return false;
+  }
+  const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
+  const bool isEar = std::any_of(star.begin(), star.end(),
+    [&](Index c) { return mesh.localIndex(c, u) >= 0 && mesh.localIndex(c, w) >= 0; });
+  const Span joined{ mesh.place(v).part, range->low, range->high };
+  if (isEar || !this->mayBeNeighbours(joined) ||
+    this->sagitta(joined) > Sagitta * (mesh.point(u) - mesh.point(w)).norm())
+  {
+    return false;
+  }
+  if (mesh.place(u).part == None && mesh.place(w).part == None)
+  {
+    const auto between = this->span(mesh, u, w);
+    return between && between->part == joined.part; // two corners may have several pieces between them
+  }
+  return true;
 }
 }

@@ -6,6 +6,7 @@
 
 #include "Surface/LineNetwork.h"
 #include "Surface/PlaneCurve.h"
+#include "Surface/Surface.h"
 #include "Mesh/MeshEditor.h"
 
 #include <map>
@@ -32,17 +33,11 @@ struct CurveOptions
 /// geometry that is given. Interfaces between regions and both sides of a crack are pieces like
 /// those of the outer boundary.
 ///
-/// Points of a piece, but for its corners, get their CurvePlace: the piece and the parameter.
-class BoundaryCurves
+/// Points of a piece, but for its corners, get a place: Freedom::Curve, the piece and the parameter.
+/// A piece is what Surface calls a part.
+class BoundaryCurves final : public Surface<2>
 {
 public:
-  /// The part of a curve between two neighbours on a piece.
-  struct Span
-  {
-    Index piece;
-    double from, to; ///< parameters; those of a closed curve may be out of its range
-  };
-
   /// Makes the curves from the mesh's own kept facets; `corners`: one per point slot, or empty.
   void build(MeshEditor<2>& editor, const CurveOptions& options,
     const std::vector<std::uint8_t>& corners = {});
@@ -55,13 +50,28 @@ public:
 
   std::size_t numberOfPieces() const { return this->pieces_.size(); }
 
-  /// The span of the kept facet from a to b. Empty if it is on no piece.
-  std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const;
+  Vec<2> at(Index piece, double s) const override
+  {
+    return this->curves_[this->pieces_[piece].curve].at(s);
+  }
+  Place project(const Place& place, const Vec<2>& x, Vec<2>& there) const override;
+  int tangents(
+    const Place& place, const Vec<2>& x, std::array<Vec<2>, 2>& basis) const override;
+  std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const override;
+  std::optional<SlidingRange> range(
+    const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const override;
+  bool mayDivide(const SimplexMesh<2>& mesh, Index a, Index b) const override
+  {
+    return this->span(mesh, a, b).has_value();
+  }
+  /// v can only go along its piece, and not if that would fold the boundary, or leave the curve a
+  /// tenth of the new edge's length away from it.
+  bool mayJoin(const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v,
+    Index u) const override;
 
-  Vec<2> at(Index piece, double s) const { return this->curves_[this->pieces_[piece].curve].at(s); }
   double sagitta(const Span& s) const
   {
-    return this->curves_[this->pieces_[s.piece].curve].sagitta(s.from, s.to);
+    return this->curves_[this->pieces_[s.part].curve].sagitta(s.from, s.to);
   }
   /// Whether two neighbours on the piece may be so far apart, from one parameter to the other: not
   /// if the way around a closed curve could no longer be told.

@@ -11,8 +11,16 @@ namespace
 constexpr double LongEdge = 2.0;
 }
 
-std::shared_ptr<const SizeFloor<2>> keptSizeFloor(const SimplexMesh<2>& mesh,
-  const NodalMetric<2>& metric, const BoundaryCurves* curves, double& longest)
+template <>
+std::shared_ptr<const SizeFloor<3>> keptSizeFloor<3>(
+  const SimplexMesh<3>&, const NodalMetric<3>&, const Surface<3>*, double&)
+{
+  return nullptr;
+}
+
+template <>
+std::shared_ptr<const SizeFloor<2>> keptSizeFloor<2>(const SimplexMesh<2>& mesh,
+  const NodalMetric<2>& metric, const Surface<2>* surface, double& longest)
 {
   std::vector<SizeFloor<2>::Edge> edges;
   longest = 0.0;
@@ -22,7 +30,7 @@ std::shared_ptr<const SizeFloor<2>> keptSizeFloor(const SimplexMesh<2>& mesh,
     for (int i = 0; i < 3 && mesh.isAlive(c); ++i)
     {
       const Facet<2> f = mesh.facet(c, i);
-      if (!mesh.isConstrained(c, i) || (curves && curves->span(mesh, f[0], f[1])))
+      if (!mesh.isConstrained(c, i) || (surface && surface->mayDivide(mesh, f[0], f[1])))
       {
         continue;
       }

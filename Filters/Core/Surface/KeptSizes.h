@@ -4,18 +4,27 @@
 #ifndef meshopt_Surface_KeptSizes_h
 #define meshopt_Surface_KeptSizes_h
 
-#include "Surface/BoundaryCurves.h"
 #include "Metric/NodalMetric.h"
+#include "Surface/Surface.h"
 
 #include <memory>
 
 namespace meshopt
 {
-/// The least size that can be had beside the edges of a plane mesh that must stay (on no piece of
-/// `curves`; null: all kept ones). `longest`: the longest of them, in the length wanted there. Null where
-/// that is at most 2: then what is wanted can be had.
-std::shared_ptr<const SizeFloor<2>> keptSizeFloor(const SimplexMesh<2>& mesh,
-  const NodalMetric<2>& metric, const BoundaryCurves* curves, double& longest);
+/// The least size that can be had beside the edges of a plane mesh that must stay: kept ones, but those
+/// that `surface` (null: none) lets be divided. `longest`: the longest of them, in the length wanted
+/// there. Null where that is at most 2: then what is wanted can be had. In space always null: there is
+/// no such floor yet, and `longest` stays as it is.
+template <int D>
+std::shared_ptr<const SizeFloor<D>> keptSizeFloor(const SimplexMesh<D>& mesh,
+  const NodalMetric<D>& metric, const Surface<D>* surface, double& longest);
+
+template <>
+std::shared_ptr<const SizeFloor<2>> keptSizeFloor<2>(
+  const SimplexMesh<2>&, const NodalMetric<2>&, const Surface<2>*, double&);
+template <>
+std::shared_ptr<const SizeFloor<3>> keptSizeFloor<3>(
+  const SimplexMesh<3>&, const NodalMetric<3>&, const Surface<3>*, double&);
 }
 
 #endif

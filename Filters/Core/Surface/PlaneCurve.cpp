@@ -107,23 +107,46 @@ void PlaneCurve::fit()
   this->spline_ = Spline(knots, control.transpose().array());
 }
 
-Vec<2> PlaneCurve::at(double s) const
+double PlaneCurve::inRange(double s) const
 {
   if (this->isClosed_)
   {
     s -= std::floor(s / this->length()) * this->length();
   }
-  s = std::clamp(s, 0.0, this->length());
+  return std::clamp(s, 0.0, this->length());
+}
+
+/// The number of the point at the end of the straight line that s is on.
+std::size_t PlaneCurve::segmentAt(double s) const
+{
+  const auto next = std::upper_bound(this->knots_.begin(), this->knots_.end(), s);
+  return std::clamp<std::size_t>(
+    static_cast<std::size_t>(next - this->knots_.begin()), 1, this->knots_.size() - 1);
+}
+
+Vec<2> PlaneCurve::at(double s) const
+{
+  s = this->inRange(s);
   if (this->isSpline_)
   {
     return Vec<2>(this->spline_((s - this->splineBegin_) / this->splineLength_).matrix());
   }
-  auto next = std::upper_bound(this->knots_.begin(), this->knots_.end(), s);
-  const std::size_t k = std::clamp<std::size_t>(
-    static_cast<std::size_t>(next - this->knots_.begin()), 1, this->knots_.size() - 1);
+  const std::size_t k = this->segmentAt(s);
   const double step = this->knots_[k] - this->knots_[k - 1];
   const double t = step > 0.0 ? (s - this->knots_[k - 1]) / step : 0.0;
   return Vec<2>(this->points_[k - 1] + t * (this->points_[k] - this->points_[k - 1]));
+}
+
+Vec<2> PlaneCurve::direction(double s) const
+{
+  s = this->inRange(s);
+  if (this->isSpline_)
+  {
+    const auto d = this->spline_.derivatives((s - this->splineBegin_) / this->splineLength_, 1);
+    return Vec<2>(d.col(1).matrix().normalized());
+  }
+  const std::size_t k = this->segmentAt(s);
+  return Vec<2>(this->points_[k] - this->points_[k - 1]).normalized();
 }
 
 /// Golden section between the ends of a segment of the polygon.

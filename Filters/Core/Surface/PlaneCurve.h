@@ -28,6 +28,8 @@ public:
   double parameter(std::size_t k) const { return this->knots_[k]; }
 
   Vec<2> at(double s) const;
+  /// Unit vector along the curve at s; at a point between two straight lines that of the line after it.
+  Vec<2> direction(double s) const;
 
   /// Parameter of the point of the curve that is nearest to x, and the distance to it.
   double closest(const Vec<2>& x, double& distance) const;
@@ -44,6 +46,8 @@ private:
   using Spline = Eigen::Spline<double, 2, Eigen::Dynamic>;
 
   void fit();
+  double inRange(double s) const;
+  std::size_t segmentAt(double s) const;
   double distanceAt(double s, const Vec<2>& x) const { return (this->at(s) - x).norm(); }
   double refine(std::size_t segment, const Vec<2>& x, double& distance) const;
 

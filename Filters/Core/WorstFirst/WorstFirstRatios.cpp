@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "WorstFirst/WorstFirstRun.h"
+#include "WorstFirst/Schedule.h"
 
 namespace meshopt
 {

@@ -34,6 +34,7 @@ struct Request
   vtkAlgorithm* Filter = nullptr; ///< knows the names of the input arrays
   meshopt::Options Options;
   meshopt::Control Control;
+  int NumberOfThreads = 1;
   const vtkMeshBridge::Deadline* TimeLimit = nullptr; ///< tells an abort by the clock from others
   double OptimizeBelow = 0.0; ///< only cells under it may change, and layers around; 0: all
   int NumberOfLayers = 0;

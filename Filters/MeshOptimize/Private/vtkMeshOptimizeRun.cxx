@@ -32,6 +32,20 @@ namespace vtkMeshOptimizeBridge
 namespace
 {
 
+/**
+ * What the boundary may slide along; nullptr: it is kept.
+ */
+template <int D>
+const meshopt::Surface<D>* SurfaceOf(
+  const Request& request, [[maybe_unused]] const meshopt::BoundaryCurves& curves)
+{
+  if constexpr (D == 2)
+  {
+    return request.Slide ? &curves : nullptr;
+  }
+  return nullptr;
+}
+
 template <int D>
 void Optimize(
   const Request& request, const meshopt::BoundaryCurves& curves, Model<D>& model, Outcome& outcome)
@@ -40,7 +54,7 @@ void Optimize(
   const double areaBefore = D == 2 ? model.Mesh.volume() : 0.0;
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(
-    model.Mesh, model.Metric, request.Options, request.Control, request.Slide ? &curves : nullptr);
+    model.Mesh, model.Metric, request.Options, request.Control, SurfaceOf<D>(request, curves));
   if (outcome.Report.stopReason == meshopt::StopReason::Aborted && request.TimeLimit->WasSeen())
   {
     outcome.Report.stopReason = meshopt::StopReason::TimeLimit;

@@ -147,7 +147,7 @@ Reason FindReason(const SimplexMesh<D>& mesh, const meshopt::Report& report, Ind
     return EndedEarly;
   }
   const auto& nodes = mesh.nodes(slot);
-  return std::all_of(nodes.begin(), nodes.end(), [&](Index p) { return mesh.isFixed(p); })
+  return std::all_of(nodes.begin(), nodes.end(), [&](Index p) { return !mesh.isFree(p); })
     ? AllKept
     : NothingFound;
 }

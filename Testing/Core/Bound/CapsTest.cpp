@@ -3,7 +3,7 @@
 #include "Bound/Caps.h"
 #include "Bound/ApexBound.h"
 #include "Optimize/Optimizer.h"
-#include "Operations/QualityModel.h"
+#include "Edit/QualityModel.h"
 #include "Run/Summary.h"
 #include "TestMeshes.h"
 

@@ -88,7 +88,7 @@ TYPED_TEST(MeshAudit, FindsWhatIsBroken)
     { "one side only", [&](M& m) { Access::data(m, r).flags &= std::uint16_t(~(1u << rSide)); } },
     { "between regions", [&](M& m) { Access::data(m, c).region = 7; } },
     { "is free",
-      [&](M& m) { Access::point(m, m.facet(s, side)[0]).flags &= std::uint8_t(~M::PointFixed); } },
+      [&](M& m) { Access::point(m, m.facet(s, side)[0]).flags &= std::uint8_t(~M::PointHeld); } },
     { "is free",
       [&](M& m)
       { Access::point(m, m.facet(s, side)[0]).flags &= std::uint8_t(~M::PointBoundary); } },

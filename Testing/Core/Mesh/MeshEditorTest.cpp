@@ -75,7 +75,7 @@ TYPED_TEST(Editor, InsertAndContract)
     EXPECT_GE(p, mesh.numberOfInputPoints());
     replaceAndCheck<D>(editor, { c }, joined<D>(mesh, { c }, p));
     EXPECT_EQ(editor.created().size(), std::size_t(D + 1));
-    EXPECT_TRUE(mesh.isPointAlive(p) && !mesh.isFixed(p));
+    EXPECT_TRUE(mesh.isPointAlive(p) && mesh.isFree(p));
     std::vector<Index> star;
     EXPECT_TRUE(editor.star(p, star));
     EXPECT_EQ(star.size(), std::size_t(D + 1));
@@ -219,7 +219,7 @@ TYPED_TEST(Editor, OwnersKeepToTheirPart)
   {
     root.setPointOwner(p, mesh.point(p)[0] < 0.6 ? 0 : 1);
   }
-  MeshEditor<D> editor(mesh, root.clock(), root.lastMark());
+  MeshEditor<D> editor = MeshEditor<D>::beside(root);
   editor.setOwner(0);
   Index inner = None, edge = None, foreign = None; // cells: in the midst, at the border, not owned
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
@@ -336,7 +336,7 @@ TYPED_TEST(Editor, UndoLeavesTheOtherOwnersWorkAlone)
   {
     root.setPointOwner(p, mesh.point(p)[0] < 0.6 ? 0 : 1);
   }
-  MeshEditor<D> left(mesh, root.clock(), root.lastMark()), right = left;
+  MeshEditor<D> left = MeshEditor<D>::beside(root), right = MeshEditor<D>::beside(root);
   left.setOwner(0);
   right.setOwner(1);
   left.growCells(100);

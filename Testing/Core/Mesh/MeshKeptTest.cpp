@@ -97,7 +97,7 @@ TYPED_TEST(MeshKept, RegionsAreKeptApart)
     {
       kept = kept || mesh.point(p)[d] == 0.0 || mesh.point(p)[d] == 1.0;
     }
-    EXPECT_EQ(mesh.isFixed(p), kept);
+    EXPECT_EQ(!mesh.isFree(p), kept);
     EXPECT_EQ(mesh.isBoundary(p), kept);
   }
   expectSound(mesh);
@@ -115,7 +115,7 @@ TYPED_TEST(MeshKept, ListedFacetsAndFixedPointsAreKept)
     for (int i = 0; i <= D; ++i)
     {
       const Facet<D> f = plain.facet(c, i);
-      if (std::none_of(f.begin(), f.end(), [&](Index p) { return plain.isFixed(p); }))
+      if (std::none_of(f.begin(), f.end(), [&](Index p) { return !plain.isFree(p); }))
       {
         inner = c;
         facet = i;
@@ -135,7 +135,7 @@ TYPED_TEST(MeshKept, ListedFacetsAndFixedPointsAreKept)
   Index fixed = None;
   for (Index p = 0; p < plain.numberOfPointSlots(); ++p)
   {
-    if (!plain.isFixed(p) && plain.localIndex(inner, p) < 0)
+    if (plain.isFree(p) && plain.localIndex(inner, p) < 0)
     {
       fixed = p;
     }
@@ -148,14 +148,14 @@ TYPED_TEST(MeshKept, ListedFacetsAndFixedPointsAreKept)
   EXPECT_TRUE(mesh.isConstrained(mesh.cellOf(h), mesh.facetOf(h)));
   for (Index p : mesh.facet(inner, facet))
   {
-    EXPECT_TRUE(mesh.isFixed(p) && mesh.isBoundary(p));
+    EXPECT_TRUE(!mesh.isFree(p) && mesh.isBoundary(p));
   }
-  EXPECT_TRUE(mesh.isFixed(fixed));
+  EXPECT_FALSE(mesh.isFree(fixed));
   EXPECT_FALSE(mesh.isBoundary(fixed));
   Index more = 0;
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
-    more += mesh.isFixed(p) && !plain.isFixed(p);
+    more += !mesh.isFree(p) && plain.isFree(p);
   }
   EXPECT_EQ(more, D + 1);
   expectSound(mesh);
@@ -245,7 +245,7 @@ TEST(MeshKept2D, PinchedPointIsFixed)
       in.cells.push_back({ 0, 1 + 5 * fan + k, 1 + 5 * fan + (k + 1) % 5 });
     }
   }
-  EXPECT_TRUE(buildMesh(in).isFixed(0));
+  EXPECT_FALSE(buildMesh(in).isFree(0));
   in.cells.resize(5);
-  EXPECT_FALSE(buildMesh(in).isFixed(0));
+  EXPECT_TRUE(buildMesh(in).isFree(0));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges split and contracted one by one, those of the boundary and of interfaces included.
-#include "Operations/EdgeChange.h"
+#include "Operations/EdgeContraction.h"
+#include "Operations/EdgeSplit.h"
 #include "MeshSnapshot.h"
 #include "PlaneMeshes.h"
 
@@ -21,7 +22,7 @@ struct Plane
     this->euler = this->mesh.eulerCharacteristic();
     this->areas = regionAreas(this->mesh);
   }
-  void apply(const EdgeChange<2>& change)
+  void apply(const Proposal<2>& change)
   {
     const std::vector<double> qualities(change.cells.size(), 0.5);
     ASSERT_TRUE(this->editor.replace(change.cavity, change.cells, qualities, change.keptChange()));
@@ -30,30 +31,31 @@ struct Plane
   {
     const Facet<2> f = this->mesh.facet(t, i);
     Vec<2> x = 0.5 * (this->mesh.point(f[0]) + this->mesh.point(f[1]));
-    CurvePlace<2> place;
+    Place place;
     const auto span = this->curves.span(this->mesh, f[0], f[1]);
     if (this->mesh.isConstrained(t, i) && span)
     {
-      place.curve = span->piece;
-      place.parameter = 0.5 * (span->from + span->to);
-      x = this->curves.at(place.curve, place.parameter);
+      place = { Freedom::Curve, span->part, 0.5 * (span->from + span->to) };
+      x = this->curves.at(place.part, place.parameter);
     }
+    const std::size_t start = this->editor.begin();
     const Index p = this->editor.addPoint(x);
-    EdgeChange<2> change;
-    if (!change.split(this->editor, &this->curves, t, f[0], f[1], p))
+    Proposal<2> change;
+    if (!proposeSplit(this->editor, &this->curves, t, f[0], f[1], p, change))
     {
-      this->editor.dropPoint(p);
+      this->editor.rollback(start);
       return false;
     }
-    this->editor.setCurvePlace(p, place);
+    this->editor.setPlace(p, place);
     this->apply(change);
+    this->editor.commit(start);
     return true;
   }
   /// Only if all new cells are positive, as callers do.
   bool contract(Index v, Index u)
   {
-    EdgeChange<2> change;
-    if (!change.contract(this->editor, &this->curves, v, u))
+    Proposal<2> change;
+    if (!proposeContraction(this->editor, &this->curves, v, u, change))
     {
       return false;
     }
@@ -171,7 +173,7 @@ TEST(EdgeChange, OneAfterTheOther)
     EXPECT_LE(plane.mesh.countPoints(), static_cast<Index>(in.points.size()));
     for (Index p = 0; p < static_cast<Index>(in.points.size()); ++p)
     {
-      if (plane.mesh.isBoundary(p) && plane.mesh.pointData(p).curve == None)
+      if (plane.mesh.isBoundary(p) && plane.mesh.freedom(p) == Freedom::Fixed)
       {
         EXPECT_TRUE(plane.mesh.isPointAlive(p)) << "corner " << p;
         EXPECT_EQ(plane.mesh.point(p), in.points[p]);
@@ -202,8 +204,8 @@ TEST(EdgeChange, EveryNeighbourIsTried)
       around.erase(v);
       for (Index u : around)
       {
-        const bool slides = plane.mesh.pointData(v).curve != None;
-        const bool corner = plane.mesh.isFixed(v) && !slides;
+        const bool slides = plane.mesh.freedom(v) == Freedom::Curve;
+        const bool corner = !plane.mesh.isFree(v) && !slides;
         const Snapshot<2> before(plane.editor);
         const std::size_t start = plane.editor.begin();
         const bool done = plane.contract(v, u);
@@ -269,21 +271,22 @@ TEST(EdgeChange, EarsAndCornersAreRefused)
   ear.cells = { { 0, 1, 2 } };
   Plane plane(ear);
   ASSERT_EQ(slidingPoints(plane.mesh), std::vector<Index>{ 2 });
-  EdgeChange<2> change;
+  Proposal<2> change;
   for (Index u : { 0, 1 })
   {
-    EXPECT_FALSE(change.contract(plane.editor, &plane.curves, 2, u));
-    EXPECT_FALSE(change.contract(plane.editor, &plane.curves, u, 2)); // a corner
+    EXPECT_FALSE(proposeContraction<2>(plane.editor, &plane.curves, 2, u, change));
+    EXPECT_FALSE(proposeContraction<2>(plane.editor, &plane.curves, u, 2, change)); // a corner
   }
   // along its piece only: not inwards, nor to another side
   Plane square(jitteredGrid<2>(4, 0.0));
-  EXPECT_TRUE(change.contract(square.editor, &square.curves, 2, 1));
-  EXPECT_TRUE(change.contract(square.editor, &square.curves, 2, 3));
-  EXPECT_FALSE(change.contract(square.editor, &square.curves, 2, 7));
-  EXPECT_FALSE(change.contract(square.editor, &square.curves, 2, 8));
+  EXPECT_TRUE(proposeContraction<2>(square.editor, &square.curves, 2, 1, change));
+  EXPECT_TRUE(proposeContraction<2>(square.editor, &square.curves, 2, 3, change));
+  EXPECT_FALSE(proposeContraction<2>(square.editor, &square.curves, 2, 7, change));
+  EXPECT_FALSE(proposeContraction<2>(square.editor, &square.curves, 2, 8, change));
   // nothing of the boundary without curves
-  EXPECT_FALSE(change.contract(square.editor, nullptr, 2, 1));
-  EXPECT_FALSE(change.split(square.editor, nullptr, 0, 0, 1, square.editor.addPoint({ 0.1, 0.0 })));
+  EXPECT_FALSE(proposeContraction<2>(square.editor, nullptr, 2, 1, change));
+  const Index p = square.editor.addPoint({ 0.1, 0.0 });
+  EXPECT_FALSE(proposeSplit<2>(square.editor, nullptr, 0, 0, 1, p, change));
   // not around a ring to less than what can be told apart
   Plane triangle(ring(3, 0.3, 1.0), true);
   for (Index v : slidingPoints(triangle.mesh))
@@ -292,7 +295,7 @@ TEST(EdgeChange, EarsAndCornersAreRefused)
     {
       if (u / 3 == v / 3 && u != v)
       {
-        EXPECT_FALSE(change.contract(triangle.editor, &triangle.curves, v, u));
+        EXPECT_FALSE(proposeContraction<2>(triangle.editor, &triangle.curves, v, u, change));
       }
     }
   }
@@ -300,11 +303,11 @@ TEST(EdgeChange, EarsAndCornersAreRefused)
 
 TEST(EdgeChange, KeepsShape)
 {
-  EdgeChange<2> change;
+  Proposal<2> change;
   Plane circle(disc(32), true);
-  EXPECT_TRUE(change.contract(circle.editor, &circle.curves, 1, 0));
+  EXPECT_TRUE(proposeContraction<2>(circle.editor, &circle.curves, 1, 0, change));
   Plane coarse(disc(9), true); // a node less: sagitta / chord = tan(40 deg / 2) / 2
-  EXPECT_FALSE(change.contract(coarse.editor, &coarse.curves, 1, 0));
+  EXPECT_FALSE(proposeContraction<2>(coarse.editor, &coarse.curves, 1, 0, change));
 }
 
 TEST(EdgeChange, InSpaceTheSurfaceStays)
@@ -315,7 +318,7 @@ TEST(EdgeChange, InSpaceTheSurfaceStays)
   const double volume = mesh.volume();
   const long euler = mesh.eulerCharacteristic();
   int splits = 0, refused = 0;
-  EdgeChange<3> change;
+  Proposal<3> change;
   for (Index t = 0; t < 100; ++t)
   {
     for (int e = 0; e < 6 && mesh.isAlive(t); ++e)
@@ -325,7 +328,7 @@ TEST(EdgeChange, InSpaceTheSurfaceStays)
       const Snapshot<3> before(editor);
       const std::size_t start = editor.begin();
       const Index p = editor.addPoint(Vec<3>(0.5 * (mesh.point(a) + mesh.point(b))));
-      if (change.split(editor, nullptr, t, a, b, p))
+      if (proposeSplit<3>(editor, nullptr, t, a, b, p, change))
       {
         editor.replace(change.cavity, change.cells, std::vector<double>(change.cells.size(), 0.5),
           change.keptChange());
@@ -350,6 +353,6 @@ TEST(EdgeChange, InSpaceTheSurfaceStays)
     std::vector<Index> star;
     mesh.star(v, star);
     const Index u = mesh.nodes(star[0])[mesh.nodes(star[0])[0] == v ? 1 : 0];
-    EXPECT_EQ(change.contract(editor, nullptr, v, u), !mesh.isFixed(v)) << v;
+    EXPECT_EQ(proposeContraction<3>(editor, nullptr, v, u, change), mesh.isFree(v)) << v;
   }
 }

@@ -52,7 +52,7 @@ Polyhedron polyhedronOf(const SimplexMesh<3>& mesh, const std::vector<Index>& ce
       if (numbers.emplace(p, int(numbers.size())).second)
       {
         result.points.push_back(mesh.point(p));
-        result.stay.push_back(mesh.isFixed(p));
+        result.stay.push_back(!mesh.isFree(p));
       }
     }
   }

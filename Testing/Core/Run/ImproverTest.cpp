@@ -2,7 +2,7 @@
 // Single improvements: where metric and size vary from place to place each must raise the sorted
 // vector of qualities, as they really are after it; and the limits of what may go.
 #include "Run/Improver.h"
-#include "Run/Summary.h"
+#include "Run/Run.h"
 #include "Quality/Shape.h"
 #include "TestMeshes.h"
 
@@ -51,12 +51,12 @@ TYPED_TEST(Improving, InAVaryingMetricRaisesWhatIsThere)
     Options options;
     const QualityModel<D, Shape> model(mesh, metric, 0.0);
     ASSERT_FALSE(model.plain);
-    const Caps<D> caps;
-    Engine improver(editor, model, caps, options);
-    improver.setGrowth(10000);
-    improver.setTarget(0.9, -1.0);
+    const FollowedMetric<D> follows(editor, metric);
+    Engine improver(editor, model, options);
+    improver.judge().growth.left = 10000;
+    improver.judge().setTarget(0.9);
     std::vector<double> before = sortedQualities(mesh);
-    for (int level : { Engine::Insertion, Engine::LookAhead })
+    for (int level : { Level::Insertion, Level::LookAhead })
     {
       for (Index t = 0; t < 400 && t < mesh.numberOfCellSlots(); ++t)
       {
@@ -70,7 +70,7 @@ TYPED_TEST(Improving, InAVaryingMetricRaisesWhatIsThere)
         before = after;
       }
     }
-    inserted += improver.done[static_cast<int>(Operation::NodeInsertion)];
+    inserted += improver.judge().done[static_cast<int>(Operation::NodeInsertion)];
     expectSound(mesh);
     computeQualities<D>(editor, metric, Measure::Shape, 0.0);
     const std::vector<double> computed = sortedQualities(mesh);
@@ -92,17 +92,16 @@ Index pointsLeft(long growth, long most)
   MeshEditor<D> editor(mesh);
   computeQualities<D>(editor, metric, Measure::Shape, 0.0);
   const QualityModel<D, Shape> model(mesh, metric, 0.0);
-  const Caps<D> caps;
   Options options;
   options.moveNodes = options.reconnect = options.insertNodes = false;
-  Improver<D, Shape> improver(editor, model, caps, options);
-  improver.setGrowth(growth, most);
-  improver.setTarget(0.9, -1.0);
+  Improver<D, Shape> improver(editor, model, options);
+  improver.judge().growth = { growth, most };
+  improver.judge().setTarget(0.9);
   for (Index t = 0; t < mesh.numberOfCellSlots(); ++t)
   {
     if (mesh.isAlive(t) && mesh.quality(t) < 0.7)
     {
-      improver.improve(t, Improver<D, Shape>::Insertion);
+      improver.improve(t, Level::Insertion);
     }
   }
   expectSound(mesh);

@@ -76,7 +76,12 @@ Result<D> optimized(const MeshInput<D>& in, const NodalMetric<D>& metric, const 
   Options o = given;
   o.desiredSize = metric.hasSizes() ? 0.0 : metric.element(Simplex<D>()).desiredSize;
   EXPECT_EQ(o.check(metric.hasSizes()), "");
-  run.report = optimize<D>(run.mesh, run.metric, o, control, slide ? &run.curves : nullptr);
+  const Surface<D>* surface = nullptr;
+  if constexpr (D == 2)
+  {
+    surface = slide ? &run.curves : nullptr;
+  }
+  run.report = optimize<D>(run.mesh, run.metric, o, control, surface);
   check(run, euler, o);
   if (!slide)
   {

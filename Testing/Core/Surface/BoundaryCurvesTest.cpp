@@ -54,7 +54,7 @@ std::vector<Vec<2>> corners(const SimplexMesh<2>& mesh)
   std::vector<Vec<2>> result;
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
-    if (mesh.isPointAlive(p) && mesh.isBoundary(p) && mesh.pointData(p).curve == None)
+    if (mesh.isPointAlive(p) && mesh.isBoundary(p) && mesh.freedom(p) == Freedom::Fixed)
     {
       result.push_back(mesh.point(p));
     }
@@ -84,7 +84,7 @@ TEST(BoundaryCurves, SquareAndBracket)
   const auto side = two.curves.span(two.mesh, 0, 1); // corner to corner
   ASSERT_TRUE(side);
   EXPECT_LT(
-    (two.curves.at(side->piece, 0.5 * (side->from + side->to)) - Vec<2>(0.5, 0)).norm(), 1e-15);
+    (two.curves.at(side->part, 0.5 * (side->from + side->to)) - Vec<2>(0.5, 0)).norm(), 1e-15);
   EXPECT_FALSE(two.curves.span(two.mesh, 0, 3)); // the diagonal is no piece
   const Made l = make(bracket(4));
   EXPECT_EQ(l.curves.numberOfPieces(), 6u);
@@ -120,10 +120,10 @@ TEST(BoundaryCurves, InterfacesAndHoles)
   const auto span = hole.curves.span(hole.mesh, 15, 0);
   ASSERT_TRUE(span);
   EXPECT_NEAR(
-    (hole.curves.at(span->piece, 0.5 * (span->from + span->to)) - onCircle(15.5 / 16, 0.3)).norm(),
+    (hole.curves.at(span->part, 0.5 * (span->from + span->to)) - onCircle(15.5 / 16, 0.3)).norm(),
     0.0, 1e-4);
   EXPECT_TRUE(hole.curves.mayBeNeighbours(*span));
-  EXPECT_FALSE(hole.curves.mayBeNeighbours({ span->piece, 0.0, 0.3 * Pi }));
+  EXPECT_FALSE(hole.curves.mayBeNeighbours({ span->part, 0.0, 0.3 * Pi }));
 }
 
 TEST(BoundaryCurves, CornersByAngleAndByFlag)
@@ -159,7 +159,7 @@ TEST(BoundaryCurves, FinerGeometry)
     {
       const auto span = made.curves.span(made.mesh, p, (p + 1) % 16);
       ASSERT_TRUE(span);
-      const Vec<2> x = made.curves.at(span->piece, 0.5 * (span->from + span->to));
+      const Vec<2> x = made.curves.at(span->part, 0.5 * (span->from + span->to));
       EXPECT_LT((x - onCircle((p + 0.5) / 16)).norm(), splines ? 1e-5 : 2e-3);
       EXPECT_NEAR(made.curves.sagitta(*span), 1.0 - std::cos(Pi / 16), 2e-3);
     }
@@ -199,7 +199,7 @@ TEST(BoundaryCurves, GeometryWithOneCorner)
       {
         const auto span = made.curves.span(made.mesh, p, (p + 1) % 16);
         ASSERT_TRUE(span);
-        const Vec<2> x = made.curves.at(span->piece, 0.5 * (span->from + span->to));
+        const Vec<2> x = made.curves.at(span->part, 0.5 * (span->from + span->to));
         EXPECT_LT((x - onCircle((p + 0.5) / 16)).norm(), 1e-3) << at << " " << p;
       }
     }
@@ -285,13 +285,13 @@ TEST(BoundaryCurves, StraightSidesStayStraight)
     ASSERT_TRUE(span);
     for (double t : { 0.1, 0.5, 0.9 })
     {
-      const double y = made.curves.at(span->piece, span->from + t * (span->to - span->from))[1];
+      const double y = made.curves.at(span->part, span->from + t * (span->to - span->from))[1];
       EXPECT_EQ(std::fabs(y), 1.0);
     }
   }
   const auto arc = made.curves.span(made.mesh, 3, 4);
   ASSERT_TRUE(arc);
-  const Vec<2> x = made.curves.at(arc->piece, 0.5 * (arc->from + arc->to));
+  const Vec<2> x = made.curves.at(arc->part, 0.5 * (arc->from + arc->to));
   EXPECT_NEAR((x - Vec<2>(10, 0)).norm(), 1.0, 1e-3);
 }
 
@@ -329,7 +329,7 @@ TEST(BoundaryCurves, LensOfTwoArcs)
       {
         const auto span = made.curves.span(made.mesh, k, (k + 1) % (2 * n));
         ASSERT_TRUE(span);
-        const double y = made.curves.at(span->piece, 0.5 * (span->from + span->to))[1];
+        const double y = made.curves.at(span->part, 0.5 * (span->from + span->to))[1];
         EXPECT_EQ(y > 0.0, k >= n) << n << " " << k << " " << given;
       }
     }
@@ -351,7 +351,7 @@ TEST(BoundaryCurves, PointsAtOnePlaceAreCorners)
       EXPECT_TRUE(p == 4 || span) << p;
       if (span)
       {
-        EXPECT_TRUE(made.curves.at(span->piece, 0.5 * (span->from + span->to)).allFinite());
+        EXPECT_TRUE(made.curves.at(span->part, 0.5 * (span->from + span->to)).allFinite());
       }
     }
   }

@@ -82,7 +82,7 @@ MeshInput<D> withSlivers()
   std::vector<bool> used(in.points.size(), false);
   for (Index p = 0; p < mesh.numberOfPointSlots(); p += 5)
   {
-    if (mesh.isFixed(p))
+    if (!mesh.isFree(p))
     {
       continue;
     }

@@ -113,7 +113,7 @@ TYPED_TEST(WorstFirst, KeepsWhatMustStay)
   std::vector<Index> fixed;
   for (Index p = 0; p < plain.numberOfPointSlots(); ++p)
   {
-    if (!plain.isFixed(p) && p % 4 == 0)
+    if (plain.isFree(p) && p % 4 == 0)
     {
       in.fixedPoints[p] = 1;
       fixed.push_back(p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Operations/Operation.h"
+#include "Edit/Operation.h"
 
 namespace meshopt
 {

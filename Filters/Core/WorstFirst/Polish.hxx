@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file WorstFirstPolish.hxx
+/// @file Polish.hxx
 /// The end of a stage of the fast engine: the few worst cells get the hardest tries.
-#ifndef meshopt_WorstFirst_WorstFirstPolish_hxx
-#define meshopt_WorstFirst_WorstFirstPolish_hxx
+#ifndef meshopt_WorstFirst_Polish_hxx
+#define meshopt_WorstFirst_Polish_hxx
 
 namespace meshopt
 {
@@ -12,14 +12,14 @@ namespace worstfirst
 /// lifts the worst one. Where it does not, what surrounds them is lifted first, in ever wider
 /// neighbourhoods. Finely: for smaller gains, and closer to the caps.
 template <int D, class Shape>
-bool WorstFirst<D, Shape>::polish(double target, bool finely)
+bool Schedule<D, Shape>::polish(double target, bool finely)
 {
   this->guard_ = false;
   this->polishTarget_ = target;
   const double leastGain = finely ? FineGain : this->usualGain_;
   const double reached = finely ? CapReachedFinely : CapReached;
   this->caps_.setReached(reached);
-  const bool past = finely || target > this->options_.targetQuality + 1e-9;
+  const bool past = finely || this->isPast(target);
   bool more = true;
   std::vector<Entry> worst;
   // Where facets have tiny caps the next worst cells, and what surrounds them, are spared on purpose.
@@ -34,14 +34,14 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
     {
       break;
     }
-    const double before = this->report_.history.back().worst;
+    const double before = this->worst();
     this->gain_ = worst[0].first > worstOfAll ? CoarseGain : leastGain;
     // Near its cap a cell is not worth the work around it.
     this->caps_.setReached(CapReached);
     const bool nearCap = this->caps_.isCapped(this->mesh(), worst[0].second);
     this->caps_.setReached(reached);
     more = this->stage(std::nextafter(worst.back().first, 1.0));
-    if (this->report_.history.back().worst > before + RoundGain * this->gain_ * std::fabs(before))
+    if (this->worst() > before + RoundGain * this->gain_ * std::fabs(before))
     {
       layers = 0;
       wanted = PolishedCells;
@@ -73,7 +73,7 @@ bool WorstFirst<D, Shape>::polish(double target, bool finely)
 
 /// The worst cells under target that no cap holds, in order; returns the worst quality of all.
 template <int D, class Shape>
-double WorstFirst<D, Shape>::findWorst(
+double Schedule<D, Shape>::findWorst(
   double target, std::size_t wanted, std::vector<Entry>& worst) const
 {
   double worstOfAll = 1.0;
@@ -96,9 +96,10 @@ double WorstFirst<D, Shape>::findWorst(
   return worstOfAll;
 }
 
-/// Improves the cells in so many layers around the given ones towards a quality above theirs.
+/// The given cells, and so many layers of those that share a node with them.
 template <int D, class Shape>
-bool WorstFirst<D, Shape>::liftAround(const std::vector<Entry>& cells, int layers)
+std::vector<Index> Schedule<D, Shape>::cellsAround(
+  const std::vector<Entry>& cells, int layers) const
 {
   std::vector<Index> zone, front, star;
   std::vector<char> seen(this->mesh().numberOfCellSlots(), 0);
@@ -116,34 +117,35 @@ bool WorstFirst<D, Shape>::liftAround(const std::vector<Entry>& cells, int layer
       for (Index p : this->mesh().nodes(c))
       {
         this->mesh().star(p, star);
-        for (Index o : star)
-        {
-          if (!std::exchange(seen[o], 1))
-          {
-            next.push_back(o);
-          }
-        }
+        std::copy_if(star.begin(), star.end(), std::back_inserter(next),
+          [&](Index o) { return !std::exchange(seen[o], 1); });
       }
     }
     front.swap(next);
   }
+  return zone;
+}
+
+/// Improves the cells in so many layers around the given ones towards a quality above theirs.
+template <int D, class Shape>
+bool Schedule<D, Shape>::liftAround(const std::vector<Entry>& cells, int layers)
+{
+  const std::vector<Index> zone = this->cellsAround(cells, layers);
   const double gain = std::exchange(this->gain_, Gain);
   const double target = cells[0].first + layers * LiftStep;
   bool more = true;
-  for (int level = 0; level <= Improver<D, Shape>::Insertion && more; ++level)
+  for (int level = 0; level <= Level::Insertion && more; ++level)
   {
     std::vector<Index> bad;
-    for (Index c : zone)
-    {
-      if (this->mesh().isAlive(c) && this->mesh().quality(c) < target &&
-        this->worthTrying(c, level) && !this->caps_.isCapped(this->mesh(), c))
+    std::copy_if(zone.begin(), zone.end(), std::back_inserter(bad),
+      [&](Index c)
       {
-        bad.push_back(c);
-      }
-    }
-    this->pass(target, level, bad, static_cast<long>(bad.size()));
+        return this->mesh().isAlive(c) && this->mesh().quality(c) < target &&
+          this->worthTrying(c, level) && !this->caps_.isCapped(this->mesh(), c);
+      });
+    this->pass({ target, level, static_cast<long>(bad.size()) }, bad);
     this->record(target, 0);
-    more = this->keepGoing(target);
+    more = this->goesOn(target);
   }
   this->gain_ = gain;
   return more;

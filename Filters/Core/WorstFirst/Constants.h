@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file WorstFirstConstants.h
+/// @file Constants.h
 /// What the schedule of the fast engine is tuned by.
-#ifndef meshopt_WorstFirst_WorstFirstConstants_h
-#define meshopt_WorstFirst_WorstFirstConstants_h
+#ifndef meshopt_WorstFirst_Constants_h
+#define meshopt_WorstFirst_Constants_h
 
 #include "Mesh/Types.h"
 
@@ -17,6 +17,7 @@ namespace worstfirst
 inline constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.69, 0.705, 0.72, 0.73,
   0.74, 0.75, 0.76 };
 inline constexpr int MaximumPasses = 10;      // of one stage
+inline constexpr int MostIdle = 2;            // stages past the target that may lift nothing
 inline constexpr Index CellsPerChunk = 20000; // fewer make borders too long
 inline constexpr int BadCellsPerChunk = 32;   // fewer are not worth a chunk
 inline constexpr int PolishedPerChunk = 4;    // the same where each is tried long
@@ -48,13 +49,16 @@ inline constexpr long Patience[] = { std::numeric_limits<int>::max(), 50, 20, 20
 inline constexpr long PatientTries = 200; // before that is looked at
 /// For insertion it is looked at after one in so many bad cells: the first ones are the most stuck.
 inline constexpr long PatientPart = 5;
-/// So many of the cells may go, unless sizes are wanted, before nodes are kept.
+/// No more nodes are removed once this part of the cells is gone (unless sizes are wanted).
 inline constexpr double ShrinkBudget = 0.12;
+/// One in so many cells of the growth budget is kept for polishing.
+inline constexpr long ReservedPart = 10;
 /// The growth budget is used up where no more than this part of it is left, or one node's cells.
 inline constexpr double UsedUp = 0.1;
 inline constexpr long OneNode = 10;
-/// On the way to the target look-ahead is for the worst few cells of a pass: see fewCells().
-inline constexpr long FewCells = 200, FewestCells = 20;
+/// On the way to the target look-ahead is for the worst few cells of a pass: FewCells, or one in
+/// FewOfMany of all cells if that is more; in small meshes one in FewCellsPart, at least FewestCells.
+inline constexpr long FewCells = 200, FewestCells = 20, FewCellsPart = 20, FewOfMany = 100;
 /// After so many tries for each cell that was bad at first nodes only creep, and a pass asks for
 /// CoarseGain.
 inline constexpr long Creeping = 5;

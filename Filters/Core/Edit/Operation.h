@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Operation.h
 /// The kinds of operations, by name.
-#ifndef meshopt_Operations_Operation_h
-#define meshopt_Operations_Operation_h
+#ifndef meshopt_Edit_Operation_h
+#define meshopt_Edit_Operation_h
 
 namespace meshopt
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file QualityModel.h
 /// The quality that one run maximizes: measure, size factor and metric in one object.
-#ifndef meshopt_Operations_QualityModel_h
-#define meshopt_Operations_QualityModel_h
+#ifndef meshopt_Edit_QualityModel_h
+#define meshopt_Edit_QualityModel_h
 
-#include "Metric/NodalMetric.h"
 #include "Bound/Caps.h"
+#include "Metric/NodalMetric.h"
 #include "Quality/EdgeSum.h"
 #include "Quality/ElementQuality.h"
 
@@ -35,6 +35,14 @@ struct QualityModel
   {
   }
 
+  /// Of a cell with nodes at the places x.
+  double at(const Simplex<D>& nodes, const Corners<D>& x) const
+  {
+    const double q = this->plain ? Shape::value(x)
+                                 : this->quality.value(x, this->metric->element(nodes));
+    const bool weigh = this->weights && !(q < this->floor);
+    return weigh ? q * this->weights->weight(*this->mesh, nodes) : q;
+  }
   double operator()(const Simplex<D>& nodes) const
   {
     Corners<D> x;
@@ -42,10 +50,7 @@ struct QualityModel
     {
       x[i] = this->mesh->point(nodes[i]);
     }
-    const double q = this->plain ? Shape::value(x)
-                                 : this->quality.value(x, this->metric->element(nodes));
-    const bool weigh = this->weights && !(q < this->floor);
-    return weigh ? q * this->weights->weight(*this->mesh, nodes) : q;
+    return this->at(nodes, x);
   }
   double weight(const Facet<D>& f) const
   {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Clock.h
+/// Whether a run goes on: progress, abort and time limit in one place.
+#ifndef meshopt_Base_Clock_h
+#define meshopt_Base_Clock_h
+
+#include "Base/Progress.h"
+
+namespace meshopt
+{
+/// Starts when it is made. The caller is told of progress at most about ten times a second, and may ask
+/// to stop. No result depends on the clock unless it stops the run.
+class Clock
+{
+public:
+  /// `timeLimit` in seconds; 0: none. The control must live as long as the clock.
+  explicit Clock(const Control& control, double timeLimit = 0.0)
+    : progress_(control)
+    , timeLimit_(timeLimit)
+  {
+  }
+
+  /// Reports progress: `fraction` in [0, 1] of the part that is at work, `text` makes a sentence about
+  /// it. Returns false once the caller has asked to stop or the time is over.
+  template <class Text>
+  bool goesOn(double fraction, Text&& text)
+  {
+    const double done = this->first_ + fraction * (this->last_ - this->first_);
+    return this->progress_.report(done, text) && !this->isOutOfTime();
+  }
+  bool isAborted() const { return this->progress_.cancelled(); }
+  /// May be asked by any thread.
+  bool isOutOfTime() const
+  {
+    return this->timeLimit_ > 0.0 && this->seconds() > this->timeLimit_;
+  }
+  bool hasStopped() const { return this->isAborted() || this->isOutOfTime(); }
+  /// Since the clock was made.
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->begin_).count();
+  }
+
+  /// As long as it lives, fractions are of a part of the work: that from `first` to `last` of the part
+  /// before.
+  class Part
+  {
+  public:
+    Part(Clock& clock, double first, double last)
+      : clock_(clock)
+      , first_(clock.first_)
+      , last_(clock.last_)
+    {
+      clock.first_ = this->first_ + first * (this->last_ - this->first_);
+      clock.last_ = this->first_ + last * (this->last_ - this->first_);
+      clock.progress_.expectNews();
+    }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+    ~Part()
+    {
+      this->clock_.first_ = this->first_;
+      this->clock_.last_ = this->last_;
+    }
+
+  private:
+    Clock& clock_;
+    double first_, last_;
+  };
+
+private:
+  Progress progress_;
+  double timeLimit_;
+  double first_ = 0.0, last_ = 1.0; // the part that is at work
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+}
+
+#endif

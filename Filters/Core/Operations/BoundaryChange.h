@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file BoundaryChange.h
+/// The changes of a cell that the boundary takes part in (figure 1 of the paper): its nodes slide
+/// along the curves that it follows, go and come.
+#ifndef meshopt_Operations_BoundaryChange_h
+#define meshopt_Operations_BoundaryChange_h
+
+#include "Base/GoldenSection.h"
+#include "Edit/Judge.h"
+#include "Operations/EdgeContraction.h"
+#include "Operations/EdgeSplit.h"
+#include "Operations/Level.h"
+#include "Operations/NodeMotion.h"
+
+namespace meshopt
+{
+template <int D, class Shape>
+class BoundaryChange
+{
+public:
+  static constexpr int level = Level::Topology;
+  static constexpr bool addsCells = false; // those that do look themselves
+  static bool isOn(const Switches&) { return true; }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int level)
+  {
+    if (!judge.surface())
+    {
+      return false;
+    }
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const Simplex<D> nodes = mesh.nodes(t);
+    for (Index v : nodes)
+    {
+      if (mesh.freedom(v) == Freedom::Curve &&
+        ((judge.switches().moveNodes && this->slide(judge, v)) ||
+          (level >= Level::Insertion && judge.switches().removeNodes && this->remove(judge, v))))
+      {
+        return true;
+      }
+    }
+    for (int e = 0; e < Local<D>::numberOfEdges && level >= Level::Insertion &&
+         judge.switches().insertNodes;
+         ++e)
+    {
+      if (this->split(judge, t, e))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  static constexpr int SearchSteps = 14;        ///< along a curve: to a thousandth of the range
+  static constexpr double FarthestSlide = 0.8; ///< part of the way to a neighbour
+
+  bool slide(Judge<D, Shape>& judge, Index v)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    this->proposal_.clear();
+    std::vector<Index>& star = this->proposal_.cavity;
+    if (!judge.editor().star(v, star))
+    {
+      return false;
+    }
+    const auto range = judge.surface()->range(mesh, star, v);
+    if (!range)
+    {
+      return false;
+    }
+    const double old = mesh.worstQuality(star);
+    loadStar(judge, star, v, this->problem_);
+    Place place = mesh.place(v);
+    const double s = place.parameter;
+    const auto quality = [&](double u)
+    { return this->problem_.evaluate(judge.surface()->at(place.part, u)); };
+    double now = Proposal<D>::Never;
+    place.parameter = goldenSection(s + FarthestSlide * (range->low - s),
+      s + FarthestSlide * (range->high - s), SearchSteps, quality, now);
+    const bool better = now > judge.required(old);
+    judge.count(Operation::NodeMotion, better);
+    if (!better)
+    {
+      return false;
+    }
+    this->proposal_.moves.push_back(
+      { v, judge.surface()->at(place.part, place.parameter), place });
+    this->proposal_.oldWorst = this->proposal_.least = old;
+    this->proposal_.newWorst = now;
+    return judge.accept(this->proposal_);
+  }
+
+  bool remove(Judge<D, Shape>& judge, Index v)
+  {
+    const bool isThere = judge.editor().star(v, this->star_);
+    if (!isThere)
+    {
+      return false;
+    }
+    const auto range = judge.surface()->range(judge.mesh(), this->star_, v);
+    bool done = false;
+    for (std::size_t k = 0; k < 2 && range && !done; ++k)
+    {
+      done =
+        proposeContraction(
+          judge.editor(), judge.surface(), v, range->ends[k], this->proposal_) &&
+        this->offer(judge);
+    }
+    judge.count(Operation::EdgeContraction, done);
+    return done;
+  }
+
+  /// Divides edge e of cell t, if it is on a curve, where that is best for this cell; what the other
+  /// cells have to say is seen by the judge.
+  bool split(Judge<D, Shape>& judge, Index t, int e)
+  {
+    constexpr long comes = D == 2 ? 2 : 6; // cells, or more
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const auto& local = Local<D>::edgeFirst[e];
+    const Index a = mesh.nodes(t)[local[0]], b = mesh.nodes(t)[local[1]];
+    const auto span = mesh.isEdgeKept(t, e) ? judge.surface()->span(mesh, a, b) : std::nullopt;
+    if (!span || judge.growth.left < comes)
+    {
+      return false;
+    }
+    const double s = this->bestParameter(judge, t, e, *span);
+    const Vec<D> x = judge.surface()->at(span->part, s);
+    const auto mark = judge.begin();
+    const Index p = judge.editor().addPoint(x);
+    bool done = p != None;
+    if (done)
+    {
+      judge.editor().movePoint(p, x, a);
+      judge.editor().setPlace(p, { Freedom::Curve, span->part, s });
+      done = proposeSplit(judge.editor(), judge.surface(), t, a, b, p, this->proposal_) &&
+        this->offer(judge);
+    }
+    judge.count(Operation::NodeInsertion, done);
+    done ? judge.commit(mark) : judge.rollback(mark);
+    return done;
+  }
+
+  /// Where on the span the worse half of cell t is best.
+  double bestParameter(const Judge<D, Shape>& judge, Index t, int e, const Span& span) const
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const QualityModel<D, Shape>& model = judge.model();
+    const ElementMetric<D> metric = model.metric->element(mesh.nodes(t));
+    Corners<D> first;
+    for (int i = 0; i <= D; ++i)
+    {
+      first[i] = mesh.point(mesh.nodes(t)[Local<D>::edgeFirst[e][i]]);
+    }
+    Corners<D> second = first;
+    const auto quality = [&](double s)
+    {
+      first[1] = second[0] = judge.surface()->at(span.part, s);
+      return std::min(model.quality.value(first, metric), model.quality.value(second, metric));
+    };
+    double best = Proposal<D>::Never;
+    return goldenSection(span.from, span.to, SearchSteps, quality, best);
+  }
+
+  /// Makes the change if the worst of its cells is better than what was there.
+  bool offer(Judge<D, Shape>& judge)
+  {
+    this->proposal_.least = judge.required(this->proposal_.oldWorst);
+    return judge.measure(this->proposal_) && judge.accept(this->proposal_);
+  }
+
+  Proposal<D> proposal_;
+  StarProblem<D, Shape> problem_;
+  std::vector<Index> star_;
+};
+}
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file ClusterMotion.h
+/// Several nodes move at once: those around a cell each of which is where it should be as long as the
+/// others stay.
+#ifndef meshopt_Operations_ClusterMotion_h
+#define meshopt_Operations_ClusterMotion_h
+
+#include "Edit/Judge.h"
+#include "Operations/Level.h"
+#include "Reposition/ClusterProblem.h"
+
+namespace meshopt
+{
+/// Moves the nodes of the cluster of cell t with neighbours of order 1 (section 2.2), less those of
+/// cells that are worse than t: those, held by a cap perhaps, would stop everything.
+template <int D, class Shape>
+class ClusterMotion
+{
+public:
+  static constexpr int level = Level::LongLookAhead;
+  static constexpr bool addsCells = false;
+  static bool isOn(const Switches& switches) { return switches.moveNodes; }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const double old = mesh.quality(t);
+    const auto mayMove = [&](Index p)
+    {
+      return mesh.isFree(p) && judge.editor().star(p, this->star_) &&
+        !(mesh.worstQuality(this->star_) < old);
+    };
+    this->gatherer_.gather(judge.editor(), t, 1, mayMove, this->cluster_);
+    const std::vector<Index>& cells = this->cluster_.cells;
+    if (std::find(cells.begin(), cells.end(), t) == cells.end())
+    {
+      return false;
+    }
+    this->readMetrics(judge);
+    const double now = this->problem_.maximize(this->cluster_, judge.model().quality,
+      this->metrics_, judge.enough(old), 0.5 * judge.gain(old));
+    bool better = now > judge.required(old) && (now > 0.0 || this->cluster_.isAmidPoints());
+    if (better)
+    {
+      this->proposal_.clear();
+      this->proposal_.cavity = cells;
+      for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
+      {
+        this->proposal_.moves.push_back({ this->cluster_.points[k], this->cluster_.x[k], {} });
+      }
+      this->proposal_.oldWorst = this->proposal_.least = old;
+      this->proposal_.newWorst = now;
+      better = judge.accept(this->proposal_);
+    }
+    judge.count(Operation::NodeMotion, better);
+    return better;
+  }
+
+private:
+  /// One for each cell of the cluster, or one for all.
+  void readMetrics(const Judge<D, Shape>& judge)
+  {
+    const QualityModel<D, Shape>& model = judge.model();
+    this->metrics_.clear();
+    if (model.plain)
+    {
+      this->metrics_.emplace_back();
+      return;
+    }
+    for (Index c : this->cluster_.cells)
+    {
+      this->metrics_.push_back(model.metric->element(judge.mesh().nodes(c)));
+    }
+  }
+
+  Proposal<D> proposal_;
+  ClusterProblem<D, Shape> problem_;
+  ClusterGatherer<D> gatherer_;
+  Cluster<D> cluster_;
+  std::vector<ElementMetric<D>> metrics_;
+  std::vector<Index> star_;
+};
+}
+
+#endif

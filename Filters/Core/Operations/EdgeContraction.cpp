@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Operations/EdgeContraction.h"
+
+#include "Mesh/Ids.h"
+
+namespace meshopt
+{
+namespace
+{
+/// Kept facets and edges at v go; those that u has not get it in place of v.
+template <int D>
+void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
+{
+  p.changesKept = true;
+  for (Index c : p.cavity)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      const Facet<D> f = mesh.facet(c, i);
+      if (!mesh.isConstrained(c, i) || !hasId(f, v))
+      {
+        continue;
+      }
+      p.kept.gone.push_back(f);
+      if (!hasId(f, u))
+      {
+        p.kept.come.push_back(exchanged(f, v, u));
+        p.kept.patches.push_back(mesh.patch(c, i));
+      }
+    }
+    for (int e = 0; D == 3 && e < Local<D>::numberOfEdges; ++e)
+    {
+      const std::array<Index, 2> edge{ mesh.nodes(c)[Local<D>::edges[e][0]],
+        mesh.nodes(c)[Local<D>::edges[e][1]] };
+      if (!mesh.isEdgeConstrained(c, e) || !hasId(edge, v))
+      {
+        continue;
+      }
+      p.kept.goneEdges.push_back(edge);
+      if (!hasId(edge, u))
+      {
+        p.kept.comeEdges.push_back(exchanged(edge, v, u));
+      }
+    }
+  }
+}
+}
+
+template <int D>
+bool proposeContraction(
+  MeshEditor<D>& editor, const Surface<D>* surface, Index v, Index u, Proposal<D>& proposal)
+{
+  const SimplexMesh<D>& mesh = editor.mesh();
+  proposal.clear();
+  if (!editor.star(v, proposal.cavity))
+  {
+    return false;
+  }
+  if (!mesh.isFree(v))
+  {
+    if (!surface || !surface->mayJoin(mesh, proposal.cavity, v, u))
+    {
+      return false;
+    }
+    joinKept(mesh, v, u, proposal);
+  }
+  for (Index c : proposal.cavity)
+  {
+    if (mesh.localIndex(c, u) < 0)
+    {
+      proposal.cells.push_back(exchanged(mesh.nodes(c), v, u));
+      proposal.kept.regions.push_back(mesh.region(c));
+    }
+  }
+  proposal.oldWorst = mesh.worstQuality(proposal.cavity);
+  return !proposal.cells.empty();
+}
+
+template bool proposeContraction<2>(
+  MeshEditor<2>&, const Surface<2>*, Index, Index, Proposal<2>&);
+template bool proposeContraction<3>(
+  MeshEditor<3>&, const Surface<3>*, Index, Index, Proposal<3>&);
+}

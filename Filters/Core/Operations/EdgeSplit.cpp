@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Operations/EdgeSplit.h"
+
+#include "Mesh/Ids.h"
+
+#include <algorithm>
+
+namespace meshopt
+{
+namespace
+{
+/// The cells around the edge; whether all are there and the editor's. `isKept`: a kept facet or the
+/// caller's wish keeps the edge.
+bool cellsAround(const MeshEditor<2>& editor, Index t, Index a, Index b, std::vector<Index>& cells,
+  bool& isKept)
+{
+  const SimplexMesh<2>& mesh = editor.mesh();
+  const int i = 3 - mesh.localIndex(t, a) - mesh.localIndex(t, b);
+  const Index h = mesh.adjacent(t, i);
+  cells.assign(1, t);
+  isKept = mesh.isConstrained(t, i);
+  if (h != None)
+  {
+    cells.push_back(mesh.cellOf(h));
+  }
+  return h == None || editor.owns(mesh.cellOf(h));
+}
+
+bool cellsAround(const MeshEditor<3>& editor, Index t, Index a, Index b, std::vector<Index>& cells,
+  bool& isKept)
+{
+  const SimplexMesh<3>& mesh = editor.mesh();
+  int edge = 0;
+  while (!((mesh.nodes(t)[Local<3>::edges[edge][0]] == a &&
+             mesh.nodes(t)[Local<3>::edges[edge][1]] == b) ||
+    (mesh.nodes(t)[Local<3>::edges[edge][0]] == b && mesh.nodes(t)[Local<3>::edges[edge][1]] == a)))
+  {
+    ++edge;
+  }
+  isKept = mesh.isEdgeConstrained(t, edge);
+  if (!mesh.ring(t, a, b, false, cells))
+  {
+    isKept = true;
+    mesh.ring(t, a, b, true, cells);
+  }
+  return std::all_of(cells.begin(), cells.end(), [&](Index c) { return editor.owns(c); });
+}
+
+/// Kept facets and edges that have a and b are divided, too.
+template <int D>
+void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<D>& p)
+{
+  p.changesKept = true;
+  for (Index c : p.cavity)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      const Facet<D> f = mesh.facet(c, i);
+      if (mesh.isConstrained(c, i) && hasId(f, a) && hasId(f, b))
+      {
+        p.kept.gone.push_back(f);
+        p.kept.come.push_back(exchanged(f, a, m));
+        p.kept.come.push_back(exchanged(f, b, m));
+        p.kept.patches.insert(p.kept.patches.end(), 2, mesh.patch(c, i));
+      }
+    }
+  }
+  if (D == 3)
+  {
+    p.kept.goneEdges.push_back({ a, b });
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      const Simplex<D>& t = mesh.nodes(p.cavity[0]);
+      const std::array<Index, 2> edge{ t[Local<D>::edges[e][0]], t[Local<D>::edges[e][1]] };
+      if (mesh.isEdgeConstrained(p.cavity[0], e) && hasId(edge, a) && hasId(edge, b))
+      {
+        p.kept.comeEdges.push_back({ a, m });
+        p.kept.comeEdges.push_back({ m, b });
+      }
+    }
+  }
+}
+}
+
+template <int D>
+bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index t, Index a, Index b,
+  Index m, Proposal<D>& proposal)
+{
+  const SimplexMesh<D>& mesh = editor.mesh();
+  proposal.clear();
+  bool isKept = false;
+  if (!cellsAround(editor, t, a, b, proposal.cavity, isKept) ||
+    (isKept && !(surface && surface->mayDivide(mesh, a, b))))
+  {
+    return false;
+  }
+  if (isKept)
+  {
+    divideKept(mesh, a, b, m, proposal);
+  }
+  for (Index c : proposal.cavity)
+  {
+    proposal.cells.push_back(exchanged(mesh.nodes(c), a, m));
+    proposal.cells.push_back(exchanged(mesh.nodes(c), b, m));
+    proposal.kept.regions.insert(proposal.kept.regions.end(), 2, mesh.region(c));
+  }
+  proposal.oldWorst = mesh.worstQuality(proposal.cavity);
+  return true;
+}
+
+template bool proposeSplit<2>(
+  const MeshEditor<2>&, const Surface<2>*, Index, Index, Index, Index, Proposal<2>&);
+template bool proposeSplit<3>(
+  const MeshEditor<3>&, const Surface<3>*, Index, Index, Index, Index, Proposal<3>&);
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file EdgeSplit.h
+/// Divides an edge by a new node, also one of the surface where that may be remeshed.
+#ifndef meshopt_Operations_EdgeSplit_h
+#define meshopt_Operations_EdgeSplit_h
+
+#include "Edit/Proposal.h"
+#include "Surface/Surface.h"
+
+namespace meshopt
+{
+/// Proposes that all cells around edge (a, b) of cell t are divided by the new point m. Topology
+/// only: whether the result is any good is the judge's to see. False if the edge must stay: it is
+/// kept and `surface` does not let it be divided (null: never), or one of the cells is not the
+/// editor's. The cost goes with the cells around the edge.
+template <int D>
+bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index t, Index a, Index b,
+  Index m, Proposal<D>& proposal);
+
+extern template bool proposeSplit<2>(
+  const MeshEditor<2>&, const Surface<2>*, Index, Index, Index, Index, Proposal<2>&);
+extern template bool proposeSplit<3>(
+  const MeshEditor<3>&, const Surface<3>*, Index, Index, Index, Index, Proposal<3>&);
+}
+
+#endif

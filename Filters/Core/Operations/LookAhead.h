@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file LookAhead.h
+/// Several changes that pay only together: a node comes even without gain, then what that has spoiled
+/// is improved, worst first. Kept if all that was touched ends better than the cell that started it;
+/// otherwise undone, bit for bit.
+#ifndef meshopt_Operations_LookAhead_h
+#define meshopt_Operations_LookAhead_h
+
+#include "Operations/NodeInsertion.h"
+
+#include <functional>
+
+namespace meshopt
+{
+template <int D, class Shape>
+class LookAhead
+{
+public:
+  static constexpr int level = Level::LookAhead;
+  static constexpr bool addsCells = true;
+  static bool isOn(const Switches& switches) { return switches.lookAhead && switches.insertNodes; }
+
+  /// Improves one cell by the other operations at a level; true if that helped. Set before improve().
+  using Improve = std::function<bool(Index t, int level)>;
+  void setImprove(Improve improve) { this->improve_ = std::move(improve); }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int level)
+  {
+    const bool isLong = level > Level::LookAhead;
+    std::vector<Vec<D>> seeds;
+    NodeInsertion<D, Shape>::findSeeds(judge.mesh(), t, seeds);
+    const double old = judge.mesh().quality(t);
+    bool done = false;
+    for (std::size_t k = 0; k < seeds.size() && !done; ++k)
+    {
+      done = this->tryFrom(judge, t, seeds[k], old, isLong);
+    }
+    judge.count(Operation::LookAhead, done);
+    return done;
+  }
+
+private:
+  static constexpr int Operations = 30, ManyOperations = 120; ///< at most, after the insertion
+  static constexpr double Promising = 0.3; ///< of the old quality: what the insertion must have at least
+
+  bool tryFrom(Judge<D, Shape>& judge, Index t, Vec<D>& seed, double old, bool isLong)
+  {
+    const auto mark = judge.begin();
+    const Index p = judge.editor().addPoint(seed);
+    std::vector<Index> affected;
+    judge.start();
+    if (p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&
+      this->insertion_.fill(judge, p, seed))
+    {
+      affected = judge.changed();
+      if (this->settle(judge, affected, judge.required(old), isLong) && judge.keepsGuard(mark))
+      {
+        judge.commit(mark);
+        judge.changed() = affected;
+        return true;
+      }
+    }
+    judge.rollback(mark);
+    judge.start();
+    return false;
+  }
+
+  /// Improves the affected cells, worst first, until all are above the goal; false if some cannot be.
+  bool settle(Judge<D, Shape>& judge, std::vector<Index>& affected, double goal, bool isLong)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const int level = isLong ? Level::Insertion : Level::Topology;
+    for (int left = isLong ? ManyOperations : Operations; left >= 0; --left)
+    {
+      Index worst = None;
+      for (Index c : affected)
+      {
+        if (mesh.isAlive(c) && !(mesh.quality(c) > goal) &&
+          (worst == None || mesh.quality(c) < mesh.quality(worst) ||
+            (mesh.quality(c) == mesh.quality(worst) && c < worst)))
+        {
+          worst = c;
+        }
+      }
+      if (worst == None)
+      {
+        return true;
+      }
+      if (left == 0 || !this->improve_(worst, level))
+      {
+        return false;
+      }
+      affected.insert(affected.end(), judge.changed().begin(), judge.changed().end());
+      std::sort(affected.begin(), affected.end());
+      affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+    }
+    return false;
+  }
+
+  NodeInsertion<D, Shape> insertion_;
+  Improve improve_;
+};
+}
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file NodeMotion.h
+/// Each free node of a cell goes to the best place that its star has for it.
+#ifndef meshopt_Operations_NodeMotion_h
+#define meshopt_Operations_NodeMotion_h
+
+#include "Edit/Judge.h"
+#include "Operations/Level.h"
+#include "Reposition/StarProblem.h"
+
+namespace meshopt
+{
+/// The problem where to put node v of the cells `star`, all that it has.
+template <int D, class Shape>
+void loadStar(const Judge<D, Shape>& judge, const std::vector<Index>& star, Index v,
+  StarProblem<D, Shape>& problem)
+{
+  const SimplexMesh<D>& mesh = judge.mesh();
+  const QualityModel<D, Shape>& model = judge.model();
+  problem.clear(model.quality, model.plain);
+  for (Index c : star)
+  {
+    const Facet<D> f = mesh.facet(c, mesh.localIndex(c, v));
+    std::array<int, D> local;
+    for (int k = 0; k < D; ++k)
+    {
+      local[k] = problem.addPoint(f[k], mesh.point(f[k]));
+    }
+    problem.addFacet(local, model.weight(f));
+    if (!model.plain)
+    {
+      problem.addFacetMetric(model.metric->element(mesh.nodes(c)));
+    }
+  }
+}
+
+template <int D, class Shape>
+class NodeMotion
+{
+public:
+  static constexpr int level = Level::Topology;
+  static constexpr bool addsCells = false;
+  static bool isOn(const Switches& switches) { return switches.moveNodes; }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int)
+  {
+    bool moved = false;
+    const Simplex<D> nodes = judge.mesh().nodes(t);
+    for (Index v : nodes)
+    {
+      moved |= judge.mesh().isFree(v) && this->move(judge, v);
+    }
+    return moved;
+  }
+
+private:
+  bool move(Judge<D, Shape>& judge, Index v)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const auto& data = mesh.pointData(v);
+    this->proposal_.clear();
+    std::vector<Index>& star = this->proposal_.cavity;
+    if (judge.failsAgain(data.moveFailed, data.stamp) || !judge.editor().star(v, star))
+    {
+      return false;
+    }
+    const double old = mesh.worstQuality(star);
+    loadStar(judge, star, v, this->problem_);
+    Vec<D> x = mesh.point(v);
+    const double now = this->problem_.maximize(x, judge.enough(old), 0.5 * judge.gain(old));
+    const bool better = now > judge.required(old) && (now > 0.0 || this->problem_.isAmidPoints(x));
+    judge.count(Operation::NodeMotion, better);
+    if (!better)
+    {
+      if (!judge.editor().inTransaction()) // what is undone is another star
+      {
+        judge.editor().setMoveFailed(v, judge.editor().clock());
+      }
+      return false;
+    }
+    this->proposal_.moves.push_back({ v, x, {} });
+    this->proposal_.oldWorst = this->proposal_.least = old;
+    this->proposal_.newWorst = now;
+    return judge.accept(this->proposal_);
+  }
+
+  Proposal<D> proposal_;
+  StarProblem<D, Shape> problem_;
+};
+}
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file NodeRemoval.h
+/// A free node of a cell goes: it is contracted into the neighbour for which that pays most.
+#ifndef meshopt_Operations_NodeRemoval_h
+#define meshopt_Operations_NodeRemoval_h
+
+#include "Edit/Judge.h"
+#include "Operations/Level.h"
+
+namespace meshopt
+{
+template <int D, class Shape>
+class NodeRemoval
+{
+public:
+  static constexpr int level = Level::Insertion;
+  static constexpr bool addsCells = false;
+  static bool isOn(const Switches& switches) { return switches.removeNodes; }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int)
+  {
+    const Simplex<D> nodes = judge.mesh().nodes(t);
+    return judge.mayRemoveNodes() &&
+      std::any_of(nodes.begin(), nodes.end(),
+        [&](Index v) { return judge.mesh().isFree(v) && this->remove(judge, v); });
+  }
+
+private:
+  bool remove(Judge<D, Shape>& judge, Index v)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const auto& data = mesh.pointData(v);
+    this->best_.clear();
+    if (judge.failsAgain(data.removeFailed, data.stamp) ||
+      !judge.editor().star(v, this->best_.cavity))
+    {
+      return false;
+    }
+    this->collectLink(mesh, v);
+    this->best_.oldWorst = mesh.worstQuality(this->best_.cavity);
+    this->best_.least = this->best_.newWorst = judge.required(this->best_.oldWorst);
+    for (Index u : this->neighbours_)
+    {
+      this->tryNeighbour(judge.model(), u);
+    }
+    const bool found = !this->best_.cells.empty();
+    judge.count(Operation::EdgeContraction, found);
+    if (!found && !judge.editor().inTransaction())
+    {
+      judge.editor().setRemoveFailed(v, judge.editor().clock());
+    }
+    return found && judge.accept(this->best_);
+  }
+
+  /// The facets opposite to v in its star, and their points.
+  void collectLink(const SimplexMesh<D>& mesh, Index v)
+  {
+    this->link_.clear();
+    this->neighbours_.clear();
+    for (Index c : this->best_.cavity)
+    {
+      const Facet<D> f = mesh.facet(c, mesh.localIndex(c, v));
+      this->link_.push_back(f);
+      this->neighbours_.insert(this->neighbours_.end(), f.begin(), f.end());
+    }
+    std::sort(this->neighbours_.begin(), this->neighbours_.end());
+    this->neighbours_.erase(std::unique(this->neighbours_.begin(), this->neighbours_.end()),
+      this->neighbours_.end());
+  }
+
+  /// The link, less the facets at u, joined to u: remembered if it is the best so far.
+  void tryNeighbour(const QualityModel<D, Shape>& model, Index u)
+  {
+    double worst = std::numeric_limits<double>::infinity();
+    this->cells_.clear();
+    for (const Facet<D>& f : this->link_)
+    {
+      if (std::find(f.begin(), f.end(), u) != f.end())
+      {
+        continue;
+      }
+      Simplex<D> cell;
+      std::copy(f.begin(), f.end(), cell.begin());
+      cell[D] = u;
+      worst = std::min(worst, model(cell));
+      if (!(worst > this->best_.newWorst))
+      {
+        return;
+      }
+      this->cells_.push_back(cell);
+    }
+    if (!this->cells_.empty())
+    {
+      this->best_.newWorst = worst;
+      this->best_.cells = this->cells_;
+    }
+  }
+
+  Proposal<D> best_;
+  std::vector<Facet<D>> link_;
+  std::vector<Index> neighbours_;
+  std::vector<Simplex<D>> cells_;
+};
+}
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Reconnect.h
+/// Topology that keeps the points: of all edges and faces of a cell, that one is removed which pays most.
+#ifndef meshopt_Operations_Reconnect_h
+#define meshopt_Operations_Reconnect_h
+
+#include "Edit/Judge.h"
+#include "Operations/EdgeRemoval.h"
+#include "Operations/FaceRemoval.h"
+#include "Operations/Level.h"
+
+namespace meshopt
+{
+template <int D, class Shape>
+class Reconnect
+{
+public:
+  static constexpr int level = Level::Topology;
+  static constexpr bool addsCells = false; // by one at most
+  static bool isOn(const Switches& switches) { return switches.reconnect; }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int)
+  {
+    this->best_.cells.clear();
+    this->best_.newWorst = judge.required(judge.mesh().quality(t));
+    this->removeEdges(judge, t);
+    if constexpr (D == 3)
+    {
+      this->removeFaces(judge, t);
+    }
+    return !this->best_.cells.empty() && judge.accept(this->best_);
+  }
+
+private:
+  void removeEdges(Judge<D, Shape>& judge, Index t)
+  {
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      const double q = this->edgeRemoval_.propose(
+        judge.editor(), judge.model(), t, e, this->best_.newWorst);
+      if (this->isBest(q, judge.required(this->edgeRemoval_.ringWorst())))
+      {
+        this->edgeRemoval_.cells(this->best_.cells);
+        this->best_.cavity = this->edgeRemoval_.cavity();
+        this->best_.oldWorst = this->edgeRemoval_.ringWorst();
+      }
+    }
+    judge.count(Operation::EdgeRemoval, !this->best_.cells.empty());
+  }
+
+  void removeFaces(Judge<D, Shape>& judge, Index t)
+  {
+    bool found = false;
+    for (int i = 0; i < 4; ++i)
+    {
+      const double q = this->faceRemoval_.propose(
+        judge.editor(), judge.model(), t, i, this->best_.newWorst);
+      if (this->isBest(q, judge.required(this->faceRemoval_.oldWorst())))
+      {
+        this->best_.cells = this->faceRemoval_.cells();
+        this->best_.cavity = this->faceRemoval_.cavity();
+        this->best_.oldWorst = this->faceRemoval_.oldWorst();
+        found = true;
+      }
+    }
+    judge.count(Operation::FaceRemoval, found);
+  }
+
+  /// Whether a refilling with the worst quality q is the best so far; it becomes so.
+  bool isBest(double q, double required)
+  {
+    if (!(q > this->best_.newWorst && q > required))
+    {
+      return false;
+    }
+    this->best_.newWorst = q;
+    this->best_.least = required;
+    return true;
+  }
+
+  Proposal<D> best_;
+  EdgeRemoval<D, Shape> edgeRemoval_;
+  FaceRemoval<Shape> faceRemoval_;
+};
+}
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Run.h
+/// One run of the optimizer in one object: what it works on, what it may use up, what it has to tell.
+#ifndef meshopt_Run_Run_h
+#define meshopt_Run_Run_h
+
+#include "Base/Clock.h"
+#include "Edit/Growth.h"
+#include "Metric/AttachedMetric.h"
+#include "Run/Options.h"
+#include "Run/Report.h"
+#include "Run/Summary.h"
+#include "Surface/Surface.h"
+
+namespace meshopt
+{
+/// Refers to things that live longer.
+template <int D>
+struct Run
+{
+  MeshEditor<D>& editor;
+  NodalMetric<D>& metric;
+  const Surface<D>* surface; ///< what the surface may slide along; null: it is kept
+  const Options& options;
+  const Control& control;
+  Clock& clock;
+  Report& report;
+  long growth = AnyGrowth; ///< net number of cells that may still come
+
+  const SimplexMesh<D>& mesh() const { return this->editor.mesh(); }
+
+  /// Why a run ends that the clock has stopped.
+  StopReason stopped() const
+  {
+    return this->clock.isAborted() ? StopReason::Aborted : StopReason::TimeLimit;
+  }
+  /// Adds a row to the history: what the mesh is now.
+  PassRecord& record(const std::string& stage)
+  {
+    PassRecord row = summarize(this->mesh(), this->options.targetQuality);
+    row.stage = stage;
+    row.pass = static_cast<int>(this->report.history.size());
+    this->report.history.push_back(row);
+    return this->report.history.back();
+  }
+};
+
+/// As long as it lives, a metric follows the points of a mesh: for the time that an algorithm works.
+template <int D>
+class FollowedMetric
+{
+public:
+  FollowedMetric(MeshEditor<D>& editor, NodalMetric<D>& metric)
+    : editor_(editor)
+    , attached_(metric)
+    , follows_(!metric.isTrivial())
+  {
+    if (this->follows_)
+    {
+      editor.attach(this->attached_);
+    }
+  }
+  FollowedMetric(const FollowedMetric&) = delete;
+  FollowedMetric& operator=(const FollowedMetric&) = delete;
+  ~FollowedMetric()
+  {
+    if (this->follows_)
+    {
+      this->editor_.detach(this->attached_);
+    }
+  }
+
+private:
+  MeshEditor<D>& editor_;
+  AttachedMetric<D> attached_;
+  bool follows_;
+};
+}
+
+#endif

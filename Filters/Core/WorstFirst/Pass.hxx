@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Pass.hxx
+/// One pass of the fast engine: its bad cells are shared out among chunks, each drains its queue.
+#ifndef meshopt_WorstFirst_Pass_hxx
+#define meshopt_WorstFirst_Pass_hxx
+
+namespace meshopt
+{
+namespace worstfirst
+{
+/// One cell in a hundred, in small meshes more.
+template <int D, class Shape>
+long Schedule<D, Shape>::fewCells() const
+{
+  const long cells = this->mesh().numberOfCellSlots();
+  return std::max({ FewestCells, std::min(FewCells, cells / FewCellsPart), cells / FewOfMany });
+}
+
+template <int D, class Shape>
+void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
+{
+  this->kept_ = 0;
+  this->tried_.fill(0);
+  this->done_.fill(0);
+  this->drain(task, bad, MaximumChunks);
+  // Long cells lie across some border each time: they must not wait for better borders. Past the
+  // target there is time for that: stages are many, and one by one costs more than threads bring.
+  const bool past = this->guard_ && task.target > this->options_.targetQuality;
+  const std::vector<Index>& heldUp = this->chunks_.heldUp();
+  const bool many = this->guard_ && heldUp.size() > bad.size() / HeldUpPart;
+  if (!heldUp.empty() && !past && (many || this->hardlyAny(bad)))
+  {
+    std::vector<Index> rest;
+    std::copy_if(heldUp.begin(), heldUp.end(), std::back_inserter(rest),
+      [&](Index c) { return this->mesh().isAlive(c) && this->mesh().quality(c) < task.target; });
+    this->drain(task, rest, 1);
+  }
+}
+
+/// Shares the bad cells out and tries each until none gains.
+template <int D, class Shape>
+void Schedule<D, Shape>::drain(const Task& task, const std::vector<Index>& bad, int mostChunks)
+{
+  const int n = this->numberOfChunks(bad.size(), mostChunks);
+  this->chunks_.open(n, n > 1 ? Shifts[this->variant_++ % std::size(Shifts)] : 0.0, bad);
+  this->instruct(task);
+  this->chunks_.run(this->run_.control, [&](Worker& w) { this->work(w, task); },
+    [&] { return this->goesOn(task.target); });
+  this->chunks_.close();
+  this->gather();
+}
+
+/// As many as there is work for; but one where cells overlap, since checks then look anywhere.
+template <int D, class Shape>
+int Schedule<D, Shape>::numberOfChunks(std::size_t numberOfBadCells, int most) const
+{
+  const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
+  int n = static_cast<int>(std::min<long>(
+    this->mesh().numberOfCellSlots() / CellsPerChunk, static_cast<long>(numberOfBadCells) / each));
+  n -= n % 2; // the odd one would be left to one of two threads
+  return this->tangled_ ? 1 : std::min(std::max(n, 1), most);
+}
+
+/// Tells the judges of all chunks what is asked, and how many cells each may add.
+template <int D, class Shape>
+void Schedule<D, Shape>::instruct(const Task& task)
+{
+  const int n = this->chunks_.size();
+  const bool onTheWay = this->guard_ && !(task.target > this->options_.targetQuality);
+  const long few = this->fewCells();
+  const long limit = onTheWay && task.level == Level::LookAhead ? few / n
+                                                                : std::numeric_limits<long>::max();
+  // While many cells are stuck it does not pay to lift one of them by making others bad.
+  const bool many = onTheWay && task.level > 0 && task.below > few;
+  const double guard = !this->guard_ ? -1.0 : many ? task.target : Stages[0];
+  const long reserve = this->guard_ ? this->reserve_ : 0;
+  Growth share;
+  share.left = (this->growth_ - reserve) / n;
+  share.most = this->guard_ ? (this->mostGrowth_ - reserve) / n : std::numeric_limits<long>::max();
+  for (int k = 0; k < n; ++k)
+  {
+    Worker& w = this->chunks_.worker(k);
+    Judge<D, Shape>& judge = w.improver.judge();
+    judge.growth = share;
+    judge.setTangled(this->tangled_, this->inverted_, this->pinched_);
+    judge.setGain(this->gain_);
+    judge.setTarget(task.target);
+    judge.setGuard(guard, this->model_.weights || many);
+    w.kept = w.tries = 0;
+    w.limit = limit;
+    w.isPatient = true;
+  }
+}
+
+/// Takes over what the workers have counted, and the growth that they have left.
+template <int D, class Shape>
+void Schedule<D, Shape>::gather()
+{
+  long left = 0;
+  for (int k = 0; k < this->chunks_.size(); ++k)
+  {
+    Worker& w = this->chunks_.worker(k);
+    Judge<D, Shape>& judge = w.improver.judge();
+    left += judge.growth.left;
+    this->isShort_ |= judge.growth.isShort;
+    this->kept_ += w.kept;
+    for (int op = 0; op < NumberOfOperations; ++op)
+    {
+      this->tried_[op] += std::exchange(judge.tried[op], 0);
+      this->done_[op] += std::exchange(judge.done[op], 0);
+    }
+  }
+  this->growth_ = left + (this->guard_ ? this->reserve_ : 0);
+}
+
+/// The level of the next try of a worker. Insertion and look-ahead are given up for a pass in which
+/// they hardly ever help; cells are then still tried cheaply: a border may have kept them from it.
+template <int D, class Shape>
+int Schedule<D, Shape>::patientLevel(Worker& w, int level) const
+{
+  const long tries = w.tries * (this->model_.plain ? 1 : Hurry);
+  const long patient = level == Level::Insertion ? std::max(PatientTries, w.given / PatientPart)
+                                                 : PatientTries;
+  w.isPatient = w.isPatient && w.tries < w.limit &&
+    (tries < patient || w.kept * Patience[level] >= tries);
+  return w.isPatient ? level : Level::Topology;
+}
+
+/// Drains the queue of one chunk, up to a number of tries.
+template <int D, class Shape>
+void Schedule<D, Shape>::work(Worker& w, const Task& task)
+{
+  const SimplexMesh<D>& mesh = this->mesh();
+  int level = task.level; // once patience has ended it stays Topology
+  for (long tries = Tries[level]; tries > 0 && !w.queue.empty() && !this->run_.clock.isOutOfTime();)
+  {
+    const auto [q, c] = w.queue.top();
+    w.queue.pop();
+    level = this->patientLevel(w, level);
+    if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
+      this->caps_.isCapped(mesh, c))
+    {
+      continue;
+    }
+    --tries;
+    if (++w.tries > Creeping * w.given && this->guard_)
+    {
+      w.improver.judge().setGain(std::max(this->gain_, CoarseGain));
+    }
+    w.editor.resetBlocked();
+    if (w.improver.improve(c, level))
+    {
+      ++w.kept;
+      for (Index changed : w.improver.judge().changed())
+      {
+        if (mesh.isAlive(changed) && mesh.quality(changed) < task.target)
+        {
+          w.queue.emplace(mesh.quality(changed), changed);
+        }
+      }
+    }
+    else if (!w.editor.blocked())
+    {
+      w.editor.setFailed(c, w.editor.clock(), this->rank(level));
+    }
+    else
+    {
+      w.heldUp.push_back(c);
+    }
+  }
+}
+}
+}
+
+#endif

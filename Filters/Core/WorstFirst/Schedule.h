@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Schedule.h
+/// One run of the fast engine for one shape measure: stages, their passes, and when to end. Only
+/// included by the few files that instantiate it.
+#ifndef meshopt_WorstFirst_Schedule_h
+#define meshopt_WorstFirst_Schedule_h
+
+#include "Bound/Caps.h"
+#include "Mesh/PinchedPoints.h"
+#include "Run/ChunkedPass.h"
+#include "Run/Improver.h"
+#include "Run/Run.h"
+#include "Surface/SurfaceFaults.h"
+#include "WorstFirst/Constants.h"
+#include "WorstFirst/RunWorstFirst.h"
+#include "WorstFirst/Weights.h"
+
+#include <cstdio>
+#include <optional>
+
+namespace meshopt
+{
+namespace worstfirst
+{
+template <int D, class Shape>
+class Schedule
+{
+public:
+  explicit Schedule(Run<D>& run);
+  void optimize();
+
+private:
+  using Entry = std::pair<double, Index>;
+
+  /// Who works on one chunk.
+  struct Worker : ChunkWorker<D>
+  {
+    Improver<D, Shape> improver;
+    long kept = 0, tries = 0; // in this pass
+    long limit = 0;           // of such tries
+    bool isPatient = true;    // insertion and look-ahead are still worth a try
+
+    Worker(const Run<D>& run, const QualityModel<D, Shape>& model, const Caps<D>& caps)
+      : ChunkWorker<D>(run.editor)
+      , improver(this->editor, model, run.options, run.surface, &caps)
+    {
+    }
+  };
+
+  /// What a pass is to do.
+  struct Task
+  {
+    double target;
+    int level;
+    long below; ///< cells under the target, also those that are not tried
+  };
+
+  void findTangle();
+  std::vector<double> stages() const;
+  int highestLevel() const;
+  bool stage(double target);
+  bool weighedStage(double target);
+  bool polish(double target, bool finely);
+  double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
+  std::vector<Index> cellsAround(const std::vector<Entry>& cells, int layers) const;
+  bool liftAround(const std::vector<Entry>& cells, int layers);
+  long collect(double target, int level, std::vector<Index>& bad) const;
+  void pass(const Task& task, const std::vector<Index>& bad);
+  void drain(const Task& task, const std::vector<Index>& bad, int mostChunks);
+  int numberOfChunks(std::size_t numberOfBadCells, int most) const;
+  void instruct(const Task& task);
+  void gather();
+  void work(Worker& worker, const Task& task);
+  int patientLevel(Worker& worker, int level) const;
+  long fewCells() const;
+  bool hardlyAny(const std::vector<Index>& bad) const
+  {
+    return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
+  }
+  bool worthTrying(Index c, int level) const;
+  /// How hard a try is: those without guard are the hardest.
+  int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }
+  bool goesOn(double target);
+  void setInverted(long cells);
+  void record(double target, int pass);
+  StopReason reason();
+
+  const SimplexMesh<D>& mesh() const { return this->run_.mesh(); }
+  bool isPast(double target) const { return target > this->options_.targetQuality + 1e-9; }
+  double worst() const { return this->run_.report.history.back().worst; }
+
+  Run<D>& run_;
+  const Options& options_;
+  QualityModel<D, Shape> model_;
+  Caps<D> caps_;
+  Weights<D, Shape> weights_;
+  ChunkedPass<D, Worker> chunks_;
+  int variant_ = 0; ///< which of Shifts is next
+  bool guard_ = true;
+  double usualGain_; ///< least gain of a change
+  double gain_;
+  double polishTarget_ = 0.0;
+  bool tangled_ = true;               ///< cells may lie on each other
+  bool inverted_ = true;              ///< some are inverted
+  std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
+  std::optional<bool> overlaps_;      ///< see mayOverlap(): known once no cell is inverted
+  long growth_, mostGrowth_;          ///< see Growth
+  long allowed_;                      ///< growth_ at first
+  long reserve_;                      ///< of the growth, for polish()
+  bool isShort_ = false;              ///< a change has been left out for want of growth
+  long kept_ = 0;                     ///< changes of the pass
+  std::array<long, NumberOfOperations> tried_{}, done_{};
+  double stageDone_ = 0.0;
+  double passBegin_; ///< by the clock
+};
+
+template <int D, class Shape>
+Schedule<D, Shape>::Schedule(Run<D>& run)
+  : run_(run)
+  , options_(run.options)
+  , model_(run.mesh(), run.metric, run.options.beta)
+  , weights_(run.editor, this->model_, this->caps_)
+  , chunks_(run.editor, [this]
+      { return std::make_unique<Worker>(this->run_, this->model_, this->caps_); })
+  , usualGain_(this->model_.plain ? Gain : CoarseGain)
+  , gain_(this->usualGain_)
+  , growth_(run.growth)
+  , allowed_(run.growth)
+  , reserve_(run.growth / ReservedPart)
+  , passBegin_(run.clock.seconds())
+{
+  // Where sizes are wanted as many cells may go as must.
+  this->mostGrowth_ = this->model_.plain
+    ? run.growth + static_cast<long>(ShrinkBudget * this->mesh().countCells())
+    : std::numeric_limits<long>::max();
+}
+
+/// Whether cells may lie on each other: checks are needed then that cost much.
+template <int D, class Shape>
+void Schedule<D, Shape>::findTangle()
+{
+  this->tangled_ = this->run_.report.invertedBefore > 0;
+  if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // else it costs time
+  {
+    this->pinched_ = pinchedPoints<D>(this->mesh());
+    this->tangled_ = this->tangled_ || !this->pinched_.empty();
+  }
+  long inverted = 0;
+  if (this->tangled_)
+  {
+    summarize(this->mesh(), this->options_.targetQuality, &inverted);
+  }
+  this->setInverted(inverted);
+}
+
+/// The stages below the target and the target itself; with the best effort also those above it.
+template <int D, class Shape>
+std::vector<double> Schedule<D, Shape>::stages() const
+{
+  std::vector<double> result;
+  for (double s : Stages)
+  {
+    if (s < this->options_.targetQuality - 1e-9)
+    {
+      result.push_back(s);
+    }
+  }
+  result.push_back(this->options_.targetQuality);
+  const double bound = this->run_.report.bound;
+  for (double s : Stages)
+  {
+    if (this->options_.effort == Effort::Best && this->isPast(s) && result.back() < bound)
+    {
+      result.push_back(std::min(s, bound));
+    }
+  }
+  return result;
+}
+
+template <int D, class Shape>
+int Schedule<D, Shape>::highestLevel() const
+{
+  if (!this->guard_)
+  {
+    return Level::LongLookAhead;
+  }
+  return this->options_.effort == Effort::Quick ? Level::Insertion : Level::LookAhead;
+}
+
+template <int D, class Shape>
+void Schedule<D, Shape>::optimize()
+{
+  this->findTangle();
+  const double highest = this->options_.effort == Effort::Best
+    ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
+    : this->options_.targetQuality;
+  this->caps_.build(this->mesh(), this->options_.measure, highest,
+    this->run_.metric.isTrivial() && !this->run_.surface);
+  this->caps_.setFull(this->options_.targetQuality / TinyReached);
+  this->run_.report.bound = this->caps_.bound();
+  const std::vector<double> stages = this->stages();
+  bool more = true;
+  int idle = 0;
+  for (std::size_t k = 0; k < stages.size() && more && idle < MostIdle; ++k)
+  {
+    const bool past = this->isPast(stages[k]);
+    this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
+    const double before = this->worst();
+    more = this->weighedStage(stages[k]);
+    if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
+    {
+      more = this->polish(stages[k], false);
+      // What the worst cells cost others is made good where it can be.
+      if (more && !past)
+      {
+        this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
+        more = this->weighedStage(stages[k]);
+      }
+    }
+    // Past the target, two stages that did not lift the worst cell are the end.
+    const bool stuck = this->worst() < before + Gain;
+    idle = past && stuck ? idle + 1 : 0;
+  }
+  if (more && this->options_.effort == Effort::Best && this->polish(stages.back(), true))
+  {
+    this->weighedStage(this->options_.targetQuality);
+  }
+  this->run_.report.stopReason = this->reason();
+}
+
+/// A stage with qualities weighed; without tiny facets a stage like any other.
+template <int D, class Shape>
+bool Schedule<D, Shape>::weighedStage(double target)
+{
+  this->weights_.switchOn();
+  const bool more = this->stage(target);
+  this->weights_.switchOff();
+  return more;
+}
+
+/// Passes of rising effort over the cells under the target, until none is left or they get nowhere.
+/// False if the run has to end.
+template <int D, class Shape>
+bool Schedule<D, Shape>::stage(double target)
+{
+  std::vector<Index> bad;
+  const int highest = this->highestLevel();
+  long below = 0;
+  bool raised = false;
+  for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
+  {
+    const int level = std::min(pass, highest);
+    const long belowBefore = std::exchange(below, this->collect(target, level, bad));
+    const bool idle = this->guard_ && pass > highest && !raised && below > this->fewCells() &&
+      below > HardlyFewer * belowBefore;
+    if ((bad.empty() && level == highest) || idle)
+    {
+      break;
+    }
+    const double before = this->worst();
+    if (bad.empty())
+    {
+      continue;
+    }
+    this->pass({ target, level, below }, bad);
+    this->record(target, pass);
+    if (!this->goesOn(target))
+    {
+      return false;
+    }
+    raised = this->worst() > before + this->gain_;
+    if (level == highest && !raised && (this->hardlyAny(bad) || this->gain_ < Gain))
+    {
+      break;
+    }
+  }
+  return true;
+}
+
+/// What has failed is tried again only harder, or once something has changed around it.
+template <int D, class Shape>
+bool Schedule<D, Shape>::worthTrying(Index c, int level) const
+{
+  const auto& data = this->mesh().cellData(c);
+  const auto& nodes = this->mesh().nodes(c);
+  return data.stamp == 0 || data.level < this->rank(level) ||
+    std::any_of(nodes.begin(), nodes.end(),
+      [&](Index p) { return this->mesh().pointData(p).stamp > data.stamp; });
+}
+
+/// The cells under the target that are worth a try; returns how many are under it that no cap holds.
+template <int D, class Shape>
+long Schedule<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
+{
+  bad.clear();
+  long below = 0;
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    if (this->mesh().quality(c) < target && this->mesh().isAlive(c) &&
+      !this->caps_.isCapped(this->mesh(), c))
+    {
+      ++below;
+      if (this->worthTrying(c, level))
+      {
+        bad.push_back(c);
+      }
+    }
+  }
+  return below;
+}
+
+template <int D, class Shape>
+bool Schedule<D, Shape>::goesOn(double target)
+{
+  const auto text = [&]
+  {
+    char line[96];
+    std::snprintf(
+      line, sizeof line, "worst element %.4f, working towards %.2f", this->worst(), target);
+    return std::string(line);
+  };
+  return this->run_.clock.goesOn(this->stageDone_, text);
+}
+
+/// So many cells are inverted; where none is any more, cells may lie on each other all the same.
+template <int D, class Shape>
+void Schedule<D, Shape>::setInverted(long cells)
+{
+  this->inverted_ = cells > 0;
+  if (this->tangled_ && !this->inverted_)
+  {
+    if (!this->overlaps_)
+    {
+      this->overlaps_ = mayOverlap<D>(this->mesh(), this->pinched_);
+    }
+    this->tangled_ = *this->overlaps_;
+  }
+}
+
+/// A row of the history, with qualities as they are.
+template <int D, class Shape>
+void Schedule<D, Shape>::record(double target, int pass)
+{
+  long inverted = 0;
+  const bool weighed = this->weights_.areOn();
+  this->weights_.switchOff();
+  PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
+  if (weighed)
+  {
+    this->weights_.switchOn();
+  }
+  this->setInverted(inverted);
+  char name[32];
+  std::snprintf(name, sizeof name, this->guard_ ? "towards %.2f, pass %d" : "polish towards %.2f",
+    this->guard_ ? target : this->polishTarget_, pass + 1);
+  row.stage = name;
+  row.tried = this->tried_;
+  row.done = this->done_;
+  const double now = this->run_.clock.seconds();
+  row.seconds = now - std::exchange(this->passBegin_, now);
+  std::vector<PassRecord>& history = this->run_.report.history;
+  if (history.back().stage == row.stage) // the many short passes of one polish make one row
+  {
+    row.addWork(history.back());
+    history.pop_back();
+  }
+  row.pass = static_cast<int>(history.size());
+  history.push_back(row);
+}
+
+template <int D, class Shape>
+StopReason Schedule<D, Shape>::reason()
+{
+  long below = 0;
+  long& capped = this->run_.report.cappedCells;
+  capped = 0; // there may have been a run before
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    if (this->mesh().isAlive(c) && this->mesh().quality(c) < this->options_.targetQuality)
+    {
+      ++below;
+      capped += this->caps_.isCapped(this->mesh(), c);
+    }
+  }
+  if (this->run_.clock.hasStopped())
+  {
+    return this->run_.stopped();
+  }
+  const double nothing = UsedUp * static_cast<double>(this->allowed_) + OneNode;
+  const bool isUsedUp = this->isShort_ && static_cast<double>(this->growth_) <= nothing;
+  return below == 0   ? StopReason::TargetReached
+    : below == capped ? StopReason::CappedBySurface
+    : isUsedUp        ? StopReason::GrowthLimit
+                      : StopReason::NoFurtherGain;
+}
+}
+}
+
+#include "WorstFirst/Pass.hxx"
+#include "WorstFirst/Polish.hxx"
+
+namespace meshopt
+{
+template <int D, class Shape>
+void runWorstFirst(Run<D>& run)
+{
+  worstfirst::Schedule<D, Shape>(run).optimize();
+}
+}
+
+/// Instantiates the engine for a measure in both dimensions.
+#define MESHOPT_INSTANTIATE_WORST_FIRST(Shape)        \
+  template void runWorstFirst<2, Shape<2>>(Run<2>&); \
+  template void runWorstFirst<3, Shape<3>>(Run<3>&);
+
+#endif
