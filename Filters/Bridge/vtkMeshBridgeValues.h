@@ -51,8 +51,8 @@ double LogOfSize(double size);
 /**
  * The tensor at a point, in the frame: of triangles its part in their plane. Of 9 components the
  * symmetric part counts: single precision, and whatever computed them, leave them symmetric to 1e-6
- * only. What is less symmetric than that, or not finite, is no metric: it has NaN in it, so that the
- * check of the values names its point.
+ * only. What is less symmetric than that, or not finite, is no metric: it has NaN in it, so that
+ * the check of the values names its point.
  */
 template <int D>
 meshopt::Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame);
