@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeFilter.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeControl.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeControl.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeCurves.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeRun.h"
-#include "vtkMeshOptimizeVTKCompat.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
@@ -84,32 +85,27 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkMeshOptimizeFilter::SetRegionArray(const char* name)
 {
-  this->SetInputArrayToProcess(
-    bridge::RegionArray, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, name ? name : "");
+  bridge::ChooseArray(this, bridge::RegionArray, name);
 }
 
 void vtkMeshOptimizeFilter::SetFixedPointArray(const char* name)
 {
-  this->SetInputArrayToProcess(
-    bridge::FixedPointArray, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+  bridge::ChooseArray(this, bridge::FixedPointArray, name);
 }
 
 void vtkMeshOptimizeFilter::SetSizeArray(const char* name)
 {
-  this->SetInputArrayToProcess(
-    bridge::SizeArray, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+  bridge::ChooseArray(this, bridge::SizeArray, name);
 }
 
 void vtkMeshOptimizeFilter::SetMetricArray(const char* name)
 {
-  this->SetInputArrayToProcess(
-    bridge::MetricArray, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+  bridge::ChooseArray(this, bridge::MetricArray, name);
 }
 
 void vtkMeshOptimizeFilter::SetCornerArray(const char* name)
 {
-  this->SetInputArrayToProcess(
-    bridge::CornerArray, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+  bridge::ChooseArray(this, bridge::CornerArray, name);
 }
 
 void vtkMeshOptimizeFilter::SetGeometryConnection(vtkAlgorithmOutput* output)
@@ -183,50 +179,63 @@ int vtkMeshOptimizeFilter::RequestDataObject(
 }
 
 //------------------------------------------------------------------------------
-vtkMeshOptimizeBridge::Request vtkMeshOptimizeFilter::MakeRequest()
-{
-  bridge::Request request;
-  request.Filter = this;
-  meshopt::Options& o = request.Options;
-  o.algorithm = static_cast<meshopt::Algorithm>(this->Algorithm);
-  o.measure = static_cast<meshopt::Measure>(this->QualityMeasure);
-  o.beta = this->Beta;
-  o.desiredSize = this->DesiredSize;
-  o.targetQuality = this->TargetQuality;
-  o.moveNodes = this->MoveNodes;
-  o.reconnect = this->Reconnect;
-  o.insertNodes = this->InsertNodes;
-  o.removeNodes = this->RemoveNodes;
-  o.lookAhead = this->LookAhead;
-  o.neighborhoodLevel = this->NeighborhoodLevel;
-  o.maximumNumberOfIterations = this->MaximumNumberOfIterations;
-  o.epsilon = this->Epsilon;
-  o.armijo = this->ArmijoFactor;
-  o.maximumNumberOfAlternations = this->MaximumNumberOfAlternations;
-  o.effort = static_cast<meshopt::Effort>(this->Effort);
-  request.NumberOfThreads = bridge::ResolveNumberOfThreads(this->NumberOfThreads);
-  o.growthBudget = this->GrowthBudget;
-  o.timeLimit = this->TimeLimit;
-  request.OptimizeBelow = this->OptimizeBelow;
-  request.NumberOfLayers = this->NumberOfLayers;
-  request.Slide = this->BoundaryMode == Slide;
-  request.Curves.splines = this->BoundaryCurve == BSpline;
-  request.Curves.cornerAngle = this->CornerAngle;
-  return request;
-}
-
 namespace
 {
 
 /**
- * A grid to optimize and where to put it.
+ * What goes in and comes out.
+ */
+struct Ports
+{
+  vtkDataObject* Input;
+  vtkPolyData* Geometry;
+  vtkDataObject* Output;
+  vtkTable* History;
+};
+
+/**
+ * A grid to optimize, with its arrays, and where to put it.
  */
 struct Task
 {
   vtkUnstructuredGrid* Input;
   vtkUnstructuredGrid* Output;
   int Block;
+  bridge::InputArrays Arrays;
 };
+
+bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry)
+{
+  bridge::Request request;
+  request.Filter = filter;
+  meshopt::Options& o = request.Options;
+  o.algorithm = static_cast<meshopt::Algorithm>(filter->GetAlgorithm());
+  o.measure = static_cast<meshopt::Measure>(filter->GetQualityMeasure());
+  o.beta = filter->GetBeta();
+  o.desiredSize = filter->GetDesiredSize();
+  o.targetQuality = filter->GetTargetQuality();
+  o.moveNodes = filter->GetMoveNodes();
+  o.reconnect = filter->GetReconnect();
+  o.insertNodes = filter->GetInsertNodes();
+  o.removeNodes = filter->GetRemoveNodes();
+  o.lookAhead = filter->GetLookAhead();
+  o.neighborhoodLevel = filter->GetNeighborhoodLevel();
+  o.maximumNumberOfIterations = filter->GetMaximumNumberOfIterations();
+  o.epsilon = filter->GetEpsilon();
+  o.armijo = filter->GetArmijoFactor();
+  o.maximumNumberOfAlternations = filter->GetMaximumNumberOfAlternations();
+  o.effort = static_cast<meshopt::Effort>(filter->GetEffort());
+  request.NumberOfThreads = vtkMeshBridge::ResolveNumberOfThreads(filter->GetNumberOfThreads());
+  o.growthBudget = filter->GetGrowthBudget();
+  o.timeLimit = filter->GetTimeLimit();
+  request.OptimizeBelow = filter->GetOptimizeBelow();
+  request.NumberOfLayers = filter->GetNumberOfLayers();
+  request.Slide = filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide;
+  request.Curves.splines = filter->GetBoundaryCurve() == vtkMeshOptimizeFilter::BSpline;
+  request.Curves.cornerAngle = filter->GetCornerAngle();
+  request.Geometry = geometry;
+  return request;
+}
 
 /**
  * The grids in `input`, with an output for each. Other leaves of a tree are handed over as they
@@ -237,7 +246,7 @@ std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
   std::vector<Task> tasks;
   if (auto grid = vtkUnstructuredGrid::SafeDownCast(input))
   {
-    tasks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(output), 0 });
+    tasks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(output), 0, {} });
     return tasks;
   }
   auto tree = vtkDataObjectTree::SafeDownCast(input);
@@ -253,7 +262,7 @@ std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
     if (auto grid = vtkUnstructuredGrid::SafeDownCast(object))
     {
       tasks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(fresh),
-        static_cast<int>(leaf->GetCurrentFlatIndex()) });
+        static_cast<int>(leaf->GetCurrentFlatIndex()), {} });
     }
     else
     {
@@ -263,20 +272,22 @@ std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
   return tasks;
 }
 
-std::string CheckRequest(const bridge::Request& request, const std::vector<Task>& tasks)
+/**
+ * Finds the arrays of all tasks. Returns a sentence about what of the request cannot be used.
+ */
+std::string CheckRequest(const bridge::Request& request, std::vector<Task>& tasks)
 {
   std::vector<vtkUnstructuredGrid*> grids;
-  bridge::InputArrays arrays;
   bool hasSizes = false;
-  for (const Task& task : tasks)
+  for (Task& task : tasks)
   {
     grids.push_back(task.Input);
-    const std::string error = bridge::FindInputArrays(request.Filter, task.Input, arrays);
+    const std::string error = bridge::FindInputArrays(request.Filter, task.Input, task.Arrays);
     if (!error.empty())
     {
       return error;
     }
-    hasSizes |= arrays.Size != nullptr;
+    hasSizes |= task.Arrays.Size != nullptr;
   }
   if (!(request.OptimizeBelow >= 0.0))
   {
@@ -296,51 +307,148 @@ std::string CheckRequest(const bridge::Request& request, const std::vector<Task>
   return error.empty() ? request.Options.check(hasSizes) : error;
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-std::string vtkMeshOptimizeFilter::OptimizeAll(vtkDataObject* input, vtkPolyData* geometry,
-  vtkDataObject* output, vtkTable* history, bridge::Outcome& outcome)
+/**
+ * The border of a piece is no boundary.
+ */
+std::string CheckPieces(vtkMeshOptimizeFilter* filter, vtkInformation* info)
 {
-  const std::vector<Task> tasks = ListTasks(input, output);
-  const bool isComposite = vtkDataObjectTree::SafeDownCast(input) != nullptr;
-  bridge::Request request = this->MakeRequest();
-  request.Geometry = geometry;
+  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
+  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && info->Has(pieces) &&
+      info->Get(pieces) > 1
+    ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed "
+      "data."
+    : "";
+}
+
+/**
+ * Optimizes all grids. Returns a sentence about the first thing that cannot be used, or an empty
+ * string.
+ */
+std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridge::Outcome& outcome)
+{
+  std::vector<Task> tasks = ListTasks(ports.Input, ports.Output);
+  const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
+  bridge::Request request = MakeRequest(filter, ports.Geometry);
   std::string error = CheckRequest(request, tasks);
   if (!error.empty())
   {
     return error;
   }
-  bridge::StartHistory(history, isComposite);
-  bridge::Deadline deadline(this->TimeLimit);
+  bridge::StartHistory(ports.History, isComposite);
+  vtkMeshBridge::Deadline deadline(filter->GetTimeLimit());
   request.TimeLimit = &deadline;
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
-    request.Control = bridge::MakeControl(
-      this, request.NumberOfThreads, first, last, deadline);
+    request.Control = vtkMeshBridge::MakeControl(
+      filter, request.NumberOfThreads, first, last, deadline);
+    const Task& task = tasks[i];
+    const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;
-    error = bridge::OptimizeGrid(tasks[i].Input, request, tasks[i].Output, one);
+    error = bridge::OptimizeGrid(task.Input, task.Arrays, request, task.Output, one);
     if (!error.empty())
     {
-      return isComposite ? "Block " + std::to_string(tasks[i].Block) + ": " + error : error;
+      return title + error;
     }
-    bridge::AppendHistory(one.Report, tasks[i].Block, history);
+    bridge::AppendHistory(one.Report, task.Block, ports.History);
     for (std::string* text : { &one.Tangle, &one.Sizes })
     {
-      if (isComposite && !text->empty())
-      {
-        *text = "Block " + std::to_string(tasks[i].Block) + ": " + *text;
-      }
+      *text = text->empty() ? "" : title + *text;
     }
     outcome.Add(one);
   }
   return {};
 }
 
-void vtkMeshOptimizeFilter::StoreResults(const bridge::Outcome& outcome)
+//------------------------------------------------------------------------------
+void Warn(vtkMeshOptimizeFilter* filter, const bridge::Outcome& outcome)
 {
+  if (outcome.NumberOfQuadraticSimplices > 0)
+  {
+    vtkWarningWithObjectMacro(filter,
+      << outcome.NumberOfQuadraticSimplices
+      << " quadratic triangles or tetrahedra passed through as they are: only linear ones can be "
+         "optimized.");
+  }
+  if (outcome.NumberOfReorientedCells > 0)
+  {
+    vtkWarningWithObjectMacro(filter,
+      << outcome.NumberOfReorientedCells
+      << " cells were numbered the wrong way round (negative volume); they have been renumbered.");
+  }
+  for (const std::string& text : { outcome.Tangle, outcome.Sizes })
+  {
+    if (!text.empty())
+    {
+      vtkWarningWithObjectMacro(filter, << text);
+    }
+  }
+}
+
+/**
+ * Why nothing was optimized.
+ */
+std::string DescribeNothing(vtkDataObject* input, const bridge::Outcome& outcome)
+{
+  const std::string all = std::to_string(input->GetNumberOfElements(vtkDataObject::CELL));
+  if (outcome.NumberOfGhostSimplices > 0)
+  {
+    return "all " + std::to_string(outcome.NumberOfGhostSimplices) +
+      " triangles or tetrahedra to optimize are ghost cells (duplicate, refined or hidden, says "
+      "vtkGhostType). They have passed through as they are.";
+  }
+  if (outcome.NumberOfSurfaceTriangles > 0)
+  {
+    return "of the " + all + " cells " + std::to_string(outcome.NumberOfSurfaceTriangles) +
+      " are triangles, but there are cells of dimension three, too, and none of these is a "
+      "tetrahedron. (In ParaView, Tetrahedralize splits other cells.)";
+  }
+  return "none of the " + all +
+    " cells is a triangle or a tetrahedron of an unstructured grid. They have passed through as "
+    "they are. (In ParaView, Tetrahedralize splits other cells, and Append Datasets makes a grid "
+    "of polygonal data.)";
+}
+
+/**
+ * Settings and input that have no effect: a newcomer wonders why nothing happens.
+ */
+void WarnOfNoEffect(
+  vtkMeshOptimizeFilter* filter, const Ports& ports, const bridge::Outcome& outcome)
+{
+  if (ports.Input->GetNumberOfElements(vtkDataObject::CELL) > 0 &&
+    outcome.NumberOfSimplices + outcome.NumberOfQuadraticSimplices == 0)
+  {
+    vtkWarningWithObjectMacro(
+      filter, << "Nothing to optimize: " << DescribeNothing(ports.Input, outcome));
+  }
+  const bool isFixed = filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Fixed;
+  const bool hasSizes = filter->GetDesiredSize() > 0.0 ||
+    vtkMeshBridge::IsWanted(filter, bridge::SizeArray);
+  if (hasSizes && filter->GetBeta() == 0.0 && isFixed)
+  {
+    vtkWarningWithObjectMacro(
+      filter, << "Beta is 0, so only the shape counts: the wanted size has no effect.");
+  }
+  if (ports.Geometry && isFixed)
+  {
+    vtkWarningWithObjectMacro(
+      filter, << "The boundary mode is Fixed, so the geometry on input port 1 has no effect.");
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+// The header need not know what a run tells.
+struct vtkMeshOptimizeFilter::Results
+{
+  bridge::Outcome Outcome;
+};
+
+void vtkMeshOptimizeFilter::StoreResults(const Results& results)
+{
+  const bridge::Outcome& outcome = results.Outcome;
   const meshopt::Report& report = outcome.Report;
   this->WorstQualityBefore = report.worstBefore;
   this->WorstQualityAfter = report.worstAfter;
@@ -356,83 +464,17 @@ void vtkMeshOptimizeFilter::StoreResults(const bridge::Outcome& outcome)
   this->OptimizeSeconds = outcome.Seconds;
 }
 
-void vtkMeshOptimizeFilter::Warn(const bridge::Outcome& outcome)
-{
-  if (outcome.NumberOfQuadraticSimplices > 0)
-  {
-    vtkWarningMacro(<< outcome.NumberOfQuadraticSimplices
-                    << " quadratic triangles or tetrahedra passed through as they are: only linear "
-                       "ones can be optimized.");
-  }
-  if (outcome.NumberOfReorientedCells > 0)
-  {
-    vtkWarningMacro(<< outcome.NumberOfReorientedCells
-                    << " cells were numbered the wrong way round (negative volume); they have been "
-                       "renumbered.");
-  }
-  for (const std::string& text : { outcome.Tangle, outcome.Sizes })
-  {
-    if (!text.empty())
-    {
-      vtkWarningMacro(<< text);
-    }
-  }
-}
-
-/**
- * Settings and input that have no effect: a newcomer wonders why nothing happens.
- */
-void vtkMeshOptimizeFilter::WarnOfNoEffect(
-  vtkDataObject* input, vtkPolyData* geometry, const bridge::Outcome& outcome)
-{
-  const vtkIdType numberOfCells = input->GetNumberOfElements(vtkDataObject::CELL);
-  if (numberOfCells > 0 && outcome.NumberOfSimplices + outcome.NumberOfQuadraticSimplices == 0)
-  {
-    vtkWarningMacro(<< "Nothing to optimize: none of the " << numberOfCells
-                    << " cells is a triangle or a tetrahedron of an unstructured grid. They have "
-                       "passed through as they are. (In ParaView, Tetrahedralize splits other "
-                       "cells, and Append Datasets makes a grid of polygonal data.)");
-  }
-  const bool hasSizes = this->DesiredSize > 0.0 || bridge::IsWanted(this, bridge::SizeArray);
-  if (hasSizes && this->Beta == 0.0 && this->BoundaryMode == Fixed)
-  {
-    vtkWarningMacro(<< "Beta is 0, so only the shape counts: the wanted size has no effect.");
-  }
-  if (geometry && this->BoundaryMode == Fixed)
-  {
-    vtkWarningMacro(
-      << "The boundary mode is Fixed, so the geometry on input port 1 has no effect.");
-  }
-}
-
-/**
- * The border of a piece is no boundary.
- */
-std::string vtkMeshOptimizeFilter::CheckPieces(vtkInformationVector* outputVector)
-{
-  vtkInformation* info = outputVector->GetInformationObject(0);
-  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return this->BoundaryMode == Slide && info->Has(pieces) && info->Get(pieces) > 1
-    ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed "
-      "data."
-    : "";
-}
-
 int vtkMeshOptimizeFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject* output = vtkDataObject::GetData(outputVector, 0);
-  vtkTable* history = vtkTable::GetData(outputVector, 1);
-  bridge::Outcome outcome;
+  const Ports ports{ vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
+    vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1) };
+  Results results;
   std::string error;
   try
   {
-    error = this->CheckPieces(outputVector);
-    if (error.empty())
-    {
-      error = this->OptimizeAll(vtkDataObject::GetData(inputVector[0]),
-        vtkPolyData::GetData(inputVector[1]), output, history, outcome);
-    }
+    error = CheckPieces(this, outputVector->GetInformationObject(0));
+    error = error.empty() ? OptimizeAll(this, ports, results.Outcome) : error;
   }
   catch (const std::bad_alloc&)
   {
@@ -443,17 +485,16 @@ int vtkMeshOptimizeFilter::RequestData(
   {
     // Returning 0 would make the executive add an error of its own.
     vtkErrorMacro(<< error);
-    output->Initialize();
-    history->Initialize();
-    outcome = bridge::Outcome();
+    ports.Output->Initialize();
+    ports.History->Initialize();
+    results = Results();
   }
-  vtkMeshOptimizeCompat::KeepOutputAfterAbort(this);
-  this->StoreResults(outcome);
-  this->Warn(outcome);
+  vtkMeshBridge::KeepOutputAfterAbort(this);
+  this->StoreResults(results);
+  Warn(this, results.Outcome);
   if (error.empty())
   {
-    this->WarnOfNoEffect(
-      vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]), outcome);
+    WarnOfNoEffect(this, ports, results.Outcome);
   }
   return 1;
 }

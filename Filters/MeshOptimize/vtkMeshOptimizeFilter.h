@@ -1,45 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshOptimizeFilter
  * @brief   raise the worst element quality of a tetrahedral or triangle mesh
  *
- * vtkMeshOptimizeFilter moves nodes and changes the connectivity of a mesh such that its worst
- * element gets as good as possible: it maximizes Q(mesh) = min { Q(K) : K in mesh }, equation (2.1)
- * of the paper below, where the quality of an element is its shape times, if wanted, a factor for
- * its size (2.2). A few very bad elements are what spoils a finite element computation; the mean
- * quality hardly matters.
+ * vtkMeshOptimizeFilter moves nodes and changes the connectivity of a mesh to make its worst
+ * element as good as possible: it maximizes Q(mesh) = min { Q(K) : K in mesh }, equation (2.1) of
+ * the paper below. The quality of an element is its shape times, if wanted, a factor for its size
+ * (2.2). A few very bad elements spoil a finite element computation; the mean hardly matters.
  *
- * <b>What is optimized.</b> If the input has cells of dimension three, its tetrahedra are
- * optimized. Else its triangles, which must lie in one plane (any plane). All other cells pass
- * through: their points are kept; a triangle between two tetrahedra is kept as a face of the mesh,
- * a line is kept as an edge. Quadratic triangles and tetrahedra are such other cells, too, with a
- * warning.
+ * <b>What is optimized.</b> The tetrahedra, if the input has cells of dimension three; else the
+ * triangles, which must lie in one plane (any plane). All other cells pass through and keep their
+ * points: a triangle between two tetrahedra is kept as a face of the mesh, a line as an edge.
+ * Quadratic triangles and tetrahedra pass through, too, with a warning. So do ghost cells: those
+ * that vtkGhostType marks as duplicate, refined or hidden.
  *
  * <b>What is kept.</b> The surface, bit for bit (in the plane: the boundary edges); the faces
  * between regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality
- * never falls, so that no cell is inverted if none was. Inverted and flat cells in the input are
- * repaired where the surface allows it; a warning names those that are left, and why. (Where it
- * does not, there may be more of them in the end, if the worst is less inverted then.) Cells that
- * are numbered against their neighbours are renumbered (counted in the field data
- * `NumberOfReorientedCells`).
+ * never falls, so no cell is inverted if none was. Inverted and flat cells of the input are
+ * repaired where the surface allows it; a warning names those that are left, and why. (There may be
+ * more of them in the end, if the worst is less inverted then.) Cells that are numbered against
+ * their neighbours are renumbered (counted in the field data `NumberOfReorientedCells`).
  *
- * <b>Output port 0: the mesh.</b> Points: those of the input that are still there, in their old
- * order, then the new ones; cells likewise. Coordinates of points that have not moved are the same
- * bits. If a point was moved or inserted, points are of type double even if the input's are float,
- * since rounding could lower the quality again. Data arrays keep name, type, components and
- * attribute:
+ * <b>Output port 0: the mesh</b>, of the type of the input. If that is a tree of grids GetOutput()
+ * is null: call GetOutputDataObject(0). Points: those of the input that are still there, in their
+ * old order, then the new ones; cells likewise. Points that have not moved have the same bits. If
+ * one was moved or inserted, points are of type double even if the input's are float, since
+ * rounding could lower the quality again. Data arrays keep name, type, components and attribute:
  * - point data: a point that has not moved keeps its values. Else floating point arrays are
  *   interpolated in the input cell that holds the point (constants are exact, linear fields to
- *   rounding), all others take the value of the nearest node of that cell.
+ *   rounding); all others take the value of the nearest node of that cell.
  * - cell data: a new cell takes the values of the input cell in whose place it stands.
  * - global ids: points and cells of the input keep them, new ones have -1, and the array is no
  *   longer the active global id array (ids that are unique over blocks and processes cannot be made
  *   up here). Pedigree ids: as other arrays that are not interpolated, but a moved point keeps its
  *   own.
  * - field data: kept; added are `WorstQualityBefore`, `WorstQualityAfter`, `MeanQualityBefore`,
- *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`,
- *   `NumberOfInvertedCellsBefore`, `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`,
- *   `NumberOfOperations` and `StopReason`.
- * - the cell array `MeshQuality` (double): quality by the chosen measure; NaN for other cells.
+ *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfInvertedCellsBefore`,
+ *   `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`, `NumberOfOperations`, `StopReason`.
+ * - the cell array `MeshQuality` (double): quality by the chosen measure, also of ghost cells; NaN
+ *   for other cells.
  *
  * <b>Output port 1: the history</b>, a vtkTable, one row per pass, the first one being the input:
  * Pass, Stage, for each kind of operation how often it was tried and done, then Worst, Mean,
@@ -47,30 +46,28 @@
  * Block (the flat index).
  *
  * <b>Composite data</b>: each vtkUnstructuredGrid in it is optimized by itself, other leaves pass
- * through. Since surfaces are kept, neighbouring blocks still fit together. The results below are
- * those of all blocks together.
+ * through. Surfaces are kept, so neighbouring blocks still fit together. Results are those of all.
  *
  * <b>Distributed data</b>: each process optimizes its own piece with the piece's surface kept, so
- * that pieces still fit together. Ghost cells pass through untouched; the cells they are copies of
- * may have changed in the meantime: generate ghost cells afterwards, not before. The results below
- * are those of the piece.
+ * pieces still fit together. Ghost cells are left as they are, but the cells they are copies of may
+ * have changed: generate ghost cells afterwards, not before. The results below are of the piece.
  *
  * <b>Errors.</b> An input that is not a mesh (a point id out of range, a point twice in a cell,
- * coordinates that are not finite, a face with three cells, a cell that stands twice, triangles
+ * coordinates that are not finite, a face with three cells, a cell that is there twice, triangles
  * that are not in one plane) or an unusable array or option gives one error message that names what
  * and where; the outputs are then empty and GetErrorCode() is not 0.
  *
  * <b>Abort.</b> Progress is reported and AbortExecute looked at all the time. After an abort the
  * output is a valid mesh, as good as it was by then, and GetStopReason() is Aborted. (Filters of
- * VTK usually leave an empty output then.) VTK from 9.2 on leaves AbortExecute set afterwards, for
- * this filter as for its own: call SetAbortExecute(0) before the next run, which else stops at once.
+ * VTK usually leave an empty output.) VTK from 9.2 on leaves AbortExecute set: call
+ * SetAbortExecute(0) before the next run, which else stops at once.
  *
- * <b>Sizes.</b> A warning tells if the wanted sizes were given up because the worst quality would have
- * become lower than it was (and than TargetQuality); if splitting stopped because there were many
- * times the elements that the sizes stand for; how long kept edges are where they are more than twice
- * as long as wanted (in the plane); and if splines changed the area by more than a tenth. In a metric,
- * angles are those of the metric: a right-angled corner of the domain can be very acute in it, and the
- * cell in it then has no high quality in any mesh.
+ * <b>Warnings about sizes</b> say if they were given up (the worst quality would have become lower
+ * than it was, and than TargetQuality), if splitting was stopped at many times the number of
+ * elements that they stand for, if kept edges are more than twice as long as wanted (in the plane),
+ * and if splines changed the area by more than a tenth. In a metric, angles are those of the
+ * metric: a right-angled corner can be very acute in it, and the cell in it then has no high
+ * quality in any mesh.
  *
  * The same input gives the same output, bit for bit, for any number of threads, unless TimeLimit or
  * abort is used.
@@ -82,25 +79,14 @@
  * @sa
  * vtkMeshQualityMinMax vtkMeshQuality vtkConstrainedSmoothingFilter
  */
-// Over 500 lines, as every property stands here with its documentation; the work is in Private/.
 #ifndef vtkMeshOptimizeFilter_h
 #define vtkMeshOptimizeFilter_h
 
 #include "vtkFiltersMeshOptimizeModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <string> // for std::string
-
 class vtkAlgorithmOutput;
-class vtkDataObject;
 class vtkPolyData;
-class vtkTable;
-
-namespace vtkMeshOptimizeBridge
-{
-struct Outcome;
-struct Request;
-}
 
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkMeshOptimizeFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -117,12 +103,11 @@ public:
   ///@{
   /**
    * How to optimize. WorstFirst takes the worst cells from a queue and makes the cheapest change
-   * that helps; it uses Effort, NumberOfThreads and GrowthBudget. Cells on a kept facet whose own
-   * shape caps them under 0.2 are raised to half of their cap before their neighbours suffer for
-   * them; only the very worst cells go on towards the cap. Paper1996 alternates the
-   * reconnection and the node repositioning of the paper; it uses NeighborhoodLevel,
-   * MaximumNumberOfIterations, Epsilon, ArmijoFactor and MaximumNumberOfAlternations. Everything
-   * else is used by both. Default: WorstFirst.
+   * that helps; it uses Effort, NumberOfThreads and GrowthBudget. A cell that its facet on the
+   * surface caps under 0.2 is raised to half of its cap before its neighbours suffer for it; only
+   * the very worst cells go on towards the cap. Paper1996 alternates the reconnection and the node
+   * repositioning of the paper; it uses NeighborhoodLevel, MaximumNumberOfIterations, Epsilon,
+   * ArmijoFactor and MaximumNumberOfAlternations. Both use all else. Default: WorstFirst.
    */
   vtkSetClampMacro(Algorithm, int, Paper1996, WorstFirst);
   vtkGetMacro(Algorithm, int);
@@ -151,10 +136,9 @@ public:
   };
   ///@{
   /**
-   * The shape measure S that is optimized. All are 0 for a flat simplex and negative for an
-   * inverted one, greatest for the regular one, 1 but for the sines, and do not depend on size.
-   * What is chosen here decides which figures get good: Shape leads to good overall shapes,
-   * MinimumSine to good smallest dihedral angles. Default: Shape.
+   * The shape measure S that is optimized. All are 0 for a flat simplex, negative for an inverted
+   * one and greatest for the regular one (1 but for the sines); size does not matter. Shape leads
+   * to good overall shapes, MinimumSine to good smallest dihedral angles. Default: Shape.
    */
   vtkSetClampMacro(QualityMeasure, int, Shape, VolumeLength);
   vtkGetMacro(QualityMeasure, int);
@@ -170,10 +154,11 @@ public:
   /**
    * Weight of size in the quality (2.2): Q = S exp(-beta^2 ln^2(h / h*)), h the longest edge of the
    * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give
-   * the size by DesiredSize or SetSizeArray(). WorstFirst then first splits and contracts edges until
-   * they have the wanted length, about, and the mesh has the number of elements of (5.3), as far as
-   * the boundary lets it; GrowthBudget counts from there on, at most 0.05. With the boundary mode Slide it does so even
-   * if Beta is 0. Where sizes are followed the worst quality may fall, but not under TargetQuality.
+   * the size by DesiredSize or SetSizeArray(). WorstFirst then first splits and contracts edges
+   * until they have about the wanted length and the mesh has the number of elements of (5.3), as
+   * far as the boundary lets it; GrowthBudget counts from there on, at most 0.05. With the boundary
+   * mode Slide it does so even if Beta is 0. Where sizes are followed the worst quality may fall,
+   * but not under TargetQuality.
    */
   vtkSetClampMacro(Beta, double, 0.0, 1e6);
   vtkGetMacro(Beta, double);
@@ -191,46 +176,28 @@ public:
 
   ///@{
   /**
-   * NL of the paper: how far from the worst element nodes are moved together. 0: the nodes of the
-   * element; 1: also all that share an edge with them; and so on. Range 0 to 3, default 1.
+   * The parameters of Paper1996.
+   * - NeighborhoodLevel, NL of the paper: how far from the worst element nodes are moved together.
+   *   0: the nodes of the element; 1: also all that share an edge with them; and so on. Range 0 to
+   *   3, default 1.
+   * - MaximumNumberOfIterations, M of the paper: the greatest number of steps of its global
+   *   algorithm in each repositioning. Range >= 0, default 0: no limit.
+   * - Epsilon of (2.8): elements of a cluster whose quality is within it of the worst one take part
+   *   in the search for a direction. A solve ends when it gains less than a tenth of it. Range 1e-6
+   *   to 1, default 0.02.
+   * - ArmijoFactor, alpha of Armijo's rule (2.7): the part of the predicted gain that a step must
+   *   bring. Range 1e-6 to 0.99, default 0.01.
+   * - MaximumNumberOfAlternations: how often, at most, a reconnection and then a repositioning is
+   *   done. Range >= 1, default 20.
    */
   vtkSetClampMacro(NeighborhoodLevel, int, 0, 3);
   vtkGetMacro(NeighborhoodLevel, int);
-  ///@}
-
-  ///@{
-  /**
-   * M of the paper: the greatest number of steps of its global algorithm in each repositioning.
-   * Range >= 0, default 0: no limit.
-   */
   vtkSetClampMacro(MaximumNumberOfIterations, int, 0, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfIterations, int);
-  ///@}
-
-  ///@{
-  /**
-   * Epsilon of (2.8): elements of a cluster whose quality is within it of the worst one take part
-   * in the search for a direction. A solve ends when it gains less than a tenth of it. Range 1e-6
-   * to 1, default 0.02.
-   */
   vtkSetClampMacro(Epsilon, double, 1e-6, 1.0);
   vtkGetMacro(Epsilon, double);
-  ///@}
-
-  ///@{
-  /**
-   * Alpha of Armijo's rule (2.7): the part of the predicted gain that a step must bring. Range
-   * 1e-6 to 0.99, default 0.01.
-   */
   vtkSetClampMacro(ArmijoFactor, double, 1e-6, 0.99);
   vtkGetMacro(ArmijoFactor, double);
-  ///@}
-
-  ///@{
-  /**
-   * How often, at most, the paper's algorithm does a reconnection and then a repositioning.
-   * Range >= 1, default 20.
-   */
   vtkSetClampMacro(MaximumNumberOfAlternations, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfAlternations, int);
   ///@}
@@ -258,7 +225,7 @@ public:
   ///@{
   /**
    * Whether, when nothing else gains, changes are tried that pay only together or after nodes have
-   * moved. On by default. The paper has no such thing: with it off, PAPER_1996 is the algorithm as
+   * moved. On by default. The paper has no such thing: with it off, Paper1996 is the algorithm as
    * printed, which stops at a lower quality where the surface leaves little freedom.
    */
   vtkSetMacro(LookAhead, bool);
@@ -274,12 +241,11 @@ public:
   };
   ///@{
   /**
-   * How long WorstFirst insists. Quick makes single changes (reconnecting, moving, removing and
-   * inserting nodes), tries more only for the few worst cells, and stops at TargetQuality. Default
-   * also looks ahead: it tries changes that pay only together; it, too, stops at TargetQuality.
-   * Best looks further ahead and goes on past TargetQuality, up to .76 or what the surface allows,
-   * until nothing lifts the worst cell any more; this costs many times what Default does. Default:
-   * Default.
+   * How long WorstFirst insists. Quick makes single changes, tries more only for the few worst
+   * cells, and stops at TargetQuality. Default also tries changes that pay only together; it, too,
+   * stops at TargetQuality. Best looks further ahead and goes on past TargetQuality, up to .76 or
+   * what the surface allows, until nothing lifts the worst cell any more; this costs many times
+   * what Default does. Default: Default.
    */
   vtkSetClampMacro(Effort, int, Quick, Best);
   vtkGetMacro(Effort, int);
@@ -299,10 +265,10 @@ public:
 
   ///@{
   /**
-   * How much WorstFirst may let the number of cells grow, as a fraction of the input's; unless it is
-   * 0, at least 30 tetrahedra or 10 triangles may come. Range >= 0, default 0.15. A mesh with hardly
-   * any interior nodes may need 1: where the budget stops it, the stop reason is GrowthLimit. No more
-   * nodes are removed once 12 % of the cells are gone, unless sizes are asked for.
+   * How much WorstFirst may let the number of cells grow, as a fraction of the input's. Unless it
+   * is 0, at least 30 tetrahedra or 10 triangles may come. Range >= 0, default 0.15. A mesh with
+   * hardly any interior nodes may need 1: where the budget stops it the stop reason is GrowthLimit.
+   * Once 12 % of the cells are gone, no more nodes are removed (unless sizes are wanted).
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);
@@ -310,9 +276,9 @@ public:
 
   ///@{
   /**
-   * Change only cells whose quality is under this, and the layers around them that NumberOfLayers
-   * says: for touching up a mesh that is good nearly everywhere. All other cells, and all their
-   * points, stay bit for bit. Range 0 to 1, default 0: all cells may change.
+   * Change only cells whose quality is under this, and NumberOfLayers layers around them, to touch
+   * up a mesh that is good nearly everywhere. All other cells, and all their points, stay bit for
+   * bit. Range 0 to 1, default 0: all cells may change.
    *
    * Qualities, counts and history are still about all cells; QualityBound then holds while the
    * other cells are kept, too. TargetQuality, GrowthBudget, NumberOfCappedCells and StopReason are
@@ -341,10 +307,10 @@ public:
   /**
    * What may happen to the boundary of triangles, their interfaces between regions and the sides of
    * cracks included. Slide: nodes slide along the curves that it follows, edges on them are split
-   * and contracted, and new nodes lie on the curve. Corners stay. The curves come from the mesh's own
-   * boundary, or from input port 1 if that is connected. Points of FixedPointArray, and of lines and
-   * other cells that pass through, are corners. Slide needs WorstFirst, and the whole mesh in one piece; for
-   * tetrahedra it is an error. Default: Fixed.
+   * and contracted, and new nodes lie on the curve. Corners stay. The curves come from the mesh's
+   * own boundary, or from input port 1 if that is connected. Points of FixedPointArray, and of
+   * lines and other cells that pass through, are corners. Slide needs WorstFirst and the whole mesh
+   * in one piece; for tetrahedra it is an error. Default: Fixed.
    */
   vtkSetClampMacro(BoundaryMode, int, Fixed, Slide);
   vtkGetMacro(BoundaryMode, int);
@@ -381,8 +347,8 @@ public:
   /**
    * Input port 1, optional: the geometry of the boundary, a vtkPolyData whose lines the boundary
    * follows; for BoundaryMode Slide. The boundary points of the mesh must lie on it (to 1e-3 of the
-   * diagonal), and there must be one at each of its corners: else there is one error that says where. Both
-   * sides of a crack may be given as one line.
+   * diagonal), and there must be one at each of its corners: else there is one error that says
+   * where. Both sides of a crack may be given as one line.
    */
   void SetGeometryConnection(vtkAlgorithmOutput* output);
   void SetGeometryData(vtkPolyData* geometry);
@@ -390,8 +356,7 @@ public:
 
   ///@{
   /**
-   * Stop after so many seconds. Range >= 0, default 0: no limit. With a limit, two runs can
-   * differ.
+   * Stop after this many seconds. Range >= 0, default 0: no limit. With one, two runs can differ.
    */
   vtkSetClampMacro(TimeLimit, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TimeLimit, double);
@@ -406,10 +371,11 @@ public:
    * - 1, fixed points: point array of one numeric component. Points where it is not 0 neither move
    *   nor vanish.
    * - 2, size: point array of one numeric component greater than 0: h* of (2.2) at the points,
-   *   interpolated between them; takes the place of DesiredSize. Needs Beta > 0, or BoundaryMode Slide, to matter.
+   *   interpolated between them; takes the place of DesiredSize. It matters only with Beta > 0 or
+   *   BoundaryMode Slide.
    * - 3, metric: point array of a symmetric positive definite tensor M, 6 components in VTK's order
-   *   XX YY ZZ XY YZ XZ or 9; lengths are measured as sqrt(e' M e). Triangles use its part in their
-   *   plane.
+   *   XX YY ZZ XY YZ XZ or 9 (symmetric to 1e-6); lengths are measured as sqrt(e' M e). Triangles
+   *   use its part in their plane.
    * - 4, corners: point array of one numeric component, of the mesh or of the geometry on port 1.
    *   Points where it is not 0 are corners for BoundaryMode Slide.
    */
@@ -437,8 +403,8 @@ public:
   /**
    * Results of the last run: quality of the worst cell and mean quality, before and after; the
    * certified upper bound on the worst quality while the surface is kept (1 where unknown); the
-   * number of cells under the target that their own cap keeps there. 0 before a run and
-   * if there was nothing to optimize.
+   * number of cells under the target that their own cap keeps there. 0 before a run, and if there
+   * was nothing to optimize.
    */
   vtkGetMacro(WorstQualityBefore, double);
   vtkGetMacro(WorstQualityAfter, double);
@@ -450,10 +416,9 @@ public:
 
   ///@{
   /**
-   * Cells of which the last run found no positive quality: inverted or flat ones. Those that are
-   * left are named in a warning, with the reason why they could not be repaired; in the output
-   * their MeshQuality is 0 or negative. Cells that only were numbered the wrong way round are not
-   * among them.
+   * Cells without a positive quality, inverted or flat, before and after the last run. A warning
+   * names those that are left and says why; in the output their MeshQuality is 0 or negative. Cells
+   * that only were numbered the wrong way round are not among them.
    */
   vtkGetMacro(NumberOfInvertedCellsBefore, vtkIdType);
   vtkGetMacro(NumberOfInvertedCellsAfter, vtkIdType);
@@ -468,23 +433,19 @@ public:
   const char* GetStopReasonAsString();
   ///@}
 
+  ///@{
   /**
-   * Share of the edges that in the end are from 1/sqrt(2) to sqrt(2) times as long as was wanted at their
-   * place, in the metric if there is one; 0 if neither a size nor a metric was given. The field data
-   * of the output have it, too, and the histogram `EdgeLengthHistogram`.
+   * More about the last run. EdgeLengthShare: the share of the edges that in the end are 1/sqrt(2)
+   * to sqrt(2) times as long as wanted at their place, in the metric if there is one; 0 if neither
+   * a size nor a metric was given. The field data of the output have it, too, and the histogram
+   * `EdgeLengthHistogram`. NumberOfOperations: of all kinds together. OptimizeSeconds: spent inside
+   * the optimizer, without import and export; in no output array, so that outputs can be reproduced
+   * bit for bit.
    */
   vtkGetMacro(EdgeLengthShare, double);
-
-  /**
-   * Operations done in the last run, all kinds together.
-   */
   vtkGetMacro(NumberOfOperations, vtkIdType);
-
-  /**
-   * Seconds that the last run spent inside the optimizer proper, without import and export. Not
-   * part of any output array, so that outputs can be reproduced bit for bit.
-   */
   vtkGetMacro(OptimizeSeconds, double);
+  ///@}
 
   vtkTypeBool ProcessRequest(
     vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -502,29 +463,18 @@ private:
   vtkMeshOptimizeFilter(const vtkMeshOptimizeFilter&) = delete;
   void operator=(const vtkMeshOptimizeFilter&) = delete;
 
-  vtkMeshOptimizeBridge::Request MakeRequest();
-  std::string CheckPieces(vtkInformationVector* outputVector);
-  std::string OptimizeAll(vtkDataObject* input, vtkPolyData* geometry, vtkDataObject* output,
-    vtkTable* history, vtkMeshOptimizeBridge::Outcome& outcome);
-  void StoreResults(const vtkMeshOptimizeBridge::Outcome& outcome);
-  void Warn(const vtkMeshOptimizeBridge::Outcome& outcome);
-  void WarnOfNoEffect(
-    vtkDataObject* input, vtkPolyData* geometry, const vtkMeshOptimizeBridge::Outcome& outcome);
+  struct Results;
+  void StoreResults(const Results& results);
 
   int Algorithm = WorstFirst;
   double TargetQuality = 0.6;
   int QualityMeasure = Shape;
-  double Beta = 0.0;
-  double DesiredSize = 0.0;
+  double Beta = 0.0, DesiredSize = 0.0;
   int NeighborhoodLevel = 1;
   int MaximumNumberOfIterations = 0;
-  double Epsilon = 0.02;
-  double ArmijoFactor = 0.01;
+  double Epsilon = 0.02, ArmijoFactor = 0.01;
   int MaximumNumberOfAlternations = 20;
-  bool MoveNodes = true;
-  bool Reconnect = true;
-  bool InsertNodes = true;
-  bool RemoveNodes = true;
+  bool MoveNodes = true, Reconnect = true, InsertNodes = true, RemoveNodes = true;
   bool LookAhead = true;
   int Effort = Default;
   int NumberOfThreads = 0;
@@ -532,22 +482,17 @@ private:
   double OptimizeBelow = 0.0;
   int NumberOfLayers = 2;
   double TimeLimit = 0.0;
-  int BoundaryMode = Fixed;
-  int BoundaryCurve = BSpline;
+  int BoundaryMode = Fixed, BoundaryCurve = BSpline;
   double CornerAngle = 45.0;
 
-  double WorstQualityBefore = 0.0;
-  double WorstQualityAfter = 0.0;
-  double MeanQualityBefore = 0.0;
-  double MeanQualityAfter = 0.0;
+  double WorstQualityBefore = 0.0, WorstQualityAfter = 0.0;
+  double MeanQualityBefore = 0.0, MeanQualityAfter = 0.0;
   double QualityBound = 0.0;
   vtkIdType NumberOfCappedCells = 0;
-  vtkIdType NumberOfInvertedCellsBefore = 0;
-  vtkIdType NumberOfInvertedCellsAfter = 0;
+  vtkIdType NumberOfInvertedCellsBefore = 0, NumberOfInvertedCellsAfter = 0;
   int StopReason = NotRun;
   vtkIdType NumberOfOperations = 0;
-  double EdgeLengthShare = 0.0;
-  double OptimizeSeconds = 0.0;
+  double EdgeLengthShare = 0.0, OptimizeSeconds = 0.0;
 };
 
 #endif

@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshQualityMinMax.h"
 
+#include "vtkMeshBridgeGridView.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeVTKCompat.h"
 #include "vtkMeshQualityReport.h"
 
 #include "vtkCellData.h"
@@ -26,7 +28,7 @@
 vtkStandardNewMacro(vtkMeshQualityMinMax);
 vtkCxxSetObjectMacro(vtkMeshQualityMinMax, Controller, vtkMultiProcessController);
 
-namespace quality = vtkMeshQuality;
+namespace quality = vtkMeshQualityBridge;
 
 //------------------------------------------------------------------------------
 vtkMeshQualityMinMax::vtkMeshQualityMinMax()
@@ -68,20 +70,17 @@ void vtkMeshQualityMinMax::PrintSelf(ostream& os, vtkIndent indent)
 //------------------------------------------------------------------------------
 void vtkMeshQualityMinMax::SetRegionArray(const char* name)
 {
-  this->SetInputArrayToProcess(vtkMeshOptimizeBridge::RegionArray, 0, 0,
-    vtkDataObject::FIELD_ASSOCIATION_CELLS, name ? name : "");
+  vtkMeshOptimizeBridge::ChooseArray(this, vtkMeshOptimizeBridge::RegionArray, name);
 }
 
 void vtkMeshQualityMinMax::SetSizeArray(const char* name)
 {
-  this->SetInputArrayToProcess(vtkMeshOptimizeBridge::SizeArray, 0, 0,
-    vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+  vtkMeshOptimizeBridge::ChooseArray(this, vtkMeshOptimizeBridge::SizeArray, name);
 }
 
 void vtkMeshQualityMinMax::SetMetricArray(const char* name)
 {
-  this->SetInputArrayToProcess(vtkMeshOptimizeBridge::MetricArray, 0, 0,
-    vtkDataObject::FIELD_ASSOCIATION_POINTS, name ? name : "");
+  vtkMeshOptimizeBridge::ChooseArray(this, vtkMeshOptimizeBridge::MetricArray, name);
 }
 
 //------------------------------------------------------------------------------
@@ -156,7 +155,7 @@ struct vtkMeshQualityMinMax::Run
 
   void Pass(vtkDataObject* input, vtkDataObject* output);
   void PassBlock(vtkDataObject* input, vtkDataObject* output, unsigned int block);
-  std::string CheckOptions();
+  std::string FindArrays();
   std::string Measure();
   std::string MeasureBlock(const quality::Block& block);
   void CountInBins(meshopt::QualityHistogram& histogram);
@@ -199,7 +198,7 @@ void vtkMeshQualityMinMax::Run::PassBlock(
   output->ShallowCopy(input);
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
   {
-    this->Blocks.push_back({ this->PartOf(block), block, grid });
+    this->Blocks.push_back({ this->PartOf(block), block, grid, {} });
   }
   else if (auto* set = vtkDataSet::SafeDownCast(output))
   {
@@ -208,7 +207,7 @@ void vtkMeshQualityMinMax::Run::PassBlock(
 }
 
 //------------------------------------------------------------------------------
-std::string vtkMeshQualityMinMax::Run::CheckOptions()
+std::string vtkMeshQualityMinMax::Run::FindArrays()
 {
   std::vector<vtkUnstructuredGrid*> grids;
   for (const quality::Block& block : this->Blocks)
@@ -217,14 +216,13 @@ std::string vtkMeshQualityMinMax::Run::CheckOptions()
   }
   std::string error = vtkMeshOptimizeBridge::CheckArraysAreThere(this->Self, grids);
   bool hasSizes = this->Options.DesiredSize > 0.0, hasCells = false;
-  for (const quality::Block& block : this->Blocks)
+  for (quality::Block& block : this->Blocks)
   {
-    vtkMeshOptimizeBridge::InputArrays arrays;
     if (error.empty())
     {
-      error = vtkMeshOptimizeBridge::FindInputArrays(this->Self, block.Mesh, arrays);
+      error = vtkMeshOptimizeBridge::FindInputArrays(this->Self, block.Mesh, block.Arrays);
     }
-    hasSizes = hasSizes || arrays.Size;
+    hasSizes = hasSizes || block.Arrays.Size;
     hasCells = hasCells || block.Mesh->GetNumberOfCells() > 0;
   }
   if (error.empty() && hasCells && this->Options.Beta > 0.0 && !hasSizes)
@@ -237,10 +235,8 @@ std::string vtkMeshQualityMinMax::Run::CheckOptions()
 //------------------------------------------------------------------------------
 std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
 {
-  vtkMeshOptimizeBridge::InputArrays arrays;
-  vtkMeshOptimizeBridge::FindInputArrays(this->Self, block.Mesh, arrays);
-  quality::Grid grid;
-  const std::string error = grid.Read(block.Mesh, arrays, this->Options.Beta > 0.0);
+  quality::Grid grid(block.Mesh);
+  const std::string error = grid.Read(block.Arrays, this->Options.Beta > 0.0);
   if (!error.empty())
   {
     return error;
@@ -250,7 +246,7 @@ std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
   values->SetNumberOfValues(grid.GetNumberOfCells());
   quality::Figures figures = quality::MeasureGrid(
     grid, this->Options, block.Part, values->GetPointer(0));
-  if (!vtkMeshOptimizeCompat::CheckAbort(this->Self))
+  if (!vtkMeshBridge::CheckAbort(this->Self))
   {
     quality::MeasureSurface(grid, this->Options, values->GetPointer(0), figures);
   }
@@ -263,10 +259,10 @@ std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
 //------------------------------------------------------------------------------
 std::string vtkMeshQualityMinMax::Run::Measure()
 {
-  std::string error = this->CheckOptions();
+  std::string error = this->FindArrays();
   for (std::size_t b = 0; b < this->Blocks.size() && error.empty(); ++b)
   {
-    if (vtkMeshOptimizeCompat::CheckAbort(this->Self))
+    if (vtkMeshBridge::CheckAbort(this->Self))
     {
       break;
     }
@@ -286,11 +282,10 @@ void vtkMeshQualityMinMax::Run::CountInBins(meshopt::QualityHistogram& histogram
   for (const quality::Block& block : this->Blocks)
   {
     auto* values = vtkDoubleArray::SafeDownCast(block.Mesh->GetCellData()->GetArray("MeshQuality"));
-    vtkUnsignedCharArray* ghosts = block.Mesh->GetCellGhostArray();
-    const int skipped = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+    const vtkMeshBridge::GhostCells ghosts(block.Mesh);
     for (vtkIdType c = 0; values && c < values->GetNumberOfValues(); ++c)
     {
-      if (!ghosts || !(ghosts->GetValue(c) & skipped))
+      if (!ghosts.Has(c))
       {
         histogram.add(values->GetValue(c));
       }
@@ -339,6 +334,26 @@ void vtkMeshQualityMinMax::FillOutputs(Run& run, vtkInformationVector* outputVec
 }
 
 //------------------------------------------------------------------------------
+void vtkMeshQualityMinMax::WarnOfNothing(const Run& run)
+{
+  if (this->NumberOfMeasuredCells + this->NumberOfNotMeasurableCells > 0)
+  {
+    return;
+  }
+  if (run.Figures.GhostSimplices > 0)
+  {
+    vtkWarningMacro(<< "Nothing to measure: all " << run.Figures.GhostSimplices
+                    << " triangles and tetrahedra are ghost cells (duplicate, refined or hidden, "
+                       "says vtkGhostType), which do not count.");
+  }
+  else if (this->NumberOfOtherCells > 0)
+  {
+    vtkWarningMacro(<< "Nothing to measure: none of the " << this->NumberOfOtherCells
+                    << " cells is a triangle or a tetrahedron of an unstructured grid.");
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkMeshQualityMinMax::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -364,10 +379,9 @@ int vtkMeshQualityMinMax::RequestData(
   {
     this->FillOutputs(run, outputVector);
   }
-  if (usable && run.Rank == 0 && this->NumberOfMeasuredCells == 0 && this->NumberOfOtherCells > 0)
+  if (usable && run.Rank == 0)
   {
-    vtkWarningMacro(<< "Nothing to measure: none of the " << this->NumberOfOtherCells
-                    << " cells is a triangle or a tetrahedron of an unstructured grid.");
+    this->WarnOfNothing(run);
   }
   return 1;
 }

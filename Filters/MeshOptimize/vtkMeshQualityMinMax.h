@@ -1,46 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshQualityMinMax
  * @brief   quality of every element, its minimum, maximum and distribution, and the worst elements
  *
- * Measures the triangles and tetrahedra of an unstructured grid, or of all unstructured grids in a composite data set.
- * Quadratic and higher-order ones are judged by their corners. All figures are over all blocks and all ranks; ghost
- * cells (`vtkGhostType`: duplicate or hidden) are measured but not counted.
+ * Measures the triangles and tetrahedra of an unstructured grid, or of all unstructured grids in a
+ * composite data set. Quadratic and higher-order ones are judged by their corners. All figures are
+ * over all blocks and all ranks. Ghost cells, those that `vtkGhostType` marks as duplicate, refined
+ * or hidden, are measured but not counted; its other flags make no difference.
  *
  * Outputs:
- *  - 0: the input with the cell array `MeshQuality`. Cells that are neither triangles nor tetrahedra pass through and
- *    have NaN there, and so have cells with a coordinate that is not finite. Elements without volume have 0,
- *    inverted ones a negative value. Triangles have a sign only where a grid consists of triangles in one plane z =
- *    constant; elsewhere there is no telling which side is up.
- *  - 1: summary (vtkTable), a row for each region and a last one, `all`: Region, Count, Minimum, Mean, Maximum,
- *    StandardDeviation (divided by Count), Inverted, NotMeasurable, OtherCells, Bound, CappedCells.
- *  - 2: histogram (vtkTable): BinCenter, BinLow, BinHigh, Count; bins of equal width from 0, or the minimum if that
- *    is less, to the value of the regular element, so that histograms before and after can be compared.
- *  - 3: the worst cells (vtkUnstructuredGrid), worst first: MeshQuality, OriginalCellIds (in its grid), Rank, Block
- *    (flat index; composite input only), Center (mean of its points). On several ranks each has its own ones.
+ *  - 0: the input with the cell array `MeshQuality`. Cells that are neither triangles nor
+ *    tetrahedra pass through and have NaN there, and so have cells with a coordinate that is not
+ *    finite. Elements without volume have 0, inverted ones a negative value. Triangles have a sign
+ *    only where a grid consists of triangles in one plane (any plane, to 1e-6 of their extent); up
+ *    is the side for which most of the area is positive. Elsewhere there is no telling which side
+ *    is up.
+ *  - 1: summary (vtkTable), a row for each region and a last one, `all`: Region, Count, Minimum,
+ *    Mean, Maximum, StandardDeviation (divided by Count), Inverted, NotMeasurable, OtherCells,
+ *    Bound, CappedCells.
+ *  - 2: histogram (vtkTable): BinCenter, BinLow, BinHigh, Count; bins of equal width from 0, or the
+ *    minimum if that is less, to the value of the regular element, so that histograms before and
+ *    after can be compared.
+ *  - 3: the worst cells (vtkUnstructuredGrid), worst first: MeshQuality, OriginalCellIds (in its
+ *    grid), Rank, Block (flat index; composite input only), Center (mean of its points). On several
+ *    ranks each has its own ones.
  *
- * Tables are filled on rank 0 and empty elsewhere; the figures that Get...() returns are the same on all ranks.
+ * Tables are filled on rank 0 and empty elsewhere; the figures that Get...() returns are the same
+ * on all ranks.
  *
- * Bound and CappedCells say how much of this is the surface's fault: no mesh with this surface (and these facets
- * between regions) can have a worst element above Bound, and CappedCells elements belong to facets which keep
- * them below TargetQuality whatever is done inside. Blocks and ranks are taken one by one: facets between them
- * count as surface, unless ghost cells tell better. The bound is for plane triangles and tetrahedra: with the
- * measure Shape it is from facets and dihedral angles, with Mean Ratio and Volume Length from facets; otherwise, and with a
- * metric array, it is the value of the regular element.
+ * Bound and CappedCells say how much of this is the surface's fault: no mesh with this surface (and
+ * these facets between regions) can have a worst element above Bound, and CappedCells elements
+ * belong to facets which keep them below TargetQuality whatever is done inside. Blocks and ranks
+ * are taken one by one: facets between them count as surface, unless ghost cells tell better.
+ * (vtkMeshOptimizeFilter keeps the facets to ghost cells, so its own bound can be lower.) The bound
+ * is for plane triangles and tetrahedra: with the measure Shape it is from facets and dihedral
+ * angles, with Mean Ratio and Volume Length from facets; otherwise, and with a metric array, it is
+ * the value of the regular element.
  *
  * Input arrays, by SetInputArrayToProcess() or the setters below:
  *  - 0, cells: region, integers, one component;
  *  - 2, points: desired size h*, one component, positive; used if Beta > 0;
- *  - 3, points: metric tensor, symmetric positive definite, 6 components (XX YY ZZ XY YZ XZ) or 9. For
- *    triangles in a plane z = constant only XX, YY, XY count.
- * An array that is asked for and missing or not usable is an error (one message, empty
- * outputs, error code vtkErrorCode::UserError), and so is Beta > 0 without a size. A broken mesh is not: it is
- * measured as it is.
+ *  - 3, points: metric tensor, symmetric positive definite, 6 components (XX YY ZZ XY YZ XZ) or 9
+ *    (symmetric to 1e-6). For triangles in a plane only its part in that plane counts.
+ *
+ * An array that is asked for and missing or not usable is an error (one message, empty outputs,
+ * error code vtkErrorCode::UserError), and so is Beta > 0 without a size. Values that only ghost
+ * cells need may be anything. A broken mesh is no error: it is measured as it is.
  *
  * The result is the same, to the last bit, for any number of threads.
  *
  * @par Reference
- * G. C. Buscaglia, E. A. Dari, P. D. Zavattieri, "Mesh optimization: some results in 3D elasticity" (1996),
- * equations (2.1) to (2.3).
+ * G. C. Buscaglia, E. A. Dari, P. D. Zavattieri, "Mesh optimization: some results in 3D elasticity"
+ * (1996), equations (2.1) to (2.3).
  *
  * @sa vtkMeshOptimizeFilter
  */
@@ -72,9 +83,10 @@ public:
 
   ///@{
   /**
-   * What is called good. All are 0 for a flat element and keep the sign of the volume; the regular element has the
-   * greatest value, 1 unless said otherwise.
-   *  - Shape (default): c V / P^3, with P the sum of the edges, c = 1296 sqrt(2); triangles: 36 / sqrt(3) A / P^2;
+   * What is called good. All are 0 for a flat element and keep the sign of the volume; the regular
+   * element has the greatest value, 1 unless said otherwise.
+   *  - Shape (default): c V / P^3, with P the sum of the edges, c = 1296 sqrt(2);
+   *    triangles: 36 / sqrt(3) A / P^2;
    *  - RadiusRatio: 3 r / R (triangles: 2 r / R) of inscribed and circumscribed sphere;
    *  - MeanRatio: 12 (3 V)^(2/3) / sum l^2; triangles: 4 sqrt(3) A / sum l^2;
    *  - MinimumSine: least sine of the dihedral (triangles: corner) angles, at most .9428 (.8660);
@@ -95,8 +107,9 @@ public:
 
   ///@{
   /**
-   * Width of the size factor exp(-Beta^2 ln^2(h / h*)) by which the measure is multiplied, with h the longest edge (in
-   * the metric). >= 0; default 0: no size factor. If above 0, DesiredSize or a size array is needed.
+   * Width of the size factor exp(-Beta^2 ln^2(h / h*)) by which the measure is multiplied, with h
+   * the longest edge (in the metric). >= 0; default 0: no size factor. If above 0, DesiredSize or a
+   * size array is needed.
    */
   vtkSetClampMacro(Beta, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Beta, double);
@@ -104,7 +117,8 @@ public:
 
   ///@{
   /**
-   * Desired size h* where Beta > 0 and no size array is chosen, in units of length. >= 0; default 0: not given.
+   * Desired size h* where Beta > 0 and no size array is chosen, in units of length. >= 0; default
+   * 0: not given.
    */
   vtkSetClampMacro(DesiredSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DesiredSize, double);
@@ -128,8 +142,8 @@ public:
 
   ///@{
   /**
-   * Whether the surface is found and its bound computed. Default on. Off, Bound is the value of the regular
-   * element and CappedCells is 0; that saves about two thirds of the time.
+   * Whether the surface is found and its bound computed. Default on. Off, Bound is the value of the
+   * regular element and CappedCells is 0; that saves about two thirds of the time.
    */
   vtkSetMacro(ComputeBound, bool);
   vtkGetMacro(ComputeBound, bool);
@@ -138,8 +152,8 @@ public:
 
   ///@{
   /**
-   * CappedCells counts the elements that the surface keeps under this quality. >= 0; default 0.6, as in
-   * vtkMeshOptimizeFilter.
+   * CappedCells counts the elements that the surface keeps under this quality. >= 0; default 0.6,
+   * as in vtkMeshOptimizeFilter.
    */
   vtkSetClampMacro(TargetQuality, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TargetQuality, double);
@@ -157,8 +171,8 @@ public:
 
   ///@{
   /**
-   * The controller over whose ranks the figures are. Default: the global controller. Null: this rank only. All its
-   * ranks have to update the filter together.
+   * The controller over whose ranks the figures are. Default: the global controller. Null: this
+   * rank only. All its ranks have to update the filter together.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -166,7 +180,8 @@ public:
 
   ///@{
   /**
-   * Figures of the last update over all blocks and ranks. The first four are NaN if there was nothing to measure.
+   * Figures of the last update over all blocks and ranks. The first four are NaN if there was
+   * nothing to measure.
    */
   vtkGetMacro(MinimumQuality, double);
   vtkGetMacro(MaximumQuality, double);
@@ -177,7 +192,8 @@ public:
   ///@}
 
   /**
-   * Cells with a coordinate that is not finite, or a point that is not there. They are in no other figure.
+   * Cells with a coordinate that is not finite, or a point that is not there. They are in no other
+   * figure.
    */
   vtkGetMacro(NumberOfNotMeasurableCells, vtkIdType);
 
@@ -198,8 +214,8 @@ public:
 
   ///@{
   /**
-   * The worst cell: its id in its grid, the flat index of its block (0 for a grid that is no composite data set), and
-   * its rank. -1 if there is none. Ties go to the lowest rank, block, id.
+   * The worst cell: its id in its grid, the flat index of its block (0 for a grid that is no
+   * composite data set), and its rank. -1 if there is none. Ties go to the lowest rank, block, id.
    */
   vtkGetMacro(WorstCellId, vtkIdType);
   vtkGetMacro(WorstCellBlock, int);
@@ -224,6 +240,7 @@ private:
   struct Run;
   void StoreFigures(const Run& run);
   void FillOutputs(Run& run, vtkInformationVector* outputVector);
+  void WarnOfNothing(const Run& run);
 
   int QualityMeasure = Shape;
   double Beta = 0.0;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSolutionMetricFilter.h"
 
 #include "vtkSolutionMetricRun.h"
@@ -12,8 +13,11 @@
 
 #include <cmath>
 #include <new>
+#include <string>
 
 vtkStandardNewMacro(vtkSolutionMetricFilter);
+
+namespace bridge = vtkSolutionMetricBridge;
 
 //------------------------------------------------------------------------------
 vtkSolutionMetricFilter::vtkSolutionMetricFilter()
@@ -80,50 +84,63 @@ int vtkSolutionMetricFilter::FillInputPortInformation(int, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
-std::string vtkSolutionMetricFilter::Compute(
-  vtkUnstructuredGrid* grid, vtkSolutionMetric::Outcome& outcome)
+namespace
 {
-  vtkSolutionMetric::Request request;
-  request.UseErrors = this->Criterion == ErrorIndicator;
-  request.ComputeSizeTensor = this->ComputeSizeTensor;
+
+bridge::Request MakeRequest(vtkSolutionMetricFilter* filter)
+{
   meshopt::SizeLimits limits;
-  limits.minimumSize = this->MinimumSize;
-  limits.maximumSize = this->MaximumSize;
-  limits.maximumAnisotropy = this->MaximumAnisotropy;
-  limits.gradation = this->Gradation;
+  limits.minimumSize = filter->GetMinimumSize();
+  limits.maximumSize = filter->GetMaximumSize();
+  limits.maximumAnisotropy = filter->GetMaximumAnisotropy();
+  limits.gradation = filter->GetGradation();
+  bridge::Request request;
+  request.UseErrors = filter->GetCriterion() == vtkSolutionMetricFilter::ErrorIndicator;
+  request.ComputeSizeTensor = filter->GetComputeSizeTensor();
   meshopt::SolutionMetricOptions& metric = request.Metric;
-  metric.recovery = static_cast<meshopt::Recovery>(this->Recovery);
-  metric.desiredCount = this->DesiredNumberOfElements;
-  metric.normOrder = this->NormOrder;
+  metric.recovery = static_cast<meshopt::Recovery>(filter->GetRecovery());
+  metric.desiredCount = filter->GetDesiredNumberOfElements();
+  metric.normOrder = filter->GetNormOrder();
   metric.limits = limits;
-  metric.countCorrection = this->CountCorrection;
+  metric.countCorrection = filter->GetCountCorrection();
   meshopt::ErrorIndicatorOptions& errors = request.Errors;
-  errors.desiredCount = this->DesiredNumberOfElements;
-  errors.desiredErrorFraction = this->DesiredErrorFraction;
-  errors.convergenceOrder = this->ConvergenceOrder;
+  errors.desiredCount = filter->GetDesiredNumberOfElements();
+  errors.desiredErrorFraction = filter->GetDesiredErrorFraction();
+  errors.convergenceOrder = filter->GetConvergenceOrder();
   errors.limits = limits;
-  errors.countCorrection = this->CountCorrection;
-  const std::string error = vtkSolutionMetric::FindArray(this, grid, request);
-  return error.empty() ? vtkSolutionMetric::AddArrays(grid, request, outcome) : error;
+  errors.countCorrection = filter->GetCountCorrection();
+  return request;
 }
 
-void vtkSolutionMetricFilter::Warn(const vtkSolutionMetric::Outcome& outcome)
+std::string Compute(
+  vtkSolutionMetricFilter* filter, vtkUnstructuredGrid* grid, bridge::Outcome& outcome)
+{
+  bridge::Request request = MakeRequest(filter);
+  const std::string error = bridge::FindArray(filter, grid, request);
+  return error.empty() ? bridge::AddArrays(grid, request, outcome) : error;
+}
+
+void Warn(vtkSolutionMetricFilter* filter, const bridge::Outcome& outcome)
 {
   if (outcome.IsEven)
   {
-    vtkWarningMacro(
-      << (this->Criterion == Hessian
-             ? "The solution is linear to within its precision: there is nothing to adapt to. The "
-               "metric is the Euclidean one."
-             : "The error is 0 in all cells: there is nothing to adapt to. The size is the same "
-               "everywhere."));
+    const bool isMetric = filter->GetCriterion() == vtkSolutionMetricFilter::Hessian;
+    vtkWarningWithObjectMacro(
+      filter, << (isMetric
+                  ? "The solution is linear to within its precision: there is nothing to adapt to. "
+                    "The metric is the Euclidean one."
+                  : "The error is 0 in all cells: there is nothing to adapt to. The size is the "
+                    "same everywhere."));
   }
   if (!outcome.IsCountReached)
   {
-    vtkWarningMacro(<< "The limits on the size do not allow the wanted number of elements: about "
-                    << std::round(this->PredictedNumberOfElements) << " it will be.");
+    vtkWarningWithObjectMacro(
+      filter, << "The limits on the size do not allow the wanted number of elements: about "
+              << std::round(outcome.PredictedCount) << " it will be.");
   }
 }
+
+} // namespace
 
 //------------------------------------------------------------------------------
 int vtkSolutionMetricFilter::RequestData(
@@ -139,11 +156,11 @@ int vtkSolutionMetricFilter::RequestData(
     return 1;
   }
   output->ShallowCopy(input);
-  vtkSolutionMetric::Outcome outcome;
+  bridge::Outcome outcome;
   std::string error;
   try
   {
-    error = this->Compute(output, outcome);
+    error = Compute(this, output, outcome);
   }
   catch (const std::bad_alloc&)
   {
@@ -155,11 +172,11 @@ int vtkSolutionMetricFilter::RequestData(
     // Returning 0 would make the executive add an error of its own.
     vtkErrorMacro(<< error);
     output->Initialize();
-    outcome = vtkSolutionMetric::Outcome();
+    outcome = bridge::Outcome();
   }
   this->DesiredSize = outcome.DesiredSize;
   this->PredictedNumberOfElements = outcome.PredictedCount;
   this->TotalError = outcome.TotalError;
-  this->Warn(outcome);
+  Warn(this, outcome);
   return 1;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSolutionMetricFilter
  * @brief   where a mesh should be fine, and in which direction: a metric from a solution on it
@@ -32,9 +33,9 @@
  * optimize->SetSizeArray("DesiredSize"); // or SetDesiredSize(metric->GetDesiredSize())
  * optimize->SetBeta(2.0);
  * @endcode
- * With Beta 2 an element of perfect shape reaches the quality 0.6, the default target, if its longest
- * edge is right to a factor of sqrt 2. That suits triangles; tetrahedra, whose longest edges differ more
- * from the others, get better and sooner with Beta 1.
+ * With Beta 2 an element of perfect shape reaches the quality 0.6, the default target, if its
+ * longest edge is right to a factor of sqrt 2. That suits triangles; tetrahedra, whose longest
+ * edges differ more from the others, get better and sooner with Beta 1.
  *
  * <b>Input</b>: a vtkUnstructuredGrid whose cells of the greatest dimension are all linear
  * tetrahedra, or all linear triangles in one plane. Cells of lower dimension (faces, lines,
@@ -49,8 +50,8 @@
  * <b>Errors.</b> An array that is missing or not usable (a value that is not finite is named with
  * its point or cell), cells that are no simplices, triangles that are not in one plane, a mesh too
  * small to recover second derivatives from, or contradicting limits give one message; the output is
- * then empty and GetErrorCode() is not 0. A linear solution has no second derivatives: the metric is
- * then the Euclidean one, with a warning; and there is a warning if the limits on the size leave
+ * then empty and GetErrorCode() is not 0. A linear solution has no second derivatives: the metric
+ * is then the Euclidean one, with a warning; and there is a warning if the limits on the size leave
  * only more or fewer elements than wanted.
  *
  * @par Thanks:
@@ -65,13 +66,6 @@
 
 #include "vtkFiltersMeshOptimizeModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
-
-#include <string> // for std::string
-
-namespace vtkSolutionMetric
-{
-struct Outcome;
-}
 
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkSolutionMetricFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -239,9 +233,6 @@ protected:
 private:
   vtkSolutionMetricFilter(const vtkSolutionMetricFilter&) = delete;
   void operator=(const vtkSolutionMetricFilter&) = delete;
-
-  std::string Compute(vtkUnstructuredGrid* grid, vtkSolutionMetric::Outcome& outcome);
-  void Warn(const vtkSolutionMetric::Outcome& outcome);
 
   int Criterion = Hessian;
   int DesiredNumberOfElements = 0;

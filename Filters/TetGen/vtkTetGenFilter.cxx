@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetGenFilter.h"
 
-#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkTetGenChild.h"
 #include "vtkTetGenExport.h"
 #include "vtkTetGenJob.h"
@@ -164,7 +164,7 @@ bool vtkTetGenFilter::ReportProgress(double fraction, const std::string& phase)
 {
   this->SetProgressText(phase.c_str());
   this->UpdateProgress(fraction);
-  return !vtkMeshOptimizeCompat::CheckAbort(this);
+  return !vtkMeshBridge::CheckAbort(this);
 }
 
 //------------------------------------------------------------------------------

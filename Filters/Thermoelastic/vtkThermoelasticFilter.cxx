@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkThermoelasticFilter.h"
 
-#include "vtkMeshOptimizeControl.h"
-#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshBridgeControl.h"
+#include "vtkMeshBridgeVTKCompat.h"
 #include "vtkThermoelasticArrays.h"
 #include "vtkThermoelasticRun.h"
 
@@ -17,6 +17,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <new>
+#include <string>
 
 vtkStandardNewMacro(vtkThermoelasticFilter);
 vtkCxxSetObjectMacro(vtkThermoelasticFilter, Controller, vtkMultiProcessController);
@@ -156,48 +157,63 @@ int vtkThermoelasticFilter::FillOutputPortInformation(int port, vtkInformation* 
 }
 
 //------------------------------------------------------------------------------
-void vtkThermoelasticFilter::FillRequest(bridge::Request& request)
+namespace
 {
-  request.Filter = this;
-  request.TemperatureMode = this->TemperatureMode;
-  request.UniformTemperature = this->UniformTemperature;
-  request.AxisTemperature = this->AxisTemperature;
-  request.RadialCoefficient = this->RadialCoefficient;
-  request.ReferenceTemperature = this->ReferenceTemperature;
-  request.Material = { this->YoungsModulus, this->PoissonsRatio, this->ThermalExpansion };
-  request.PlaneState = static_cast<meshopt::fem::PlaneState>(this->PlaneState);
-  request.GeneralizedPlaneStrain = this->GeneralizedPlaneStrain;
-  request.Axis = this->Axis;
-  request.IsAxialStrainGiven = this->AxialStrainMode == Given;
-  request.AxialStrain = this->AxialStrain;
-  request.SurfacePressure = this->SurfacePressure;
-  request.RigidMotion = static_cast<meshopt::fem::RigidMotion>(this->RigidMotion);
-  request.Options.solver.solver = static_cast<meshopt::fem::Solver>(this->Solver);
-  request.Options.solver.tolerance = this->Tolerance;
-  request.Options.solver.maximumNumberOfIterations = this->MaximumNumberOfIterations;
-  request.Options.recovery = static_cast<meshopt::fem::StressRecovery>(this->StressRecovery);
+
+bridge::Request MakeRequest(vtkThermoelasticFilter* filter)
+{
+  bridge::Request request;
+  request.Filter = filter;
+  request.TemperatureMode = filter->GetTemperatureMode();
+  request.UniformTemperature = filter->GetUniformTemperature();
+  request.AxisTemperature = filter->GetAxisTemperature();
+  request.RadialCoefficient = filter->GetRadialCoefficient();
+  request.ReferenceTemperature = filter->GetReferenceTemperature();
+  request.Material = { filter->GetYoungsModulus(), filter->GetPoissonsRatio(),
+    filter->GetThermalExpansion() };
+  request.PlaneState = static_cast<meshopt::fem::PlaneState>(filter->GetPlaneState());
+  request.GeneralizedPlaneStrain = filter->GetGeneralizedPlaneStrain();
+  request.Axis = filter->GetAxis();
+  request.IsAxialStrainGiven = filter->GetAxialStrainMode() == vtkThermoelasticFilter::Given;
+  request.AxialStrain = filter->GetAxialStrain();
+  request.SurfacePressure = filter->GetSurfacePressure();
+  request.RigidMotion = static_cast<meshopt::fem::RigidMotion>(filter->GetRigidMotion());
+  request.Options.solver.solver = static_cast<meshopt::fem::Solver>(filter->GetSolver());
+  request.Options.solver.tolerance = filter->GetTolerance();
+  request.Options.solver.maximumNumberOfIterations = filter->GetMaximumNumberOfIterations();
+  request.Options.recovery = static_cast<meshopt::fem::StressRecovery>(filter->GetStressRecovery());
+  return request;
 }
 
 /**
  * All processes of the controller must come here.
  */
-std::string vtkThermoelasticFilter::CheckDistribution(bool hasCells)
+std::string CheckDistribution(vtkMultiProcessController* controller, bool hasCells)
 {
-  if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
+  if (!controller || controller->GetNumberOfProcesses() == 1)
   {
     return {};
   }
   const int mine = hasCells ? 1 : 0;
   int all = 0;
-  this->Controller->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);
+  controller->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);
   return all <= 1 || !hasCells ? std::string()
                                : "The mesh is spread over " + std::to_string(all) +
       " processes, but the equations are solved on one. Bring it together first (in ParaView: the "
       "filter Aggregate Dataset).";
 }
 
-void vtkThermoelasticFilter::StoreResults(const bridge::Outcome& outcome)
+} // namespace
+
+// The header need not know what a run tells.
+struct vtkThermoelasticFilter::Results
 {
+  bridge::Outcome Outcome;
+};
+
+void vtkThermoelasticFilter::StoreResults(const Results& results)
+{
+  const bridge::Outcome& outcome = results.Outcome;
   this->NumberOfUnknowns = outcome.NumberOfUnknowns;
   this->NumberOfSolverIterations = outcome.Solver.iterations;
   this->RelativeResidual = outcome.Solver.relativeResidual;
@@ -225,13 +241,13 @@ int vtkThermoelasticFilter::RequestData(
     history->Initialize();
     return 1;
   }
-  bridge::Request request;
-  bridge::Outcome outcome;
-  this->FillRequest(request);
-  vtkMeshOptimizeBridge::Deadline never(0.0);
-  const int threads = vtkMeshOptimizeBridge::ResolveNumberOfThreads(this->NumberOfThreads);
-  request.Control = vtkMeshOptimizeBridge::MakeControl(this, threads, 0.0, 1.0, never);
-  std::string error = this->CheckDistribution(input->GetNumberOfCells() > 0);
+  bridge::Request request = MakeRequest(this);
+  Results results;
+  bridge::Outcome& outcome = results.Outcome;
+  vtkMeshBridge::Deadline never(0.0);
+  const int threads = vtkMeshBridge::ResolveNumberOfThreads(this->NumberOfThreads);
+  request.Control = vtkMeshBridge::MakeControl(this, threads, 0.0, 1.0, never);
+  std::string error = CheckDistribution(this->Controller, input->GetNumberOfCells() > 0);
   try
   {
     if (error.empty())
@@ -252,7 +268,7 @@ int vtkThermoelasticFilter::RequestData(
     history->Initialize();
     outcome = bridge::Outcome();
   }
-  this->StoreResults(outcome);
+  this->StoreResults(results);
   if (error.empty() && !outcome.HasSolved)
   {
     this->StopReason = NothingToDo;

@@ -4,13 +4,13 @@
  * @brief   linear thermoelastic finite element analysis on tetrahedra or triangles
  *
  * vtkThermoelasticFilter computes how a body deforms under a temperature field, under loads on its
- * surface and under prescribed displacements, and which stresses that takes: small strains, isotropic
- * linear material, linear (P1) elements.
+ * surface and under prescribed displacements, and which stresses that takes: small strains,
+ * isotropic linear material, linear (P1) elements.
  *
- * <b>What is solved on.</b> If the input has tetrahedra, on these; triangles and lines in it then are
- * marks on the body, and pass through. Else on its triangles, which must lie in one plane (any
- * plane), in plane strain or plane stress, per unit of thickness. Quadratic cells and other cells of
- * the same dimension are an error, since to leave one out would be to solve for another body.
+ * <b>What is solved on.</b> If the input has tetrahedra, on these; triangles and lines in it then
+ * are marks on the body, and pass through. Else on its triangles, which must lie in one plane (any
+ * plane), in plane strain or plane stress, per unit of thickness. Quadratic cells and other cells
+ * of the same dimension are an error, since to leave one out would be to solve for another body.
  *
  * <b>Units</b> are the caller's, as long as they fit together: with metres and Pa, forces are in N
  * and energies in J. Stress is positive in tension.
@@ -18,15 +18,15 @@
  * <b>Arrays that are read.</b> Each has a default name, under which it is looked for unless another
  * one is chosen (see SetTemperatureArray() and those below it); one that is chosen must be there.
  * - point `Temperature`: see TemperatureMode.
- * - cell `YoungsModulus`, `PoissonsRatio`, `ThermalExpansion`: where they are, they take the place of
- *   the properties of the same names.
+ * - cell `YoungsModulus`, `PoissonsRatio`, `ThermalExpansion`: where they are, they take the place
+ *   of the properties of the same names.
  * - point `Constraint`: a component of the displacement is prescribed where this is not 0; three
  *   components, or one for all three. Its value is 0, or that of point `PrescribedDisplacement`.
  *   (In a plane, what is across it is not looked at.)
  * - point `Traction`: force per area in the directions of the axes (3 components), or a pressure (1
- *   component, positive when it pushes). It acts on those facets of the surface whose points all have
- *   one that is not 0, and is linear on them. If there are tractions but no such facet, that is an
- *   error.
+ *   component, positive when it pushes). It acts on those facets of the surface whose points all
+ *   have one that is not 0, and is linear on them. If there are tractions but no such facet, that
+ *   is an error.
  * - cell `FacetTraction`: the same, constant on a facet. It is read at cells of the input that are
  *   facets of the surface: triangles on tetrahedra, lines on triangles.
  *
@@ -36,8 +36,8 @@
  * <b>Output port 0</b>: the input with these arrays added (double; in the place of any of the same
  * name). Z is the normal of a plane. What is not part of the mesh has NaN, but 0 in the vectors.
  * - point `Displacement` (3), to warp by.
- * - point `Stress` (6: XX YY ZZ XY YZ XZ), see StressRecovery; `VonMises`; `PrincipalStress` (3, the
- *   greatest first). Not with StressRecovery None.
+ * - point `Stress` (6: XX YY ZZ XY YZ XZ), see StressRecovery; `VonMises`; `PrincipalStress` (3,
+ *   the greatest first). Not with StressRecovery None.
  * - point `Reaction` (3): the force that holds the point in its prescribed components.
  * - cell `ElementStress` (6): at the centroid. The element's own, and the less accurate one.
  * - cell `StrainEnergyDensity`.
@@ -47,14 +47,14 @@
  * - field data `NumberOfUnknowns`, `NumberOfSolverIterations`, `RelativeResidual`, `StrainEnergy`,
  *   `TotalErrorEstimate`, `RelativeErrorEstimate`.
  *
- * <b>Output port 1</b>: a vtkTable with `Iteration` and `RelativeResidual`, from 0 (before the first
- * step) to the last.
+ * <b>Output port 1</b>: a vtkTable with `Iteration` and `RelativeResidual`, from 0 (before the
+ * first step) to the last.
  *
  * <b>Errors.</b> Anything that cannot be solved (no temperature, too few constraints, a Poisson's
  * ratio of 0.5, an inverted element, loads that nothing holds against, ...) gives one error message
  * that names what and where; outputs are then empty and GetErrorCode() is not 0. A solver that does
- * not reach its tolerance is a warning, and GetStopReason() says so. After an abort outputs are empty
- * and GetStopReason() is Aborted.
+ * not reach its tolerance is a warning, and GetStopReason() says so. After an abort outputs are
+ * empty and GetStopReason() is Aborted.
  *
  * <b>Distributed data</b>: the body must be on one process; other processes may have empty pieces.
  *
@@ -62,8 +62,8 @@
  *
  * @par Thanks:
  * The conjugate gradients with diagonal preconditioner are those of G. C. Buscaglia, E. A. Dari,
- * P. D. Zavattieri: Mesh optimization: some results in 3D elasticity (1996). Patch recovery and error
- * estimate: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Eng. 33 (1992) 1331-1382.
+ * P. D. Zavattieri: Mesh optimization: some results in 3D elasticity (1996). Patch recovery and
+ * error estimate: O. C. Zienkiewicz, J. Z. Zhu, Int. J. Numer. Meth. Eng. 33 (1992) 1331-1382.
  *
  * @sa
  * vtkMeshOptimizeFilter vtkWarpVector
@@ -74,15 +74,7 @@
 #include "vtkFiltersThermoelasticModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
-#include <string> // for std::string
-
 class vtkMultiProcessController;
-
-namespace vtkThermoelasticBridge
-{
-struct Outcome;
-struct Request;
-}
 
 class VTKFILTERSTHERMOELASTIC_EXPORT vtkThermoelasticFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -254,8 +246,8 @@ public:
    * - 4, region: cells, 1 integer component, no default name. Recovery of stress does not look
    *   across the border of a region: choose it where materials differ by much.
    * - 5, constraint: points, 1 or 3 components, `Constraint`.
-   * - 6, prescribed displacement: points, 3 components, `PrescribedDisplacement`. Needs a constraint
-   *   array.
+   * - 6, prescribed displacement: points, 3 components, `PrescribedDisplacement`. Needs a
+   *   constraint array.
    * - 7, traction: points, 1 or 3 components, `Traction`.
    * - 8, facet traction: cells, 1 or 3 components, `FacetTraction`.
    */
@@ -301,9 +293,9 @@ public:
   };
   ///@{
   /**
-   * How the equations are solved. IncompleteCholesky needs about a third of the steps, each twice as
-   * long. Direct is for small meshes: time and memory grow fast, and it cannot be aborted. Default:
-   * ConjugateGradient.
+   * How the equations are solved. IncompleteCholesky needs about a third of the steps, each twice
+   * as long. Direct is for small meshes: time and memory grow fast, and it cannot be aborted.
+   * Default: ConjugateGradient.
    */
   vtkSetClampMacro(Solver, int, ConjugateGradient, Direct);
   vtkGetMacro(Solver, int);
@@ -314,8 +306,8 @@ public:
 
   ///@{
   /**
-   * The solver is done when the residual has fallen to this part of the right-hand side. Range 1e-15
-   * to 0.1, default 1e-8.
+   * The solver is done when the residual has fallen to this part of the right-hand side. Range
+   * 1e-15 to 0.1, default 1e-8.
    */
   vtkSetClampMacro(Tolerance, double, 1e-15, 0.1);
   vtkGetMacro(Tolerance, double);
@@ -358,10 +350,10 @@ public:
 
   ///@{
   /**
-   * Results of the last run: unknowns; steps of the conjugate gradients (0 for Direct); residual over
-   * right-hand side at the end; the strain energy; the error estimate in the energy norm and relative
-   * to the norm of the solution, 0 to 1; the strain that GeneralizedPlaneStrain has prescribed. 0
-   * before a run and after an error.
+   * Results of the last run: unknowns; steps of the conjugate gradients (0 for Direct); residual
+   * over right-hand side at the end; the strain energy; the error estimate in the energy norm and
+   * relative to the norm of the solution, 0 to 1; the strain that GeneralizedPlaneStrain has
+   * prescribed. 0 before a run and after an error.
    */
   vtkGetMacro(NumberOfUnknowns, vtkIdType);
   vtkGetMacro(NumberOfSolverIterations, int);
@@ -384,8 +376,8 @@ public:
 
   ///@{
   /**
-   * The controller that tells whether the body is spread over several processes. Default: the global
-   * controller. Null: this process only. All its processes must update.
+   * The controller that tells whether the body is spread over several processes. Default: the
+   * global controller. Null: this process only. All its processes must update.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -403,9 +395,8 @@ private:
   vtkThermoelasticFilter(const vtkThermoelasticFilter&) = delete;
   void operator=(const vtkThermoelasticFilter&) = delete;
 
-  std::string CheckDistribution(bool hasCells);
-  void FillRequest(vtkThermoelasticBridge::Request& request);
-  void StoreResults(const vtkThermoelasticBridge::Outcome& outcome);
+  struct Results;
+  void StoreResults(const Results& results);
   void ChooseArray(int index, bool onCells, const char* name);
 
   int TemperatureMode = PointArray;

@@ -189,6 +189,13 @@ void TestFlatTriangles()
   grid->Modified();
   filter->Update();
   Check(
+    std::abs(QualityOf(filter, 0) - 1.0) < 1e-14 && std::abs(QualityOf(filter, 1) + 1.0) < 1e-14,
+    "in any plane");
+  grid->GetPoints()->InsertNextPoint(0.5, 1.0, 3.0);
+  Add(grid, VTK_TRIANGLE, { 0, 1, 3 });
+  grid->Modified();
+  filter->Update();
+  Check(
     std::abs(QualityOf(filter, 0) - 1.0) < 1e-14 && std::abs(QualityOf(filter, 1) - 1.0) < 1e-14,
     "triangles in space have none");
 }

@@ -1,17 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
- * The input arrays of the filter: region, fixed points, size, metric, corners. Found, checked, and read as
- * the core wants them.
+ * The input arrays of vtkMeshOptimizeFilter and vtkMeshQualityMinMax.
  */
 #ifndef vtkMeshOptimizeArrays_h
 #define vtkMeshOptimizeArrays_h
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
-
 #include <string>
 #include <vector>
 
-class vtkAbstractArray;
 class vtkAlgorithm;
 class vtkDataArray;
 class vtkUnstructuredGrid;
@@ -45,9 +41,10 @@ struct InputArrays
 };
 
 /**
- * Did the caller of `filter` ask for this array? ParaView's "None" counts as no.
+ * Chooses an array of this index by its name: vtkAlgorithm::SetInputArrayToProcess() with what the
+ * array is on. nullptr or "": none.
  */
-bool IsWanted(vtkAlgorithm* filter, int index);
+void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name);
 
 /**
  * Finds the arrays that the caller of `filter` wants in `grid`, and checks types and numbers of
@@ -63,24 +60,6 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
  */
 std::string CheckArraysAreThere(
   vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids, int elsewhere = -1);
-
-/**
- * Region of each simplex. Numbers that do not fit into the core's 32 bits are replaced by their
- * ranks.
- */
-std::vector<meshopt::Index> ReadRegions(vtkDataArray* array, const Cells& cells);
-
-/**
- * Sizes at all points of the grid; 1 at points that no simplex uses, whatever the array has there.
- */
-std::vector<double> ReadSizes(vtkDataArray* array, const Cells& cells);
-
-/**
- * Tensors at all points of the grid, in the frame; the identity at points that no simplex uses.
- */
-template <int D>
-std::vector<meshopt::Tensor<D>> ReadMetric(
-  vtkDataArray* array, const Cells& cells, const Frame<D>& frame);
 
 } // namespace vtkMeshOptimizeBridge
 

@@ -1,6 +1,5 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeCurves.h"
-
-#include "vtkMeshOptimizeRun.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
@@ -25,6 +24,8 @@ namespace vtkMeshOptimizeBridge
 
 using meshopt::Index;
 using meshopt::LineNetwork;
+using vtkMeshBridge::Cells;
+using vtkMeshBridge::Frame;
 
 namespace
 {
@@ -208,15 +209,14 @@ bool HasCornerArray(vtkAlgorithm* filter, vtkPolyData* geometry)
   return FindCorners(filter, geometry) != nullptr;
 }
 
-std::string BuildCurves(const Cells& cells, const InputArrays& arrays, const Frame<2>& frame,
-  const Request& request, meshopt::SimplexMesh<2>& mesh, meshopt::BoundaryCurves& curves)
+std::string BuildCurves(const Request& request, Model<2>& model, meshopt::BoundaryCurves& curves)
 {
   if (!request.Slide)
   {
     return {};
   }
-  meshopt::MeshEditor<2> editor(mesh);
-  const std::vector<std::uint8_t> corners = ReadCorners(arrays.Corners, cells);
+  meshopt::MeshEditor<2> editor(model.Mesh);
+  const std::vector<std::uint8_t> corners = ReadCorners(model.Arrays.Corners, model.Cells);
   if (!request.Geometry)
   {
     curves.build(editor, request.Curves, corners);
@@ -224,12 +224,11 @@ std::string BuildCurves(const Cells& cells, const InputArrays& arrays, const Fra
   }
   LineNetwork network;
   const std::string error = ReadLines(
-    request.Geometry, FindCorners(request.Filter, request.Geometry), frame, network);
+    request.Geometry, FindCorners(request.Filter, request.Geometry), model.Frame, network);
   return error.empty() ? curves.build(editor, network, request.Curves, corners) : error;
 }
 
-std::string BuildCurves(const Cells&, const InputArrays&, const Frame<3>&, const Request& request,
-  meshopt::SimplexMesh<3>&, meshopt::BoundaryCurves&)
+std::string BuildCurves(const Request& request, Model<3>&, meshopt::BoundaryCurves&)
 {
   return request.Slide ? "The boundary mode Slide is for triangles in a plane; the surface of "
                          "tetrahedra can only be kept (boundary mode Fixed)."

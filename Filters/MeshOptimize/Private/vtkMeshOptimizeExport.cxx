@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeExport.h"
 
 #include "vtkCellArray.h"
@@ -21,24 +22,24 @@ namespace
 {
 
 template <int D>
-bool HasMoved(vtkUnstructuredGrid* grid, const Frame<D>& frame, const SimplexMesh<D>& mesh, Index p)
+bool HasMoved(const Model<D>& model, Index p)
 {
   double x[3];
-  grid->GetPoint(p, x);
-  return frame.ToCore(x) != mesh.point(p);
+  model.Grid->GetPoint(p, x);
+  return model.Frame.ToCore(x) != model.Mesh.point(p);
 }
 
 template <int D>
-void MapPoints(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
-  const SimplexMesh<D>& mesh, OutputMap& map)
+void MapPoints(const Model<D>& model, OutputMap& map)
 {
+  const SimplexMesh<D>& mesh = model.Mesh;
   map.SlotToPoint.assign(mesh.numberOfPointSlots(), -1);
   map.PointToSlot.reserve(mesh.numberOfPointSlots());
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
     const bool isOld = p < mesh.numberOfInputPoints();
     // What no simplex has used, or another cell still uses, is not the optimizer's to take away.
-    const bool isOthers = isOld && cells.PointUse[p] != UsedBySimplex;
+    const bool isOthers = isOld && model.Cells.PointUse[p] != vtkMeshBridge::UsedBySimplex;
     if (!isOthers && !mesh.isPointAlive(p))
     {
       continue;
@@ -48,7 +49,7 @@ void MapPoints(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& fr
     map.PointToSlot.push_back(p);
     map.NumberOfOldPoints += isOld;
     const bool isUsed = mesh.isPointAlive(p);
-    if (!isOld || (isUsed && HasMoved(grid, frame, mesh, p)))
+    if (!isOld || (isUsed && HasMoved(model, p)))
     {
       map.SampledPoints.push_back(id);
     }
@@ -73,9 +74,11 @@ bool IsStillThere(vtkUnstructuredGrid* grid, vtkIdType cell, const SimplexMesh<D
 }
 
 template <int D>
-void MapCells(
-  vtkUnstructuredGrid* grid, const Cells& cells, const SimplexMesh<D>& mesh, OutputMap& map)
+void MapCells(const Model<D>& model, OutputMap& map)
 {
+  vtkUnstructuredGrid* grid = model.Grid;
+  const vtkMeshBridge::Cells& cells = model.Cells;
+  const SimplexMesh<D>& mesh = model.Mesh;
   std::vector<char> isOld(mesh.numberOfCellSlots(), 0);
   const auto add = [&](vtkIdType source, Index slot)
   {
@@ -108,9 +111,9 @@ void MapCells(
 }
 
 template <int D>
-void ExportPoints(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D>& frame,
-  const SimplexMesh<D>& mesh, vtkUnstructuredGrid* output)
+void ExportPoints(const Model<D>& model, const OutputMap& map, vtkUnstructuredGrid* output)
 {
+  vtkUnstructuredGrid* grid = model.Grid;
   const vtkIdType n = static_cast<vtkIdType>(map.PointToSlot.size());
   vtkNew<vtkPoints> points;
   points->SetDataType(map.SampledPoints.empty() ? grid->GetPoints()->GetDataType() : VTK_DOUBLE);
@@ -124,7 +127,7 @@ void ExportPoints(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D
   for (vtkIdType id : map.SampledPoints)
   {
     double x[3];
-    frame.ToGrid(mesh.point(map.PointToSlot[id]), x);
+    model.Frame.ToGrid(model.Mesh.point(map.PointToSlot[id]), x);
     points->SetPoint(id, x);
   }
   output->SetPoints(points);
@@ -251,37 +254,31 @@ bool HasPolyhedra(vtkUnstructuredGrid* grid, const OutputMap& map)
 } // namespace
 
 template <int D>
-OutputMap MapOutput(
-  vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame, const SimplexMesh<D>& mesh)
+OutputMap MapOutput(const Model<D>& model)
 {
   OutputMap map;
-  MapPoints(grid, cells, frame, mesh, map);
-  MapCells(grid, cells, mesh, map);
+  MapPoints(model, map);
+  MapCells(model, map);
   return map;
 }
 
 template <int D>
-void ExportMesh(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D>& frame,
-  const SimplexMesh<D>& mesh, vtkUnstructuredGrid* output)
+void ExportMesh(const Model<D>& model, const OutputMap& map, vtkUnstructuredGrid* output)
 {
-  ExportPoints(grid, map, frame, mesh, output);
-  if (HasPolyhedra(grid, map))
+  ExportPoints(model, map, output);
+  if (HasPolyhedra(model.Grid, map))
   {
-    InsertCells(grid, map, mesh, output);
+    InsertCells(model.Grid, map, model.Mesh, output);
   }
   else
   {
-    SetCells(grid, map, mesh, output);
+    SetCells(model.Grid, map, model.Mesh, output);
   }
 }
 
-template OutputMap MapOutput<2>(
-  vtkUnstructuredGrid*, const Cells&, const Frame<2>&, const SimplexMesh<2>&);
-template OutputMap MapOutput<3>(
-  vtkUnstructuredGrid*, const Cells&, const Frame<3>&, const SimplexMesh<3>&);
-template void ExportMesh<2>(vtkUnstructuredGrid*, const OutputMap&, const Frame<2>&,
-  const SimplexMesh<2>&, vtkUnstructuredGrid*);
-template void ExportMesh<3>(vtkUnstructuredGrid*, const OutputMap&, const Frame<3>&,
-  const SimplexMesh<3>&, vtkUnstructuredGrid*);
+template OutputMap MapOutput<2>(const Model<2>&);
+template OutputMap MapOutput<3>(const Model<3>&);
+template void ExportMesh<2>(const Model<2>&, const OutputMap&, vtkUnstructuredGrid*);
+template void ExportMesh<3>(const Model<3>&, const OutputMap&, vtkUnstructuredGrid*);
 
 } // namespace vtkMeshOptimizeBridge

@@ -1,13 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * core -> grid: which points and cells the output has, in which order, and the grid made of them.
  */
 #ifndef vtkMeshOptimizeExport_h
 #define vtkMeshOptimizeExport_h
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
-
-#include "Mesh/SimplexMesh.h"
+#include "vtkMeshOptimizeModel.h"
 
 #include <vector>
 
@@ -44,8 +42,7 @@ struct OutputMap
  * stands in its slot.
  */
 template <int D>
-OutputMap MapOutput(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
-  const meshopt::SimplexMesh<D>& mesh);
+OutputMap MapOutput(const Model<D>& model);
 
 /**
  * Points and cells of the output, without data arrays. Coordinates of points that have not moved
@@ -53,8 +50,7 @@ OutputMap MapOutput(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D
  * double.
  */
 template <int D>
-void ExportMesh(vtkUnstructuredGrid* grid, const OutputMap& map, const Frame<D>& frame,
-  const meshopt::SimplexMesh<D>& mesh, vtkUnstructuredGrid* output);
+void ExportMesh(const Model<D>& model, const OutputMap& map, vtkUnstructuredGrid* output);
 
 } // namespace vtkMeshOptimizeBridge
 

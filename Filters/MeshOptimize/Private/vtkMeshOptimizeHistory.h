@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * What the run has to tell: the history table and the figures in the field data.
  */
 #ifndef vtkMeshOptimizeHistory_h
 #define vtkMeshOptimizeHistory_h
 
-#include "vtkMeshOptimizeRun.h"
+#include "vtkMeshOptimizeRequest.h"
 
 class vtkDataObject;
 class vtkTable;

@@ -1,4 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeImport.h"
+
+#include "vtkMeshBridgeImport.h"
+#include "vtkMeshBridgeValues.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
@@ -9,6 +13,7 @@ namespace vtkMeshOptimizeBridge
 
 using meshopt::Index;
 using meshopt::MeshInput;
+using vtkMeshBridge::Cells;
 
 namespace
 {
@@ -23,7 +28,7 @@ void ImportFixedPoints(const Cells& cells, vtkDataArray* mask, MeshInput<D>& inp
   for (std::size_t p = 0; p < cells.PointUse.size(); ++p)
   {
     const bool isMasked = mask && mask->GetComponent(static_cast<vtkIdType>(p), 0) != 0.0;
-    input.fixedPoints[p] = isMasked || (cells.PointUse[p] & UsedByOther);
+    input.fixedPoints[p] = isMasked || (cells.PointUse[p] & vtkMeshBridge::UsedByOther);
   }
 }
 
@@ -49,7 +54,7 @@ void KeepTriangle(const vtkIdType* ids, MeshInput<3>& input)
 template <int D>
 void ImportKept(vtkUnstructuredGrid* grid, const Cells& cells, MeshInput<D>& input)
 {
-  if (cells.IsIdentity(grid->GetNumberOfCells()))
+  if (cells.IsIdentity())
   {
     return;
   }
@@ -82,73 +87,27 @@ void ImportKept(vtkUnstructuredGrid* grid, const Cells& cells, MeshInput<D>& inp
 } // namespace
 
 template <int D>
-MeshInput<D> ImportGeometry(
-  vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, const Frame<D>& frame)
+MeshInput<D> ImportMesh(const Model<D>& model)
 {
-  MeshInput<D> input;
-  const vtkIdType numberOfPoints = grid->GetNumberOfPoints();
-  input.points.resize(static_cast<std::size_t>(numberOfPoints));
-  for (vtkIdType p = 0; p < numberOfPoints; ++p)
-  {
-    double x[3];
-    grid->GetPoint(p, x);
-    input.points[p] = frame.ToCore(x);
-  }
-  input.cells.resize(simplices.size());
-  for (std::size_t k = 0; k < simplices.size(); ++k)
-  {
-    vtkIdType n = 0;
-    const vtkIdType* ids = nullptr;
-    grid->GetCellPoints(simplices[k], n, ids);
-    for (int i = 0; i <= D; ++i)
-    {
-      input.cells[k][i] = static_cast<Index>(ids[i]);
-    }
-  }
+  MeshInput<D> input = vtkMeshBridge::ImportGeometry(
+    model.Grid, model.Cells.Simplices, model.Frame);
+  input.regions = vtkMeshBridge::ReadRegions(model.Arrays.Region, model.Cells);
+  ImportFixedPoints(model.Cells, model.Arrays.FixedPoints, input);
+  ImportKept(model.Grid, model.Cells, input);
   return input;
 }
 
 template <int D>
-MeshInput<D> ImportMesh(
-  vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays, const Frame<D>& frame)
+std::string BuildMesh(Model<D>& model)
 {
-  MeshInput<D> input = ImportGeometry(grid, cells.Simplices, frame);
-  input.regions = ReadRegions(arrays.Region, cells);
-  ImportFixedPoints(cells, arrays.FixedPoints, input);
-  ImportKept(grid, cells, input);
-  return input;
+  const auto error = meshopt::SimplexMesh<D>::build(ImportMesh(model), model.Mesh);
+  return error ? vtkMeshBridge::WithGridIds(error->message, error->cell, model.Cells)
+               : std::string();
 }
 
-template <int D>
-std::string BuildMesh(vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays,
-  const Frame<D>& frame, meshopt::SimplexMesh<D>& mesh)
-{
-  const auto error = meshopt::SimplexMesh<D>::build(ImportMesh(grid, cells, arrays, frame), mesh);
-  if (!error)
-  {
-    return {};
-  }
-  std::string message = error->message;
-  if (error->cell != meshopt::None && !cells.IsIdentity(grid->GetNumberOfCells()))
-  {
-    message += std::string(" (Counted among the ") + (D == 3 ? "tetrahedra" : "triangles") +
-      " that are optimized; number " + std::to_string(error->cell) + " of them is cell " +
-      std::to_string(cells.Simplices[error->cell]) + " of the grid.)";
-  }
-  return message;
-}
-
-template meshopt::MeshInput<2> ImportGeometry<2>(
-  vtkUnstructuredGrid*, const std::vector<vtkIdType>&, const Frame<2>&);
-template meshopt::MeshInput<3> ImportGeometry<3>(
-  vtkUnstructuredGrid*, const std::vector<vtkIdType>&, const Frame<3>&);
-template meshopt::MeshInput<2> ImportMesh<2>(
-  vtkUnstructuredGrid*, const Cells&, const InputArrays&, const Frame<2>&);
-template meshopt::MeshInput<3> ImportMesh<3>(
-  vtkUnstructuredGrid*, const Cells&, const InputArrays&, const Frame<3>&);
-template std::string BuildMesh<2>(vtkUnstructuredGrid*, const Cells&, const InputArrays&,
-  const Frame<2>&, meshopt::SimplexMesh<2>&);
-template std::string BuildMesh<3>(vtkUnstructuredGrid*, const Cells&, const InputArrays&,
-  const Frame<3>&, meshopt::SimplexMesh<3>&);
+template meshopt::MeshInput<2> ImportMesh<2>(const Model<2>&);
+template meshopt::MeshInput<3> ImportMesh<3>(const Model<3>&);
+template std::string BuildMesh<2>(Model<2>&);
+template std::string BuildMesh<3>(Model<3>&);
 
 } // namespace vtkMeshOptimizeBridge

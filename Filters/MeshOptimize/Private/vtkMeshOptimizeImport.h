@@ -1,40 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
- * grid -> core: the simplices of a grid as the core's MeshInput, with what must be kept.
+ * grid -> core: the mesh of a model, with what must be kept.
  */
 #ifndef vtkMeshOptimizeImport_h
 #define vtkMeshOptimizeImport_h
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshOptimizeModel.h"
 
-#include "Mesh/SimplexMesh.h"
+#include <string>
 
 namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Points and simplices only. Point ids of the core are those of the grid (points that no simplex
- * uses are there as well and stay as they are); its cell k is simplices[k].
- */
-template <int D>
-meshopt::MeshInput<D> ImportGeometry(
-  vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, const Frame<D>& frame);
-
-/**
  * Points and simplices with what must be kept: regions, fixed points, and what other cells touch.
+ * Point ids of the core are those of the grid; its cell k is model.Cells.Simplices[k].
  */
 template <int D>
-meshopt::MeshInput<D> ImportMesh(
-  vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays, const Frame<D>& frame);
+meshopt::MeshInput<D> ImportMesh(const Model<D>& model);
 
 /**
- * Imports and builds. Returns the sentence of SimplexMesh::build(), with the cell ids of the grid,
- * or an empty string.
+ * Makes model.Mesh from the rest of the model. Returns the sentence of SimplexMesh::build(), with
+ * the cell ids of the grid, or an empty string.
  */
 template <int D>
-std::string BuildMesh(vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays,
-  const Frame<D>& frame, meshopt::SimplexMesh<D>& mesh);
+std::string BuildMesh(Model<D>& model);
 
 } // namespace vtkMeshOptimizeBridge
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeQuality.h"
 
 #include "vtkCellData.h"
@@ -8,6 +9,7 @@
 
 #include "Quality/ElementQuality.h"
 
+#include <cmath>
 #include <limits>
 
 namespace vtkMeshOptimizeBridge
@@ -30,22 +32,22 @@ vtkDoubleArray* AddQualityArray(vtkUnstructuredGrid* output)
  * Core points of an output cell; false if it is no simplex of dimension D.
  */
 template <int D>
-bool GetSimplex(vtkUnstructuredGrid* grid, const OutputMap& map,
-  const meshopt::SimplexMesh<D>& mesh, std::size_t cell, meshopt::Simplex<D>& nodes)
+bool GetSimplex(
+  const Model<D>& model, const OutputMap& map, std::size_t cell, meshopt::Simplex<D>& nodes)
 {
   if (map.CellToSlot[cell] != meshopt::None)
   {
-    nodes = mesh.nodes(map.CellToSlot[cell]);
+    nodes = model.Mesh.nodes(map.CellToSlot[cell]);
     return true;
   }
   const vtkIdType source = map.CellToSource[cell];
-  if (grid->GetCellType(source) != (D == 3 ? VTK_TETRA : VTK_TRIANGLE))
+  if (model.Grid->GetCellType(source) != (D == 3 ? VTK_TETRA : VTK_TRIANGLE))
   {
     return false;
   }
   vtkIdType n = 0;
   const vtkIdType* ids = nullptr;
-  grid->GetCellPoints(source, n, ids);
+  model.Grid->GetCellPoints(source, n, ids);
   for (int i = 0; i <= D; ++i)
   {
     nodes[i] = static_cast<meshopt::Index>(ids[i]);
@@ -56,9 +58,8 @@ bool GetSimplex(vtkUnstructuredGrid* grid, const OutputMap& map,
 } // namespace
 
 template <int D>
-void AddMeshQuality(vtkUnstructuredGrid* grid, const OutputMap& map,
-  const meshopt::SimplexMesh<D>& mesh, const meshopt::NodalMetric<D>& metric,
-  const meshopt::Options& options, vtkUnstructuredGrid* output)
+void AddMeshQuality(const Model<D>& model, const OutputMap& map, const meshopt::Options& options,
+  vtkUnstructuredGrid* output)
 {
   double* values = AddQualityArray(output)->GetPointer(0);
   meshopt::dispatch<D>(options.measure,
@@ -68,14 +69,17 @@ void AddMeshQuality(vtkUnstructuredGrid* grid, const OutputMap& map,
       meshopt::Simplex<D> nodes;
       for (std::size_t c = 0; c < map.CellToSource.size(); ++c)
       {
-        if (GetSimplex(grid, map, mesh, c, nodes))
+        if (GetSimplex(model, map, c, nodes))
         {
           meshopt::Corners<D> corners;
           for (int i = 0; i <= D; ++i)
           {
-            corners[i] = mesh.point(nodes[i]);
+            corners[i] = model.Mesh.point(nodes[i]);
           }
-          values[c] = quality.value(corners, metric.element(nodes));
+          const meshopt::ElementMetric<D> metric = model.Metric.element(nodes);
+          // A ghost without a usable size is not measured: only the shape would count.
+          const bool isUsable = options.beta == 0.0 || !std::isnan(metric.desiredSize);
+          values[c] = isUsable ? quality.value(corners, metric) : values[c];
         }
       }
     });
@@ -83,11 +87,9 @@ void AddMeshQuality(vtkUnstructuredGrid* grid, const OutputMap& map,
 
 void AddNoMeshQuality(vtkUnstructuredGrid* output) { AddQualityArray(output); }
 
-template void AddMeshQuality<2>(vtkUnstructuredGrid*, const OutputMap&,
-  const meshopt::SimplexMesh<2>&, const meshopt::NodalMetric<2>&, const meshopt::Options&,
-  vtkUnstructuredGrid*);
-template void AddMeshQuality<3>(vtkUnstructuredGrid*, const OutputMap&,
-  const meshopt::SimplexMesh<3>&, const meshopt::NodalMetric<3>&, const meshopt::Options&,
-  vtkUnstructuredGrid*);
+template void AddMeshQuality<2>(
+  const Model<2>&, const OutputMap&, const meshopt::Options&, vtkUnstructuredGrid*);
+template void AddMeshQuality<3>(
+  const Model<3>&, const OutputMap&, const meshopt::Options&, vtkUnstructuredGrid*);
 
 } // namespace vtkMeshOptimizeBridge

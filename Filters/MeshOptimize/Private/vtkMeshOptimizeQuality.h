@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The cell array `MeshQuality` of the output.
  */
@@ -6,7 +7,6 @@
 
 #include "vtkMeshOptimizeExport.h"
 
-#include "Metric/NodalMetric.h"
 #include "Run/Options.h"
 
 class vtkUnstructuredGrid;
@@ -19,9 +19,8 @@ namespace vtkMeshOptimizeBridge
  * measure, beta and metric of the run; NaN for the others.
  */
 template <int D>
-void AddMeshQuality(vtkUnstructuredGrid* grid, const OutputMap& map,
-  const meshopt::SimplexMesh<D>& mesh, const meshopt::NodalMetric<D>& metric,
-  const meshopt::Options& options, vtkUnstructuredGrid* output);
+void AddMeshQuality(const Model<D>& model, const OutputMap& map, const meshopt::Options& options,
+  vtkUnstructuredGrid* output);
 
 /**
  * The array for a grid in which nothing was optimized: all NaN.

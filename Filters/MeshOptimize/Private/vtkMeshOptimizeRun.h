@@ -1,75 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * One grid through the optimizer: grid -> import -> SimplexMesh -> optimize -> export -> grid.
  */
 #ifndef vtkMeshOptimizeRun_h
 #define vtkMeshOptimizeRun_h
 
-#include "Surface/BoundaryCurves.h"
-#include "Metric/EdgeLengths.h"
-#include "Base/Control.h"
-#include "Run/Options.h"
-#include "Run/Report.h"
-
-#include "vtkType.h"
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeRequest.h"
 
 #include <string>
 
-class vtkAlgorithm;
-class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
 {
 
-class Deadline;
-
 /**
- * What is wanted.
+ * Optimizes `input`, which has these `arrays`, into `output`, which shares nothing with it. Returns
+ * an empty string, or one sentence about what makes the input unusable; `output` is then as good as
+ * empty.
  */
-struct Request
-{
-  vtkAlgorithm* Filter = nullptr; ///< knows the names of the input arrays
-  meshopt::Options Options;
-  meshopt::Control Control;
-  int NumberOfThreads = 1;
-  const Deadline* TimeLimit = nullptr; ///< tells an abort by the clock from one by the user
-  double OptimizeBelow = 0.0; ///< only cells under it may change, and layers around; 0: all
-  int NumberOfLayers = 0;
-  bool Slide = false; ///< the boundary may be remeshed along its curves
-  meshopt::CurveOptions Curves;
-  /// Sizes count for the quality, or the boundary follows them.
-  bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }
-  vtkPolyData* Geometry = nullptr; ///< what the curves are made from; nullptr: the mesh itself
-};
-
-/**
- * What came out, for one grid or, after Add(), several.
- */
-struct Outcome
-{
-  meshopt::Report Report;
-  vtkIdType NumberOfCells = 0; ///< that were optimized, after it
-  vtkIdType NumberOfCellsBefore = 0;
-  vtkIdType NumberOfSimplices = 0; ///< linear ones of the greatest dimension, in the input
-  vtkIdType NumberOfReorientedCells = 0;
-  vtkIdType NumberOfQuadraticSimplices = 0;
-  vtkIdType NumberOfOperations = 0;
-  double Seconds = 0.0;
-  meshopt::EdgeLengths Lengths; ///< in the end; no edges if neither sizes nor a metric are given
-  std::string Sizes;            ///< what the user should know about the wanted sizes; or empty
-  std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
-
-  /// Takes another grid's outcome in: minima, means by number of cells, sums, the strongest stop
-  /// reason, sentences. Histories are not joined.
-  void Add(const Outcome& other);
-};
-
-/**
- * Optimizes `input` into `output`, which shares nothing with it. Returns an empty string, or one
- * sentence about what makes the input unusable; `output` is then as good as empty.
- */
-std::string OptimizeGrid(vtkUnstructuredGrid* input, const Request& request,
-  vtkUnstructuredGrid* output, Outcome& outcome);
+std::string OptimizeGrid(vtkUnstructuredGrid* input, const InputArrays& arrays,
+  const Request& request, vtkUnstructuredGrid* output, Outcome& outcome);
 
 } // namespace vtkMeshOptimizeBridge
 

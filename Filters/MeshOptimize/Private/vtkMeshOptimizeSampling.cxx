@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeSampling.h"
 
-#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshBridgeImport.h"
 
 #include "vtkUnstructuredGrid.h"
 
@@ -23,10 +24,11 @@ namespace
  * Core ids, ascending, of the simplices of the input that are gone or have a node that moved.
  */
 template <int D>
-std::vector<Index> ListChangedSimplices(
-  const Cells& cells, const OutputMap& map, const SimplexMesh<D>& mesh)
+std::vector<Index> ListChangedSimplices(const Model<D>& model, const OutputMap& map)
 {
-  std::vector<char> hasMoved(mesh.numberOfPointSlots(), 0), isKept(cells.Simplices.size(), 0);
+  const SimplexMesh<D>& mesh = model.Mesh;
+  std::vector<char> hasMoved(mesh.numberOfPointSlots(), 0);
+  std::vector<char> isKept(model.Cells.Simplices.size(), 0);
   for (const vtkIdType id : map.SampledPoints)
   {
     hasMoved[map.PointToSlot[id]] = 1;
@@ -53,14 +55,13 @@ std::vector<Index> ListChangedSimplices(
 }
 
 template <int D>
-Background<D> MakeBackground(vtkUnstructuredGrid* grid, const Cells& cells, const Frame<D>& frame,
-  const std::vector<Index>& changed)
+Background<D> MakeBackground(const Model<D>& model, const std::vector<Index>& changed)
 {
   std::vector<vtkIdType> simplices(changed.size());
-  std::transform(
-    changed.begin(), changed.end(), simplices.begin(), [&](Index k) { return cells.Simplices[k]; });
-  SimplexMesh<D> mesh;
-  SimplexMesh<D>::build(ImportGeometry(grid, simplices, frame), mesh); // went well with all of them
+  std::transform(changed.begin(), changed.end(), simplices.begin(),
+    [&](Index k) { return model.Cells.Simplices[k]; });
+  SimplexMesh<D> mesh; // building went well with all of them
+  SimplexMesh<D>::build(vtkMeshBridge::ImportGeometry(model.Grid, simplices, model.Frame), mesh);
   return Background<D>(mesh);
 }
 
@@ -104,11 +105,11 @@ Sample MakeSample(
 } // namespace
 
 template <int D>
-std::vector<Sample> SampleInput(vtkUnstructuredGrid* grid, const Cells& cells,
-  const Frame<D>& frame, const OutputMap& map, const SimplexMesh<D>& mesh)
+std::vector<Sample> SampleInput(const Model<D>& model, const OutputMap& map)
 {
-  const std::vector<Index> changed = ListChangedSimplices(cells, map, mesh);
-  const Background<D> background = MakeBackground(grid, cells, frame, changed);
+  const SimplexMesh<D>& mesh = model.Mesh;
+  const std::vector<Index> changed = ListChangedSimplices(model, map);
+  const Background<D> background = MakeBackground(model, changed);
   std::vector<Sample> samples;
   samples.reserve(map.SampledPoints.size());
   for (const vtkIdType id : map.SampledPoints)
@@ -121,9 +122,7 @@ std::vector<Sample> SampleInput(vtkUnstructuredGrid* grid, const Cells& cells,
   return samples;
 }
 
-template std::vector<Sample> SampleInput<2>(
-  vtkUnstructuredGrid*, const Cells&, const Frame<2>&, const OutputMap&, const SimplexMesh<2>&);
-template std::vector<Sample> SampleInput<3>(
-  vtkUnstructuredGrid*, const Cells&, const Frame<3>&, const OutputMap&, const SimplexMesh<3>&);
+template std::vector<Sample> SampleInput<2>(const Model<2>&, const OutputMap&);
+template std::vector<Sample> SampleInput<3>(const Model<3>&, const OutputMap&);
 
 } // namespace vtkMeshOptimizeBridge

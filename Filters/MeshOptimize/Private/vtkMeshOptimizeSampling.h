@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * Where in the input the moved and new points of the output lie.
  */
@@ -31,8 +32,7 @@ struct Sample
  * part of space that the changed cells of the output fill. So the cost is that of what has changed.
  */
 template <int D>
-std::vector<Sample> SampleInput(vtkUnstructuredGrid* grid, const Cells& cells,
-  const Frame<D>& frame, const OutputMap& map, const meshopt::SimplexMesh<D>& mesh);
+std::vector<Sample> SampleInput(const Model<D>& model, const OutputMap& map);
 
 } // namespace vtkMeshOptimizeBridge
 

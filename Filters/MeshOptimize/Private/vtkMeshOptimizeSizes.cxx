@@ -1,12 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeSizes.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeRun.h"
+#include "vtkMeshBridgeGridView.h"
+#include "vtkMeshBridgeValues.h"
 
 #include "vtkDataArray.h"
 
+#include "Metric/TensorFunctions.h"
+
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -25,43 +28,95 @@ std::string NameOf(const char* what, vtkDataArray* array)
   return std::string(what) + (name ? " '" + std::string(name) + "'" : "") + ": ";
 }
 
+/// The sizes, if they count.
+template <int D>
+vtkDataArray* SizesOf(const Request& request, const Model<D>& model)
+{
+  return request.UsesSizes() ? model.Arrays.Size : nullptr;
+}
+
+template <int D>
+constexpr vtkMeshBridge::Kind SimplexKind = D == 3 ? vtkMeshBridge::Kind::Tetrahedron
+                                                   : vtkMeshBridge::Kind::Triangle;
+
+/**
+ * What NodalMetric::set() would make of the values at a point. Either array may be nullptr.
+ */
+template <int D>
+typename meshopt::NodalMetric<D>::Sample ReadSample(
+  vtkDataArray* sizes, vtkDataArray* tensors, vtkIdType p, const vtkMeshBridge::Frame<D>& frame)
+{
+  typename meshopt::NodalMetric<D>::Sample sample;
+  if (sizes)
+  {
+    sample.logSize = vtkMeshBridge::LogOfSize(sizes->GetComponent(p, 0));
+  }
+  if (tensors &&
+    !meshopt::logarithm<D>(vtkMeshBridge::ReadTensor(tensors, p, frame), sample.logTensor))
+  {
+    sample.logTensor.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return sample;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
 template <int D>
-std::string SetMetric(const Cells& cells, const InputArrays& arrays, const Frame<D>& frame,
-  const Request& request, const meshopt::SimplexMesh<D>& mesh, meshopt::NodalMetric<D>& metric)
+std::string SetMetric(const Request& request, Model<D>& model)
 {
-  vtkDataArray* sizes = request.UsesSizes() ? arrays.Size : nullptr;
-  if (!sizes && !arrays.Metric)
+  vtkDataArray* tensors = model.Arrays.Metric;
+  vtkDataArray* sizes = SizesOf(request, model);
+  if (!sizes && !tensors)
   {
     return {};
   }
-  const std::vector<double> sizesAtPoints = ReadSizes(sizes, cells);
-  const std::string error = metric.set(
-    mesh, sizesAtPoints, ReadMetric(arrays.Metric, cells, frame));
+  const std::vector<double> sizesAtPoints = vtkMeshBridge::ReadSizes(sizes);
+  const std::string error = model.Metric.set(
+    model.Mesh, sizesAtPoints, vtkMeshBridge::ReadTensors(tensors, model.Frame));
   if (error.empty())
   {
     return {};
   }
   meshopt::NodalMetric<D> alone; // tells which of the two arrays it is
-  const bool isSize = sizes && !alone.set(mesh, sizesAtPoints, {}).empty();
-  return (isSize || !arrays.Metric ? NameOf("Size array", sizes)
-                                   : NameOf("Metric array", arrays.Metric)) +
+  const bool isSize = sizes && !alone.set(model.Mesh, sizesAtPoints, {}).empty();
+  return (isSize || !tensors ? NameOf("Size array", sizes) : NameOf("Metric array", tensors)) +
     error;
 }
 
 template <int D>
-std::string CheckCount(const Request& request, const meshopt::SimplexMesh<D>& mesh,
-  const meshopt::NodalMetric<D>& metric)
+void SetMetricOfGhosts(const Request& request, Model<D>& model)
 {
-  const bool hasSizes = request.Options.desiredSize > 0.0 || metric.hasSizes();
+  vtkDataArray* tensors = model.Arrays.Metric;
+  vtkDataArray* sizes = SizesOf(request, model);
+  const vtkMeshBridge::GridView view(model.Grid);
+  for (vtkIdType c = 0; c < view.GetNumberOfCells() && (sizes || tensors); ++c)
+  {
+    vtkIdType ids[D + 1];
+    if (view.IsGhost(c) && view.GetKind(c) == SimplexKind<D> && view.GetCorners(c, D + 1, ids))
+    {
+      for (vtkIdType p : ids)
+      {
+        if (!model.Mesh.isPointAlive(static_cast<meshopt::Index>(p)))
+        {
+          model.Metric.setSample(
+            static_cast<meshopt::Index>(p), ReadSample<D>(sizes, tensors, p, model.Frame));
+        }
+      }
+    }
+  }
+}
+
+template <int D>
+std::string CheckCount(const Request& request, const Model<D>& model)
+{
+  const bool hasSizes = request.Options.desiredSize > 0.0 || model.Metric.hasSizes();
   if (!request.UsesSizes() || !hasSizes ||
     request.Options.algorithm != meshopt::Algorithm::WorstFirst)
   {
     return {};
   }
-  const double count = metric.predictedNumberOfElements(mesh);
+  const double count = model.Metric.predictedNumberOfElements(model.Mesh);
   if (count <= MostElements)
   {
     return {};
@@ -126,13 +181,11 @@ std::string DescribeArea(double before, double after, const Request& request)
   return text.str();
 }
 
-template std::string SetMetric<2>(const Cells&, const InputArrays&, const Frame<2>&, const Request&,
-  const meshopt::SimplexMesh<2>&, meshopt::NodalMetric<2>&);
-template std::string SetMetric<3>(const Cells&, const InputArrays&, const Frame<3>&, const Request&,
-  const meshopt::SimplexMesh<3>&, meshopt::NodalMetric<3>&);
-template std::string CheckCount<2>(
-  const Request&, const meshopt::SimplexMesh<2>&, const meshopt::NodalMetric<2>&);
-template std::string CheckCount<3>(
-  const Request&, const meshopt::SimplexMesh<3>&, const meshopt::NodalMetric<3>&);
+template std::string SetMetric<2>(const Request&, Model<2>&);
+template std::string SetMetric<3>(const Request&, Model<3>&);
+template void SetMetricOfGhosts<2>(const Request&, Model<2>&);
+template void SetMetricOfGhosts<3>(const Request&, Model<3>&);
+template std::string CheckCount<2>(const Request&, const Model<2>&);
+template std::string CheckCount<3>(const Request&, const Model<3>&);
 
 } // namespace vtkMeshOptimizeBridge

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * Inverted and flat cells that are left at the end: which ones, and why.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeTransfer.h"
 
 #include "vtkAbstractArray.h"
@@ -27,7 +28,8 @@ bool IsNamed(vtkAbstractArray* array, const char* name)
 }
 
 /**
- * An array like `source` whose tuple i is its tuple ids[i].
+ * An array like `source` whose tuple i is its tuple ids[i]. (vtkDataSetAttributes::CopyData()
+ * leaves global ids out or makes them the active ones again, and points need more than copies.)
  */
 vtkSmartPointer<vtkAbstractArray> Gather(vtkAbstractArray* source, vtkIdList* ids)
 {

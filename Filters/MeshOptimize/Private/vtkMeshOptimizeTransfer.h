@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * Data arrays of the output: point data interpolated, cell data from the parent, field data kept.
  */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeZone.h"
 
 #include "vtkMeshOptimizeImport.h"
@@ -20,9 +21,9 @@ namespace
 {
 
 template <int D>
-std::vector<double> Qualities(const SimplexMesh<D>& mesh, const meshopt::NodalMetric<D>& metric,
-  const meshopt::Options& options)
+std::vector<double> Qualities(const Model<D>& model, const meshopt::Options& options)
 {
+  const SimplexMesh<D>& mesh = model.Mesh;
   std::vector<double> values(mesh.numberOfInputCells());
   meshopt::dispatch<D>(options.measure,
     [&](auto shape)
@@ -30,7 +31,7 @@ std::vector<double> Qualities(const SimplexMesh<D>& mesh, const meshopt::NodalMe
       const meshopt::ElementQuality<D, decltype(shape)> quality{ options.beta };
       for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
       {
-        values[k] = quality.value(mesh.corners(k), metric.element(mesh.nodes(k)));
+        values[k] = quality.value(mesh.corners(k), model.Metric.element(mesh.nodes(k)));
       }
     });
   return values;
@@ -106,57 +107,96 @@ LeftOut SumUp(const SimplexMesh<D>& mesh, const std::vector<double>& qualities, 
 }
 
 /**
- * Builds the mesh of the simplices in `cells`, which are numbered as those of `whole`.
+ * The cells that are to change: those under the threshold, and layers around them.
  */
 template <int D>
-void BuildZone(vtkUnstructuredGrid* grid, const Cells& cells, const InputArrays& arrays,
-  const Frame<D>& frame, const std::vector<char>& isInside, SimplexMesh<D>& mesh)
+std::vector<char> MarkZone(
+  const Request& request, const Model<D>& model, const std::vector<double>& qualities)
 {
-  meshopt::MeshInput<D> input = ImportMesh(grid, cells, arrays, frame);
+  std::vector<char> isInside(qualities.size());
+  bool grows = false;
+  for (Index k = 0; k < model.Mesh.numberOfInputCells(); ++k)
+  {
+    isInside[k] = qualities[k] < request.OptimizeBelow ||
+      IsReversed<D>(model.Grid, model.Cells.Simplices[k], model.Mesh.nodes(k));
+    grows |= isInside[k] != 0;
+  }
+  for (int layer = 0; layer < request.NumberOfLayers && grows; ++layer)
+  {
+    grows = AddLayer(model.Mesh, isInside);
+  }
+  return isInside;
+}
+
+/**
+ * Takes simplices off the list: those that `isKept`, one value for each of them, does not name pass
+ * through from now on, as ghost cells do.
+ */
+void KeepSimplices(
+  vtkUnstructuredGrid* grid, const std::vector<char>& isKept, vtkMeshBridge::Cells& cells)
+{
+  for (std::uint8_t& use : cells.PointUse)
+  {
+    use &= static_cast<std::uint8_t>(~vtkMeshBridge::UsedBySimplex);
+  }
+  std::vector<vtkIdType> kept;
+  for (std::size_t k = 0; k < isKept.size(); ++k)
+  {
+    vtkIdType n = 0;
+    const vtkIdType* ids = nullptr;
+    grid->GetCellPoints(cells.Simplices[k], n, ids);
+    for (vtkIdType i = 0; i < n; ++i)
+    {
+      cells.PointUse[ids[i]] |= isKept[k] ? vtkMeshBridge::UsedBySimplex
+                                          : vtkMeshBridge::UsedByOther;
+    }
+    if (isKept[k])
+    {
+      kept.push_back(cells.Simplices[k]);
+    }
+  }
+  cells.Simplices.swap(kept);
+}
+
+/**
+ * Builds the mesh of the simplices inside, which alone the model's cells name by now.
+ */
+template <int D>
+void BuildZone(const std::vector<char>& isInside, Model<D>& model)
+{
+  meshopt::MeshInput<D> input = ImportMesh(model);
   Index next = 0;
-  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  for (Index k = 0; k < model.Mesh.numberOfInputCells(); ++k)
   {
     if (isInside[k])
     {
-      input.cells[next++] = mesh.nodes(k);
+      input.cells[next++] = model.Mesh.nodes(k);
     }
   }
   input.isOriented = true;
-  SimplexMesh<D>::build(input, mesh); // went well with all of them
+  SimplexMesh<D>::build(input, model.Mesh); // went well with all of them
 }
 
 } // namespace
 
 template <int D>
-LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, const Frame<D>& frame,
-  const meshopt::NodalMetric<D>& metric, const meshopt::Options& options, double threshold,
-  int layers, Cells& cells, SimplexMesh<D>& mesh, std::vector<meshopt::Simplex<D>>& others)
+LeftOut RestrictToZone(
+  const Request& request, Model<D>& model, std::vector<meshopt::Simplex<D>>& others)
 {
-  const std::vector<double> qualities = Qualities(mesh, metric, options);
-  std::vector<char> isInside(qualities.size());
-  bool grows = false;
-  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
-  {
-    isInside[k] = qualities[k] < threshold ||
-      IsReversed<D>(grid, cells.Simplices[k], mesh.nodes(k));
-    grows |= isInside[k] != 0;
-  }
-  for (int layer = 0; layer < layers && grows; ++layer)
-  {
-    grows = AddLayer(mesh, isInside);
-  }
-  const LeftOut rest = SumUp(mesh, qualities, options.targetQuality, isInside);
-  for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
+  const std::vector<double> qualities = Qualities(model, request.Options);
+  const std::vector<char> isInside = MarkZone(request, model, qualities);
+  const LeftOut rest = SumUp(model.Mesh, qualities, request.Options.targetQuality, isInside);
+  for (Index k = 0; k < model.Mesh.numberOfInputCells(); ++k)
   {
     if (!isInside[k])
     {
-      others.push_back(mesh.nodes(k));
+      others.push_back(model.Mesh.nodes(k));
     }
   }
   if (!others.empty())
   {
-    KeepSimplices(grid, isInside, cells);
-    BuildZone(grid, cells, arrays, frame, isInside, mesh);
+    KeepSimplices(model.Grid, isInside, model.Cells);
+    BuildZone(isInside, model);
   }
   return rest;
 }
@@ -213,13 +253,9 @@ void AddLeftOut(const LeftOut& rest, Outcome& outcome)
   outcome.NumberOfCells += rest.NumberOfCells;
 }
 
-template LeftOut RestrictToZone<2>(vtkUnstructuredGrid*, const InputArrays&, const Frame<2>&,
-  const meshopt::NodalMetric<2>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<2>&,
-  std::vector<meshopt::Simplex<2>>&);
+template LeftOut RestrictToZone<2>(const Request&, Model<2>&, std::vector<meshopt::Simplex<2>>&);
+template LeftOut RestrictToZone<3>(const Request&, Model<3>&, std::vector<meshopt::Simplex<3>>&);
 template bool FitsTogether<2>(const SimplexMesh<2>&, const std::vector<meshopt::Simplex<2>>&);
-template LeftOut RestrictToZone<3>(vtkUnstructuredGrid*, const InputArrays&, const Frame<3>&,
-  const meshopt::NodalMetric<3>&, const meshopt::Options&, double, int, Cells&, SimplexMesh<3>&,
-  std::vector<meshopt::Simplex<3>>&);
 template bool FitsTogether<3>(const SimplexMesh<3>&, const std::vector<meshopt::Simplex<3>>&);
 
 } // namespace vtkMeshOptimizeBridge

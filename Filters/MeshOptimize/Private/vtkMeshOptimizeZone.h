@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The part of a mesh that may change where only cells under a threshold, and some layers around
  * them, may.
@@ -5,18 +6,10 @@
 #ifndef vtkMeshOptimizeZone_h
 #define vtkMeshOptimizeZone_h
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
-#include "vtkMeshOptimizeRun.h"
-
-#include "Mesh/SimplexMesh.h"
-#include "Metric/NodalMetric.h"
-#include "Run/Options.h"
+#include "vtkMeshOptimizeModel.h"
+#include "vtkMeshOptimizeRequest.h"
 
 #include <vector>
-
-class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
 {
@@ -34,24 +27,20 @@ struct LeftOut
 };
 
 /**
- * Finds the cells of `mesh` under `threshold` and `layers` times those that share a node with them,
- * and makes `mesh` the mesh of these; `cells` is changed likewise. Its surface then holds the other
- * cells in place. Cells that were numbered the wrong way round count as inverted ones, which they
- * were in the grid: none is left out.
+ * Finds the cells of the model under request.OptimizeBelow and so many layers of cells that share a
+ * node with them, and makes the model's mesh and cells those of this zone. The surface of the zone
+ * then holds the other cells in place; `others` gets them. Cells that were numbered the wrong way
+ * round count as inverted ones, which they were in the grid: none is left out.
  *
- * `mesh` comes with all simplices of `cells`, and `metric` is its; `others` gets those that are left out.
- * Qualities are those of
- * `options`. What is left out is linear in the size of the mesh to find, and so is each layer.
+ * Linear in the size of the mesh, and so is each layer.
  */
 template <int D>
-LeftOut RestrictToZone(vtkUnstructuredGrid* grid, const InputArrays& arrays, const Frame<D>& frame,
-  const meshopt::NodalMetric<D>& metric, const meshopt::Options& options, double threshold,
-  int layers, Cells& cells, meshopt::SimplexMesh<D>& mesh,
-  std::vector<meshopt::Simplex<D>>& others);
+LeftOut RestrictToZone(
+  const Request& request, Model<D>& model, std::vector<meshopt::Simplex<D>>& others);
 
 /**
- * Whether the zone and the others are a mesh. Where cells overlap a new cell of the zone can have a facet
- * that is there among the others.
+ * Whether the zone and the others are a mesh. Where cells overlap a new cell of the zone can have a
+ * facet that is there among the others.
  */
 template <int D>
 bool FitsTogether(

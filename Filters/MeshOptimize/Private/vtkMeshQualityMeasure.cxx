@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshQualityMeasure.h"
 
 #include "Metric/TensorFunctions.h"
@@ -8,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 namespace
 {
@@ -52,7 +53,7 @@ public:
   Evaluator(const Grid& grid, const Options& options)
     : Mesh(grid)
     , DesiredSize(options.DesiredSize)
-    , IsPlain(options.Beta == 0.0 && grid.GetLogTensors().empty())
+    , IsPlain(options.Beta == 0.0 && !grid.HasMetric())
   {
     this->Solid.beta = options.Beta;
     this->Flat.beta = options.Beta;
@@ -78,7 +79,14 @@ private:
     {
       return Shape::value(x);
     }
-    return this->Solid.value(x, this->MetricOf(ids, 4));
+    return ValueIn(this->MetricOf<3>(ids), this->Solid, x);
+  }
+
+  /// NaN for a ghost without a usable size: without it only the shape would count.
+  template <int D, class Quality>
+  static double ValueIn(const ElementMetric<D>& metric, const Quality& quality, const Corners<D>& x)
+  {
+    return std::isnan(metric.desiredSize) ? NotANumber : quality.value(x, metric);
   }
 
   double Triangle(vtkIdType cell) const
@@ -90,34 +98,33 @@ private:
     }
     Corners<3> x = { this->Mesh.GetPoint(ids[0]), this->Mesh.GetPoint(ids[1]),
       this->Mesh.GetPoint(ids[2]), Vec<3>::Zero() };
-    ElementMetric<2> flat;
-    double sign = 1.0;
-    if (!this->IsPlain)
-    {
-      const ElementMetric<3> metric = this->MetricOf(ids, 3);
-      flat.desiredSize = metric.desiredSize;
-      for (int i = 0; !metric.euclidean && i < 3; ++i)
-      {
-        x[i] = metric.map * x[i];
-      }
-    }
-    Corners<2> y;
     if (this->Mesh.IsFlat())
     {
-      y = { Vec<2>(x[0][0], x[0][1]), Vec<2>(x[1][0], x[1][1]), Vec<2>(x[2][0], x[2][1]) };
-      // not finite in z only: still no number
-      sign += 0.0 * (x[0][2] + x[1][2] + x[2][2]);
+      const vtkMeshBridge::Frame<2>& frame = this->Mesh.GetFrame();
+      const Corners<2> y = { frame.ToCore(x[0].data()), frame.ToCore(x[1].data()),
+        frame.ToCore(x[2].data()) };
+      // not finite in the coordinate across the plane only: still no number
+      const double finite = 0.0 * (x[0].sum() + x[1].sum() + x[2].sum());
+      return ValueIn(this->MetricOf<2>(ids), this->Flat, y) + finite;
     }
-    else
+    ElementMetric<2> size;
+    if (!this->IsPlain)
     {
-      y = Unfold(x);
+      const ElementMetric<3> metric = this->MetricOf<3>(ids, 3);
+      size.desiredSize = metric.desiredSize;
+      for (int i = 2; !metric.euclidean && i >= 0; --i)
+      {
+        x[i] = metric.map * (x[i] - x[0]);
+      }
     }
-    return sign * this->Flat.value(y, flat);
+    return ValueIn(size, this->Flat, Unfold(x));
   }
 
-  ElementMetric<3> MetricOf(const vtkIdType* ids, int n) const
+  /// In the metric of the n nodes; that of NodalMetric::element().
+  template <int D>
+  ElementMetric<D> MetricOf(const vtkIdType* ids, int n = D + 1) const
   {
-    ElementMetric<3> metric;
+    ElementMetric<D> metric;
     metric.desiredSize = this->DesiredSize;
     if (!this->Mesh.GetLogSizes().empty())
     {
@@ -128,15 +135,16 @@ private:
       }
       metric.desiredSize = std::exp(sum / n);
     }
-    if (!this->Mesh.GetLogTensors().empty())
+    const std::vector<meshopt::Tensor<D>>& logs = this->Mesh.template GetLogTensors<D>();
+    if (!logs.empty())
     {
-      meshopt::Tensor<3> sum = meshopt::Tensor<3>::Zero();
+      meshopt::Tensor<D> sum = meshopt::Tensor<D>::Zero();
       for (int k = 0; k < n; ++k)
       {
-        sum += this->Mesh.GetLogTensors()[ids[k]];
+        sum += logs[ids[k]];
       }
       metric.euclidean = false;
-      metric.map = meshopt::exponential<3>((sum * (0.5 / n)).eval());
+      metric.map = meshopt::exponential<D>((sum * (0.5 / n)).eval());
     }
     return metric;
   }
@@ -156,6 +164,7 @@ struct Chunk
 {
   meshopt::QualityStatistics Quality;
   std::int64_t OtherCells = 0;
+  std::int64_t GhostSimplices = 0;
   std::map<int, Sums> Regions;
   std::vector<meshopt::WorstElement> Worst;
 };
@@ -173,6 +182,7 @@ void MeasureChunk(const Grid& grid, const Evaluator<Shape>& evaluate, std::size_
     quality[c] = kind == Kind::Other ? NotANumber : evaluate(c, kind);
     if (grid.IsGhost(c))
     {
+      chunk.GhostSimplices += kind == Kind::Other ? 0 : 1;
       continue;
     }
     if (grid.HasRegions())
@@ -236,6 +246,7 @@ void Figures::Merge(const Figures& other)
     this->Regions[region.first].Merge(region.second);
   }
   this->Worst.merge(other.Worst);
+  this->GhostSimplices += other.GhostSimplices;
   this->HasTetrahedra |= other.HasTetrahedra;
   this->HasTriangles |= other.HasTriangles;
 }
@@ -252,6 +263,7 @@ Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part,
   {
     figures.Total.Quality.merge(chunk.Quality);
     figures.Total.OtherCells += chunk.OtherCells;
+    figures.GhostSimplices += chunk.GhostSimplices;
     for (const auto& region : chunk.Regions)
     {
       figures.Regions[grid.GetRegions()[region.first]].Merge(region.second);
@@ -264,4 +276,4 @@ Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part,
   return figures;
 }
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge

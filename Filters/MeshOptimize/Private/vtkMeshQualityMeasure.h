@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The quality of every cell of a grid, and its sums: over the grid and over each region.
  */
@@ -11,7 +12,7 @@
 
 #include <map>
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 
 /**
@@ -54,13 +55,15 @@ struct Figures
   Sums Total;
   std::map<long long, Sums> Regions; ///< by the value of the region array; empty without one
   meshopt::WorstElements Worst;
+  std::int64_t GhostSimplices = 0; ///< triangles and tetrahedra that are not counted
   bool HasTetrahedra = false, HasTriangles = false;
 };
 
 /**
- * Writes the quality of each cell to `quality` (one per cell; NaN for cells that are neither triangles
- * nor tetrahedra, that lack a point, or have a coordinate that is not finite) and sums up those that are not ghosts.
- * `part` goes into the worst elements. The same bits for any number of threads.
+ * Writes the quality of each cell to `quality` (one per cell; NaN for cells that are neither
+ * triangles nor tetrahedra, that lack a point, or have a coordinate that is not finite) and sums up
+ * those that are not ghosts. `part` goes into the worst elements. The same bits for any number of
+ * threads.
  */
 Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part, double* quality);
 
@@ -70,6 +73,6 @@ Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part,
 void MeasureSurface(
   const Grid& grid, const Options& options, const double* quality, Figures& figures);
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge
 
 #endif

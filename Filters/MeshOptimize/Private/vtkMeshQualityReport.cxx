@@ -1,12 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshQualityReport.h"
 
 #include "vtkCell.h"
 #include "vtkCellData.h"
+#include "vtkCommunicator.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkMultiProcessController.h"
+#include "vtkMultiProcessStream.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkStringArray.h"
@@ -18,102 +21,88 @@
 #include <string>
 #include <unordered_map>
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 namespace
 {
 
-/**
- * Figures as a row of numbers, to be sent. Counts are exact up to 2^53.
- */
-class Packer
+// Counts are 64 bits wide to the stream.
+void Put(vtkMultiProcessStream& stream, std::int64_t count)
 {
-public:
-  std::vector<double> Data;
+  stream << static_cast<vtkTypeInt64>(count);
+}
 
-  void Pack(const Figures& f)
-  {
-    this->Data.push_back(f.HasTetrahedra);
-    this->Data.push_back(f.HasTriangles);
-    this->Pack(f.Total);
-    this->Data.push_back(static_cast<double>(f.Regions.size()));
-    for (const auto& region : f.Regions)
-    {
-      this->Data.push_back(static_cast<double>(region.first));
-      this->Pack(region.second);
-    }
-    for (const meshopt::WorstElement& e : f.Worst.sorted())
-    {
-      this->Data.insert(
-        this->Data.end(), { e.quality, static_cast<double>(e.part), static_cast<double>(e.id) });
-    }
-  }
-
-private:
-  void Pack(const Sums& s)
-  {
-    const meshopt::QualityStatistics& q = s.Quality;
-    this->Data.insert(this->Data.end(),
-      { static_cast<double>(q.count), static_cast<double>(q.invalid),
-        static_cast<double>(q.inverted), q.minimum, q.maximum, q.mean, q.squares,
-        static_cast<double>(s.OtherCells), s.Bound, static_cast<double>(s.CappedCells) });
-  }
-};
-
-class Unpacker
+std::int64_t TakeCount(vtkMultiProcessStream& stream)
 {
-public:
-  Unpacker(const double* begin, const double* end)
-    : At(begin)
-    , End(end)
+  vtkTypeInt64 count = 0;
+  stream >> count;
+  return count;
+}
+
+void Put(vtkMultiProcessStream& stream, const Sums& s)
+{
+  const meshopt::QualityStatistics& q = s.Quality;
+  for (const std::int64_t count : { q.count, q.invalid, q.inverted, s.OtherCells, s.CappedCells })
   {
+    Put(stream, count);
   }
+  stream << q.minimum << q.maximum << q.mean << q.squares << s.Bound;
+}
 
-  Figures Unpack(std::size_t numberOfWorstCells)
+Sums TakeSums(vtkMultiProcessStream& stream)
+{
+  Sums s;
+  meshopt::QualityStatistics& q = s.Quality;
+  for (std::int64_t* count : { &q.count, &q.invalid, &q.inverted, &s.OtherCells, &s.CappedCells })
   {
-    Figures f(numberOfWorstCells);
-    f.HasTetrahedra = this->Next() != 0.0;
-    f.HasTriangles = this->Next() != 0.0;
-    f.Total = this->UnpackSums();
-    for (auto n = static_cast<std::size_t>(this->Next()); n > 0; --n)
-    {
-      const auto region = static_cast<long long>(this->Next());
-      f.Regions[region] = this->UnpackSums();
-    }
-    while (this->At < this->End)
-    {
-      meshopt::WorstElement e;
-      e.quality = this->Next();
-      e.part = static_cast<std::int64_t>(this->Next());
-      e.id = static_cast<std::int64_t>(this->Next());
-      f.Worst.add(e);
-    }
-    return f;
+    *count = TakeCount(stream);
   }
+  stream >> q.minimum >> q.maximum >> q.mean >> q.squares >> s.Bound;
+  return s;
+}
 
-private:
-  double Next() { return *this->At++; }
-
-  Sums UnpackSums()
+void Put(vtkMultiProcessStream& stream, const Figures& f)
+{
+  stream << f.HasTetrahedra << f.HasTriangles;
+  Put(stream, f.GhostSimplices);
+  Put(stream, f.Total);
+  Put(stream, static_cast<std::int64_t>(f.Regions.size()));
+  for (const auto& region : f.Regions)
   {
-    Sums s;
-    meshopt::QualityStatistics& q = s.Quality;
-    q.count = static_cast<std::int64_t>(this->Next());
-    q.invalid = static_cast<std::int64_t>(this->Next());
-    q.inverted = static_cast<std::int64_t>(this->Next());
-    q.minimum = this->Next();
-    q.maximum = this->Next();
-    q.mean = this->Next();
-    q.squares = this->Next();
-    s.OtherCells = static_cast<std::int64_t>(this->Next());
-    s.Bound = this->Next();
-    s.CappedCells = static_cast<std::int64_t>(this->Next());
-    return s;
+    Put(stream, static_cast<std::int64_t>(region.first));
+    Put(stream, region.second);
   }
+  const std::vector<meshopt::WorstElement> worst = f.Worst.sorted();
+  Put(stream, static_cast<std::int64_t>(worst.size()));
+  for (const meshopt::WorstElement& e : worst)
+  {
+    stream << e.quality;
+    Put(stream, e.part);
+    Put(stream, e.id);
+  }
+}
 
-  const double* At;
-  const double* End;
-};
+Figures TakeFigures(vtkMultiProcessStream& stream, std::size_t numberOfWorstCells)
+{
+  Figures f(numberOfWorstCells);
+  stream >> f.HasTetrahedra >> f.HasTriangles;
+  f.GhostSimplices = TakeCount(stream);
+  f.Total = TakeSums(stream);
+  for (std::int64_t n = TakeCount(stream); n > 0; --n)
+  {
+    const long long region = TakeCount(stream);
+    f.Regions[region] = TakeSums(stream);
+  }
+  for (std::int64_t n = TakeCount(stream); n > 0; --n)
+  {
+    meshopt::WorstElement e;
+    stream >> e.quality;
+    e.part = TakeCount(stream);
+    e.id = TakeCount(stream);
+    f.Worst.add(e);
+  }
+  return f;
+}
 
 bool IsAlone(vtkMultiProcessController* controller)
 {
@@ -142,34 +131,21 @@ bool Reduce(vtkMultiProcessController* controller, bool failed, std::size_t numb
   {
     return !failed;
   }
-  Packer packer;
-  packer.Pack(figures);
-  const int ranks = controller->GetNumberOfProcesses();
-  const vtkIdType mine[2] = { failed ? 1 : 0, static_cast<vtkIdType>(packer.Data.size()) };
-  std::vector<vtkIdType> all(2 * ranks);
-  controller->AllGather(mine, all.data(), 2);
-  std::vector<vtkIdType> lengths(ranks), offsets(ranks);
-  vtkIdType total = 0;
-  for (int r = 0; r < ranks; ++r)
-  {
-    failed = failed || all[2 * r] != 0;
-    lengths[r] = all[2 * r + 1];
-    offsets[r] = total;
-    total += lengths[r];
-  }
-  if (failed)
-  {
-    return false;
-  }
-  std::vector<double> data(total);
-  controller->AllGatherV(packer.Data.data(), data.data(), mine[1], lengths.data(), offsets.data());
+  vtkMultiProcessStream mine;
+  mine << failed;
+  Put(mine, figures);
+  std::vector<vtkMultiProcessStream> all;
+  controller->AllGather(mine, all);
   figures = Figures(numberOfWorstCells);
-  for (int r = 0; r < ranks; ++r)
+  bool anyFailed = false;
+  for (vtkMultiProcessStream& stream : all)
   {
-    const double* begin = data.data() + offsets[r];
-    figures.Merge(Unpacker(begin, begin + lengths[r]).Unpack(numberOfWorstCells));
+    bool thisFailed = false;
+    stream >> thisFailed;
+    anyFailed = anyFailed || thisFailed;
+    figures.Merge(TakeFigures(stream, numberOfWorstCells));
   }
-  return true;
+  return !anyFailed;
 }
 
 //------------------------------------------------------------------------------
@@ -180,14 +156,10 @@ void Reduce(vtkMultiProcessController* controller, meshopt::QualityHistogram& hi
     return;
   }
   const std::vector<vtkIdType> mine(histogram.counts.begin(), histogram.counts.end());
-  const auto n = static_cast<vtkIdType>(mine.size());
-  std::vector<vtkIdType> all(n * controller->GetNumberOfProcesses());
-  controller->AllGather(mine.data(), all.data(), n);
-  std::fill(histogram.counts.begin(), histogram.counts.end(), 0);
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    histogram.counts[i % n] += all[i];
-  }
+  std::vector<vtkIdType> all(mine.size());
+  controller->AllReduce(
+    mine.data(), all.data(), static_cast<vtkIdType>(mine.size()), vtkCommunicator::SUM_OP);
+  std::copy(all.begin(), all.end(), histogram.counts.begin());
 }
 
 //------------------------------------------------------------------------------
@@ -334,4 +306,4 @@ void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
   data->SetScalars(quality);
 }
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
- * From figures to what a person reads: one set of figures for all ranks, tables, the worst cells as a grid.
+ * From figures to what a person reads: one set of figures for all ranks, tables, the worst cells as
+ * a grid.
  */
 #ifndef vtkMeshQualityReport_h
 #define vtkMeshQualityReport_h
@@ -14,12 +16,13 @@ class vtkMultiProcessController;
 class vtkTable;
 class vtkUnstructuredGrid;
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 
 /**
- * Merges the figures of all ranks, in the order of the ranks, so that all get the same bits. Returns false if some rank
- * says that it failed; all ranks must call this, also those that failed. A null controller: this rank only.
+ * Merges the figures of all ranks, in the order of the ranks, so that all get the same bits.
+ * Returns false if some rank says that it failed; all ranks must call this, also those that failed.
+ * A null controller: this rank only.
  */
 bool Reduce(vtkMultiProcessController* controller, bool failed, std::size_t numberOfWorstCells,
   Figures& figures);
@@ -35,7 +38,7 @@ void Reduce(vtkMultiProcessController* controller, meshopt::QualityHistogram& hi
 double GreatestQuality(const Options& options, const Figures& figures);
 
 /**
- * An empty histogram for these figures: from min(0, minimum) to max(greatest possible value, maximum).
+ * An empty histogram for these figures, from min(0, minimum) to max(greatest quality, maximum).
  */
 meshopt::QualityHistogram MakeHistogram(
   const Options& options, const Figures& figures, int numberOfBins);
@@ -51,15 +54,16 @@ struct Block
   std::int64_t Part;
   unsigned int FlatIndex;
   vtkUnstructuredGrid* Mesh;
+  vtkMeshOptimizeBridge::InputArrays Arrays; ///< of Mesh
 };
 
 /**
- * Copies those of the worst cells that are in `blocks` to `output`, worst first. `isComposite`: with
- * an array that says from which block.
+ * Copies those of the worst cells that are in `blocks` to `output`, worst first. `isComposite`:
+ * with an array that says from which block.
  */
 void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
   const std::vector<Block>& blocks, int rank, bool isComposite, vtkUnstructuredGrid* output);
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge
 
 #endif

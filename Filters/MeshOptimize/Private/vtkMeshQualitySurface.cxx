@@ -1,11 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
- * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without building the
- * adjacency of all cells, and has their bound computed.
+ * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without
+ * building the adjacency of all cells, and has their bound computed.
  *
- * Each facet gets a random-looking 64-bit key, the same from both of its cells. Both cells exclusive-or it into a
- * number at the facet's lowest point: facets with two cells cancel out. Points whose number is not 0 have some
- * kept facet; only the facets at those are compared one by one, which are few. A number is 0 by chance once in 2^64.
- * The order in which numbers are combined does not matter, so that threads may do it.
+ * Each facet gets a random-looking 64-bit key, the same from both of its cells. Both cells
+ * exclusive-or it into a number at the facet's lowest point: facets with two cells cancel out.
+ * Points whose number is not 0 have some kept facet; only the facets at those are compared one by
+ * one, which are few. A number is 0 by chance once in 2^64. The order in which numbers are combined
+ * does not matter, so that threads may do it.
  */
 #include "vtkMeshQualityMeasure.h"
 
@@ -17,7 +19,7 @@
 #include <atomic>
 #include <cmath>
 
-namespace vtkMeshQuality
+namespace vtkMeshQualityBridge
 {
 namespace
 {
@@ -216,6 +218,15 @@ private:
   std::vector<std::atomic<Key>> Numbers;
 };
 
+meshopt::Vec<3> PlaceOf(const Grid& grid, vtkIdType p, std::integral_constant<int, 3>)
+{
+  return grid.GetPoint(p);
+}
+meshopt::Vec<2> PlaceOf(const Grid& grid, vtkIdType p, std::integral_constant<int, 2>)
+{
+  return grid.GetFrame().ToCore(grid.GetPoint(p).data());
+}
+
 /**
  * Points of the surface, numbered anew and in the dimension of the core.
  */
@@ -233,12 +244,7 @@ public:
     if (this->Numbers[p] == meshopt::None)
     {
       this->Numbers[p] = static_cast<Index>(this->Places.size());
-      Vec<D> x;
-      for (int i = 0; i < D; ++i)
-      {
-        x[i] = this->Mesh.GetPoint(p)[i];
-      }
-      this->Places.push_back(x);
+      this->Places.push_back(PlaceOf(this->Mesh, p, std::integral_constant<int, D>()));
     }
     return this->Numbers[p];
   }
@@ -309,7 +315,7 @@ void MeasureSurface(
   const Grid& grid, const Options& options, const double* quality, Figures& figures)
 {
   // With a metric that varies nothing is certain; nor is it for triangles that are not in a plane.
-  const bool known = grid.GetLogTensors().empty() && (grid.HasTetrahedra() || grid.IsFlat()) &&
+  const bool known = !grid.HasMetric() && (grid.HasTetrahedra() || grid.IsFlat()) &&
     grid.GetNumberOfPoints() < std::numeric_limits<Index>::max() &&
     grid.GetNumberOfCells() < std::numeric_limits<Index>::max();
   if (!options.ComputeBound || !known)
@@ -326,4 +332,4 @@ void MeasureSurface(
   }
 }
 
-} // namespace vtkMeshQuality
+} // namespace vtkMeshQualityBridge

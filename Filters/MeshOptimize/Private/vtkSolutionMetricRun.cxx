@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSolutionMetricRun.h"
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
-#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
+#include "vtkMeshBridgeImport.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
@@ -21,10 +23,10 @@
 #include <limits>
 #include <sstream>
 
-namespace vtkSolutionMetric
+namespace vtkSolutionMetricBridge
 {
 
-namespace bridge = vtkMeshOptimizeBridge;
+namespace bridge = vtkMeshBridge;
 
 using meshopt::SymmetricEigen;
 using meshopt::Tensor;
@@ -34,18 +36,25 @@ using meshopt::Vec;
 namespace
 {
 
-std::string NotThere(
-  const char* noun, const char* kind, const char* name, vtkDataSetAttributes* others)
+constexpr bridge::ArrayRole SolutionRole = { "solution array", nullptr, false, false,
+  { { 0, 0 } } };
+constexpr bridge::ArrayRole ErrorRole = { "error indicator array", nullptr, true, false,
+  { { 1, 0 } } };
+
+/**
+ * `name` is what was chosen: nullptr or "" stands for the active scalars.
+ */
+std::string DescribeMissing(
+  const bridge::ArrayRole& role, const char* name, vtkDataSetAttributes* others)
 {
-  const std::string other = std::strcmp(kind, "point") == 0 ? "cell" : "point";
+  const std::string kind = role.OnCells ? "cell" : "point", other = role.OnCells ? "point" : "cell";
   const bool isDefault = !name || !*name;
   if (isDefault || std::strcmp(name, "None") == 0)
   {
-    return std::string("No ") + noun + " array is chosen" +
-      (isDefault ? std::string(", and the input has no active ") + kind + " scalars." : ".");
+    return std::string("No ") + role.Noun + " is chosen" +
+      (isDefault ? ", and the input has no active " + kind + " scalars." : ".");
   }
-  std::string text = std::string("The ") + noun + " array '" + name +
-    "' is not there: the input has no such " + kind + " array.";
+  std::string text = bridge::DescribeMissing(name, role);
   if (others->HasArray(name))
   {
     text += " There is a " + other + " array of that name; convert it to " + kind + " data first.";
@@ -57,10 +66,9 @@ std::string NotThere(
 
 std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& request)
 {
-  const char* noun = request.UseErrors ? "error indicator" : "solution";
-  const char* kind = request.UseErrors ? "cell" : "point";
+  const bridge::ArrayRole& role = request.UseErrors ? ErrorRole : SolutionRole;
   vtkDataSetAttributes *attributes = grid->GetPointData(), *others = grid->GetCellData();
-  if (request.UseErrors)
+  if (role.OnCells)
   {
     std::swap(attributes, others);
   }
@@ -78,22 +86,10 @@ std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& 
   }
   if (!found)
   {
-    return NotThere(noun, kind, name, others);
+    return DescribeMissing(role, name, others);
   }
-  const std::string title = std::string("The ") + noun + " array '" +
-    (found->GetName() ? found->GetName() : "(no name)") + "' has ";
   request.Values = vtkDataArray::SafeDownCast(found);
-  if (!request.Values)
-  {
-    return title + "values of type " + found->GetDataTypeAsString() + "; numbers are needed.";
-  }
-  const int n = found->GetNumberOfComponents();
-  if (n < 1 || (request.UseErrors && n != 1))
-  {
-    return title + std::to_string(n) + " components; " +
-      (request.UseErrors ? "one is needed." : "at least one is needed.");
-  }
-  return {};
+  return bridge::CheckArray(found, role);
 }
 
 //------------------------------------------------------------------------------
@@ -333,7 +329,7 @@ std::string AddArraysIn(
     bridge::ImportGeometry(grid, cells.Simplices, frame), mesh);
   if (problem)
   {
-    return problem->message;
+    return bridge::WithGridIds(problem->message, problem->cell, cells);
   }
   return request.UseErrors ? AddIndicatorSizes(grid, cells, mesh, request, outcome)
                            : AddMetric(grid, cells, frame, mesh, request, outcome);
@@ -357,4 +353,4 @@ std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome
                               : AddArraysIn<2>(grid, cells, request, outcome);
 }
 
-} // namespace vtkSolutionMetric
+} // namespace vtkSolutionMetricBridge

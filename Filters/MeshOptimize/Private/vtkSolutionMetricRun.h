@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * grid -> core -> arrays of the grid: what vtkSolutionMetricFilter does.
  */
@@ -13,7 +14,7 @@ class vtkAlgorithm;
 class vtkDataArray;
 class vtkUnstructuredGrid;
 
-namespace vtkSolutionMetric
+namespace vtkSolutionMetricBridge
 {
 
 /**
@@ -49,6 +50,6 @@ std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& 
  */
 std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome& outcome);
 
-} // namespace vtkSolutionMetric
+} // namespace vtkSolutionMetricBridge
 
 #endif

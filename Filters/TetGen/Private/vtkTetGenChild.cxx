@@ -303,7 +303,8 @@ std::string Bury(pid_t child)
 //------------------------------------------------------------------------------
 ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mesh)
 {
-  // A child of another thread must not inherit the writing ends: this one would never see the end of the file.
+  // A child of another thread must not inherit the writing ends: this one would never see the end
+  // of the file.
   static std::mutex oneFork;
   std::unique_lock<std::mutex> lock(oneFork);
   ChildOutcome outcome;

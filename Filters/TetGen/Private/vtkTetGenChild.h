@@ -2,9 +2,9 @@
 /**
  * TetGen in a process of its own.
  *
- * TetGen 1.5 as a library prints to stdout, keeps its state in statics, frees its memory twice after
- * most errors, and ends the process by assertions. In a forked child all this does no harm, the user
- * can abort at any time, and what it prints becomes progress and error messages.
+ * TetGen 1.5 as a library prints to stdout, keeps its state in statics, frees its memory twice
+ * after most errors, and ends the process by assertions. In a forked child all this does no harm,
+ * the user can abort at any time, and what it prints becomes progress and error messages.
  */
 #ifndef vtkTetGenChild_h
 #define vtkTetGenChild_h

@@ -18,15 +18,16 @@ namespace vtkTetGenBridge
 {
 
 /**
- * Points of `input` first, all of them and with their ids, then the new ones; the cell array `Region`;
- * point data of `input`, new points having NaN (integers: 0); field data.
+ * Points of `input` first, all of them and with their ids, then the new ones; the cell array
+ * `Region`; point data of `input`, new points having NaN (integers: 0); field data.
  */
 void ExportMesh(
   vtkPolyData* input, const Surface& surface, const Mesh& mesh, vtkUnstructuredGrid* output);
 
 /**
  * What became of the points that mark regions (`regions`: x y z attribute volume): a warning about
- * each that lies in no tetrahedron, or in one that another point has marked. O(tetrahedra * regions).
+ * each that lies in no tetrahedron, or in one that another point has marked.
+ * O(tetrahedra * regions).
  */
 std::vector<std::string> CheckRegions(const std::vector<double>& regions, const Mesh& mesh);
 

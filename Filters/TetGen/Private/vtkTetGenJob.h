@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * One run of TetGen: what goes in and what comes out, as plain arrays. The only place that knows tetgen.h.
+ * One run of TetGen: what goes in and what comes out, as plain arrays. The only place that knows
+ * tetgen.h.
  */
 #ifndef vtkTetGenJob_h
 #define vtkTetGenJob_h

@@ -29,7 +29,7 @@ using Edge = std::array<int, 2>;
 const char* const CellIdName = "vtkTetGenCellId";
 /// A triangle whose height is less than this part of its longest edge has no area.
 constexpr double Flat = 1e-14;
-/// Nearer than this part of the diagonal of the bounding box is on the surface: TetGen's own tolerance.
+/// Nearer than this part of the box's diagonal is on the surface: TetGen's own tolerance.
 constexpr double OnSurface = 1e-8;
 
 const double* At(const Surface& surface, int point)
@@ -64,7 +64,7 @@ int NumberOfTriangles(const Surface& surface)
 
 //------------------------------------------------------------------------------
 /**
- * Ids in range, polygons of three points and more, no point twice in a cell. Returns an error, or "".
+ * Ids in range, polygons of three points and more, no point twice. Returns an error, or "".
  */
 std::string CheckCells(vtkPolyData* input)
 {
@@ -101,7 +101,7 @@ std::string CheckCells(vtkPolyData* input)
 }
 
 /**
- * A polygon of n points is n - 2 triangles, but vtkTriangleFilter gives fewer where it finds no way.
+ * A polygon of n points is n - 2 triangles; vtkTriangleFilter gives fewer where it finds no way.
  */
 std::string CheckTriangulation(vtkPolyData* input, const std::vector<vtkIdType>& cellIds)
 {
@@ -417,7 +417,8 @@ std::string DescribeTriangle(const Surface& surface, int triangle)
 
 std::vector<std::pair<int, int>> ParseIntersections(const std::string& text)
 {
-  // Lines of TetGen: "  Facet #41 intersects facet #50 at triangles:", "  Facet #1 duplicates facet #49 ..."
+  // Lines of TetGen: "  Facet #41 intersects facet #50 at triangles:",
+  // "  Facet #1 duplicates facet #49 ..."
   std::vector<std::pair<int, int>> pairs;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)

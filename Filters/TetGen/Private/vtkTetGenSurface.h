@@ -29,15 +29,15 @@ struct Surface
 };
 
 /**
- * Reads triangles, polygons and strips of `input`. Polygons are cut into triangles (vtkTriangleFilter);
- * vertices and lines are no part of a surface. Returns an error, or "".
+ * Reads triangles, polygons and strips of `input`. Polygons are cut into triangles
+ * (vtkTriangleFilter); vertices and lines are no part of a surface. Returns an error, or "".
  */
 std::string ReadSurface(vtkPolyData* input, Surface& surface);
 
 /**
  * Is the surface one that can be filled? Finds points that are not finite or lie on each other,
- * triangles without area, triangles twice, open edges. Edges of three and more triangles are no fault:
- * inner walls have them. O(n log n). Returns an error that says where, or "".
+ * triangles without area, triangles twice, open edges. Edges of three and more triangles are no
+ * fault: inner walls have them. O(n log n). Returns an error that says where, or "".
  */
 std::string CheckSurface(const Surface& surface);
 
@@ -53,12 +53,13 @@ std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<d
 std::string DescribeTriangle(const Surface& surface, int triangle);
 
 /**
- * The pairs of triangles in what TetGen has printed when asked for intersections, each once, sorted.
+ * The pairs of triangles in what TetGen prints when asked for intersections, each once, sorted.
  */
 std::vector<std::pair<int, int>> ParseIntersections(const std::string& text);
 
 /**
- * "The surface intersects itself ...", with the number of pairs and the first ones. Pairs not empty.
+ * "The surface intersects itself ...", with the number of pairs, of which there is one at least,
+ * and the first ones.
  */
 std::string DescribeIntersections(
   const Surface& surface, const std::vector<std::pair<int, int>>& pairs);

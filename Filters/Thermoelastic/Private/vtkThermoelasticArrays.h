@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The input arrays of vtkThermoelasticFilter: found, under the names chosen or their default ones, and
- * checked.
+ * The input arrays of vtkThermoelasticFilter: found, under the names chosen or their default ones,
+ * and checked.
  */
 #ifndef vtkThermoelasticArrays_h
 #define vtkThermoelasticArrays_h
@@ -44,8 +44,8 @@ using InputArrays = std::array<vtkDataArray*, NumberOfInputArrays>;
 const char* DefaultName(ArrayIndex index);
 
 /**
- * Finds the arrays of `grid`. Returns a sentence about the first that was chosen and is not there, or
- * that cannot be used because of its type or its number of components; else an empty string.
+ * Finds the arrays of `grid`. Returns a sentence about the first that was chosen and is not there,
+ * or that cannot be used because of its type or its number of components; else an empty string.
  */
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays);
 

@@ -23,8 +23,8 @@ using meshopt::Tensor;
 using meshopt::Vec;
 using meshopt::fem::Solution;
 using meshopt::fem::Stress;
-using vtkMeshOptimizeBridge::Frame;
-using vtkMeshOptimizeBridge::UsedBySimplex;
+using vtkMeshBridge::Frame;
+using vtkMeshBridge::UsedBySimplex;
 
 namespace
 {

@@ -14,8 +14,8 @@ namespace vtkThermoelasticBridge
 
 using meshopt::Index;
 using meshopt::Vec;
-using vtkMeshOptimizeBridge::Frame;
-using vtkMeshOptimizeBridge::UsedBySimplex;
+using vtkMeshBridge::Frame;
+using vtkMeshBridge::UsedBySimplex;
 
 namespace
 {
@@ -174,7 +174,7 @@ std::string SetGeneralizedPlaneStrain(const Request& request, Model<D>& model, d
   const auto error = meshopt::fem::check(model.Mesh, model.Problem);
   if (error)
   {
-    return WithGridIds(error->message, error->cell, model);
+    return vtkMeshBridge::WithGridIds(error->message, error->cell, model.Cells);
   }
   axialStrain = request.IsAxialStrainGiven
     ? request.AxialStrain
@@ -199,18 +199,6 @@ std::string SetGeneralizedPlaneStrain(const Request& request, Model<D>& model, d
 } // namespace
 
 template <int D>
-std::string WithGridIds(const std::string& message, Index cell, const Model<D>& model)
-{
-  if (cell == meshopt::None || model.Cells.IsIdentity(model.Grid->GetNumberOfCells()))
-  {
-    return message;
-  }
-  return message + " (Counted among the " + (D == 3 ? "tetrahedra" : "triangles") + "; number " +
-    std::to_string(cell) + " of them is cell " + std::to_string(model.Cells.Simplices[cell]) +
-    " of the grid.)";
-}
-
-template <int D>
 std::string MakeProblem(const Request& request, Model<D>& model, double& axialStrain)
 {
   model.Problem.rigidMotion = request.RigidMotion;
@@ -231,7 +219,5 @@ std::string MakeProblem(const Request& request, Model<D>& model, double& axialSt
 
 template std::string MakeProblem<2>(const Request&, Model<2>&, double&);
 template std::string MakeProblem<3>(const Request&, Model<3>&, double&);
-template std::string WithGridIds<2>(const std::string&, Index, const Model<2>&);
-template std::string WithGridIds<3>(const std::string&, Index, const Model<3>&);
 
 } // namespace vtkThermoelasticBridge

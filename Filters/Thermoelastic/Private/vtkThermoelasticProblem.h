@@ -5,8 +5,8 @@
 #ifndef vtkThermoelasticProblem_h
 #define vtkThermoelasticProblem_h
 
-#include "vtkMeshOptimizeCells.h"
-#include "vtkMeshOptimizeFrame.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeFrame.h"
 #include "vtkThermoelasticArrays.h"
 #include "vtkThermoelasticRun.h"
 
@@ -22,8 +22,8 @@ template <int D>
 struct Model
 {
   vtkUnstructuredGrid* Grid = nullptr;
-  vtkMeshOptimizeBridge::Cells Cells;
-  vtkMeshOptimizeBridge::Frame<D> Frame;
+  vtkMeshBridge::Cells Cells;
+  vtkMeshBridge::Frame<D> Frame;
   InputArrays Arrays{};
   meshopt::SimplexMesh<D> Mesh;
   meshopt::fem::Problem<D> Problem;
@@ -32,28 +32,23 @@ struct Model
 /**
  * A vector of the grid in the frame of the core.
  */
-inline meshopt::Vec<3> VectorToCore(const vtkMeshOptimizeBridge::Frame<3>&, const double x[3])
+inline meshopt::Vec<3> VectorToCore(const vtkMeshBridge::Frame<3>&, const double x[3])
 {
   return { x[0], x[1], x[2] };
 }
-inline meshopt::Vec<2> VectorToCore(const vtkMeshOptimizeBridge::Frame<2>& frame, const double x[3])
+inline meshopt::Vec<2> VectorToCore(const vtkMeshBridge::Frame<2>& frame, const double x[3])
 {
   const meshopt::Vec<3> v(x[0], x[1], x[2]);
   return { frame.Axes[0].dot(v), frame.Axes[1].dot(v) };
 }
 
 /**
- * Fills model.Problem from the arrays and the request. Returns a sentence about the first thing that
- * cannot be used, or an empty string. `axialStrain` is set to what is prescribed along the axis.
+ * Fills model.Problem from the arrays and the request. Returns a sentence about the first thing
+ * that cannot be used, or an empty string. `axialStrain` is set to what is prescribed along the
+ * axis.
  */
 template <int D>
 std::string MakeProblem(const Request& request, Model<D>& model, double& axialStrain);
-
-/**
- * A message of the core with the ids of the grid, where they are others than the core's.
- */
-template <int D>
-std::string WithGridIds(const std::string& message, meshopt::Index cell, const Model<D>& model);
 
 } // namespace vtkThermoelasticBridge
 

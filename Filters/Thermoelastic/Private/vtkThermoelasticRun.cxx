@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkThermoelasticRun.h"
 
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeImport.h"
+#include "vtkMeshBridgeImport.h"
+#include "vtkMeshBridgeValues.h"
 #include "vtkThermoelasticExport.h"
 #include "vtkThermoelasticFilter.h"
 #include "vtkThermoelasticProblem.h"
@@ -15,7 +15,7 @@
 namespace vtkThermoelasticBridge
 {
 
-namespace bridge = vtkMeshOptimizeBridge;
+namespace bridge = vtkMeshBridge;
 using meshopt::fem::Solution;
 using meshopt::fem::SolverStatus;
 
@@ -74,7 +74,7 @@ std::string BuildMesh(Model<D>& model)
     model.Grid, model.Cells.Simplices, model.Frame);
   input.regions = bridge::ReadRegions(model.Arrays[RegionArray], model.Cells);
   const auto fault = meshopt::SimplexMesh<D>::build(input, model.Mesh);
-  return fault ? WithGridIds(fault->message, fault->cell, model) : std::string();
+  return fault ? bridge::WithGridIds(fault->message, fault->cell, model.Cells) : std::string();
 }
 
 template <int D>
@@ -113,7 +113,7 @@ std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnst
     model.Mesh, model.Problem, request.Options, request.Control, solution);
   if (fault)
   {
-    return WithGridIds(fault->message, fault->cell, model);
+    return bridge::WithGridIds(fault->message, fault->cell, model.Cells);
   }
   KeepFigures(solution, outcome);
   if (solution.solver.status != SolverStatus::Cancelled)

@@ -58,9 +58,9 @@ struct Outcome
 };
 
 /**
- * Solves on the tetrahedra of `input`, or on its triangles if it has no tetrahedra. `output` becomes
- * a copy with the results, `history` the residuals. Returns a sentence about what is wrong, or an
- * empty string. After an abort `output` and `history` are left empty.
+ * Solves on the tetrahedra of `input`, or on its triangles if it has no tetrahedra. `output`
+ * becomes a copy with the results, `history` the residuals. Returns a sentence about what is wrong,
+ * or an empty string. After an abort `output` and `history` are left empty.
  */
 std::string SolveGrid(vtkUnstructuredGrid* input, const Request& request,
   vtkUnstructuredGrid* output, vtkTable* history, Outcome& outcome);

@@ -1,13 +1,14 @@
-#include "vtkMeshOptimizeControl.h"
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshBridgeControl.h"
 
-#include "vtkMeshOptimizeVTKCompat.h"
+#include "vtkMeshBridgeVTKCompat.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkSMPTools.h"
 
 #include <algorithm>
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 int ResolveNumberOfThreads(int wanted)
@@ -39,7 +40,7 @@ meshopt::Control MakeControl(
   {
     filter->SetProgressText(text.c_str());
     filter->UpdateProgress(first + (last - first) * std::min(1.0, std::max(0.0, fraction)));
-    return !vtkMeshOptimizeCompat::CheckAbort(filter) && !deadline.HasPassed();
+    return !CheckAbort(filter) && !deadline.HasPassed();
   };
   if (numberOfThreads > 1)
   {
@@ -62,4 +63,4 @@ meshopt::Control MakeControl(
   return control;
 }
 
-} // namespace vtkMeshOptimizeBridge
+} // namespace vtkMeshBridge

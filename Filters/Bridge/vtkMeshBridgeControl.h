@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * Progress, abort and threads of a vtkAlgorithm as the core's Control.
  */
-#ifndef vtkMeshOptimizeControl_h
-#define vtkMeshOptimizeControl_h
+#ifndef vtkMeshBridgeControl_h
+#define vtkMeshBridgeControl_h
 
 #include "Base/Control.h"
 
@@ -10,7 +11,7 @@
 
 class vtkAlgorithm;
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 
 /**
@@ -46,6 +47,6 @@ private:
 meshopt::Control MakeControl(
   vtkAlgorithm* filter, int numberOfThreads, double first, double last, Deadline& deadline);
 
-} // namespace vtkMeshOptimizeBridge
+} // namespace vtkMeshBridge
 
 #endif

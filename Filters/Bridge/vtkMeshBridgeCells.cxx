@@ -1,4 +1,7 @@
-#include "vtkMeshOptimizeCells.h"
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshBridgeCells.h"
+
+#include "vtkMeshBridgeGridView.h"
 
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -8,15 +11,12 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkSmartPointer.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <array>
 #include <cmath>
 #include <map>
 
-namespace vtkMeshOptimizeBridge
+namespace vtkMeshBridge
 {
 namespace
 {
@@ -155,9 +155,6 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
   return {};
 }
 
-/**
- * 3 if there is any cell of dimension three: triangles are then the surface of something.
- */
 int FindDimension(vtkUnstructuredGrid* grid)
 {
   CellDimensions dimensions;
@@ -182,12 +179,12 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
   {
     return error;
   }
-  const vtkIdType numberOfCells = grid->GetNumberOfCells();
+  cells.NumberOfCells = grid->GetNumberOfCells();
   cells.PointUse.assign(static_cast<std::size_t>(grid->GetNumberOfPoints()), 0);
   cells.Dimension = FindDimension(grid);
   const int simplexType = cells.Dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
-  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-  for (vtkIdType c = 0; c < numberOfCells; ++c)
+  const GhostCells ghosts(grid);
+  for (vtkIdType c = 0; c < cells.NumberOfCells; ++c)
   {
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
@@ -207,43 +204,32 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
     {
       return error;
     }
-    const bool isOptimized = isSimplex && !(ghosts && ghosts->GetValue(c) != 0);
+    const bool isOfMesh = isSimplex && !ghosts.Has(c);
     for (vtkIdType k = 0; k < n; ++k)
     {
-      cells.PointUse[ids[k]] |= isOptimized ? UsedBySimplex : UsedByOther;
+      cells.PointUse[ids[k]] |= isOfMesh ? UsedBySimplex : UsedByOther;
     }
-    if (isOptimized)
+    if (isOfMesh)
     {
       cells.Simplices.push_back(c);
     }
+    cells.NumberOfGhostSimplices += isSimplex && !isOfMesh;
+    cells.NumberOfSurfaceTriangles += cells.Dimension == 0 && type == VTK_TRIANGLE;
     cells.NumberOfQuadraticSimplices += type == VTK_QUADRATIC_TETRA ||
       (type == VTK_QUADRATIC_TRIANGLE && cells.Dimension != 3);
   }
   return {};
 }
 
-void KeepSimplices(vtkUnstructuredGrid* grid, const std::vector<char>& isKept, Cells& cells)
+std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells)
 {
-  for (std::uint8_t& use : cells.PointUse)
+  if (cell == meshopt::None || cells.IsIdentity())
   {
-    use &= static_cast<std::uint8_t>(~UsedBySimplex);
+    return message;
   }
-  std::vector<vtkIdType> kept;
-  for (std::size_t k = 0; k < isKept.size(); ++k)
-  {
-    vtkIdType n = 0;
-    const vtkIdType* ids = nullptr;
-    grid->GetCellPoints(cells.Simplices[k], n, ids);
-    for (vtkIdType i = 0; i < n; ++i)
-    {
-      cells.PointUse[ids[i]] |= isKept[k] ? UsedBySimplex : UsedByOther;
-    }
-    if (isKept[k])
-    {
-      kept.push_back(cells.Simplices[k]);
-    }
-  }
-  cells.Simplices.swap(kept);
+  return message + " (Counted among the " + (cells.Dimension == 3 ? "tetrahedra" : "triangles") +
+    " of the mesh; number " + std::to_string(cell) + " of them is cell " +
+    std::to_string(cells.Simplices[cell]) + " of the grid.)";
 }
 
-} // namespace vtkMeshOptimizeBridge
+} // namespace vtkMeshBridge

@@ -1,14 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /**
  * The one place that knows VTK versions (9.1 and later): every VTK_VERSION_CHECK of the project
  * stands here.
  */
-#ifndef vtkMeshOptimizeVTKCompat_h
-#define vtkMeshOptimizeVTKCompat_h
+#ifndef vtkMeshBridgeVTKCompat_h
+#define vtkMeshBridgeVTKCompat_h
 
 #include "vtkAlgorithm.h"
 #include "vtkVersionMacros.h"
 
-namespace vtkMeshOptimizeCompat
+namespace vtkMeshBridge
 {
 
 /**
@@ -40,6 +41,6 @@ inline void KeepOutputAfterAbort(vtkAlgorithm* self)
 #endif
 }
 
-} // namespace vtkMeshOptimizeCompat
+} // namespace vtkMeshBridge
 
 #endif

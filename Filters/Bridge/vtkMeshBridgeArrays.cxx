@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshBridgeArrays.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vtkMeshBridge
+{
+namespace
+{
+
+bool IsInteger(vtkDataArray* array)
+{
+  const int type = array->GetDataType();
+  return type != VTK_FLOAT && type != VTK_DOUBLE;
+}
+
+bool HasRightComponents(vtkDataArray* array, const ArrayRole& role)
+{
+  const int n = array->GetNumberOfComponents();
+  return role.Components[0] == 0 ? n > 0 : n == role.Components[0] || n == role.Components[1];
+}
+
+const char* InWords(int components)
+{
+  switch (components)
+  {
+    case 0:
+      return "at least one";
+    case 1:
+      return "one";
+    case 3:
+      return "three";
+    case 6:
+      return "6 (XX YY ZZ XY YZ XZ)";
+    default:
+      return "9";
+  }
+}
+
+std::string DescribeComponents(const ArrayRole& role)
+{
+  const int first = role.Components[0], second = role.Components[1];
+  return std::string(InWords(first)) +
+    (second > 0 ? std::string(" or ") + InWords(second) : std::string()) +
+    (second == 0 && first <= 1 ? " is needed." : " are needed.");
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+bool IsWanted(vtkAlgorithm* filter, int index)
+{
+  vtkInformation* wanted = filter->GetInputArrayInformation(index);
+  if (wanted->Has(vtkDataObject::FIELD_NAME()))
+  {
+    const char* name = wanted->Get(vtkDataObject::FIELD_NAME());
+    return name && *name && std::strcmp(name, "None") != 0;
+  }
+  return wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()) != 0;
+}
+
+vtkAbstractArray* FindArray(
+  vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index, const ArrayRole& role)
+{
+  vtkDataSetAttributes* attributes = grid->GetPointData();
+  if (role.OnCells)
+  {
+    attributes = grid->GetCellData();
+  }
+  if (!IsWanted(filter, index))
+  {
+    return role.DefaultName ? attributes->GetAbstractArray(role.DefaultName) : nullptr;
+  }
+  vtkInformation* wanted = filter->GetInputArrayInformation(index);
+  if (wanted->Has(vtkDataObject::FIELD_NAME()))
+  {
+    return attributes->GetAbstractArray(wanted->Get(vtkDataObject::FIELD_NAME()));
+  }
+  return attributes->GetAbstractAttribute(wanted->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+}
+
+std::string CheckArray(vtkAbstractArray* found, const ArrayRole& role)
+{
+  const char* name = found->GetName();
+  const std::string title = std::string("The ") + role.Noun + " '" + (name ? name : "(no name)") +
+    "' has ";
+  vtkDataArray* array = vtkDataArray::SafeDownCast(found);
+  if (!array || (role.IsInteger && !IsInteger(array)))
+  {
+    return title + "values of type " + found->GetDataTypeAsString() + "; " +
+      (role.IsInteger ? "integers are needed." : "numbers are needed.");
+  }
+  return HasRightComponents(array, role) ? std::string()
+                                         : title + std::to_string(array->GetNumberOfComponents()) +
+      " components; " + DescribeComponents(role);
+}
+
+std::string DescribeMissing(const char* name, const ArrayRole& role)
+{
+  return std::string("The ") + role.Noun + (name ? " '" + std::string(name) + "'" : "") +
+    " is not there: the input has no such " + (role.OnCells ? "cell" : "point") + " array.";
+}
+
+} // namespace vtkMeshBridge

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshBridgeFrame.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace vtkMeshBridge
+{
+
+using meshopt::Tensor;
+using meshopt::Vec;
+
+//------------------------------------------------------------------------------
+void Frame<2>::ToGrid(const Vec<2>& u, double x[3]) const
+{
+  if (this->Direct[0] >= 0)
+  {
+    const int third = 3 - this->Direct[0] - this->Direct[1];
+    x[this->Direct[0]] = u[0];
+    x[this->Direct[1]] = u[1];
+    x[third] = this->Origin[third];
+    return;
+  }
+  const Vec<3> y = this->Origin + u[0] * this->Axes[0] + u[1] * this->Axes[1];
+  x[0] = y[0];
+  x[1] = y[1];
+  x[2] = y[2];
+}
+
+Tensor<2> Frame<2>::ToCore(const Tensor<3>& m) const
+{
+  Tensor<2> inPlane;
+  for (int i = 0; i < 2; ++i)
+  {
+    for (int j = 0; j < 2; ++j)
+    {
+      inPlane(i, j) = this->Axes[i].dot(m * this->Axes[j]);
+    }
+  }
+  return inPlane;
+}
+
+//------------------------------------------------------------------------------
+Box::Box()
+  : Low(Vec<3>::Constant(std::numeric_limits<double>::infinity()))
+  , High(-this->Low)
+{
+}
+
+void Box::Add(const Vec<3>& x)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    this->Low[i] = std::min(this->Low[i], x[i]);
+    this->High[i] = std::max(this->High[i], x[i]);
+  }
+}
+
+double Box::GetMagnitude() const
+{
+  return std::max(this->Low.cwiseAbs().maxCoeff(), this->High.cwiseAbs().maxCoeff());
+}
+
+std::string CheckExtent(const Box& box)
+{
+  constexpr double least = 1e-100, most = 1e100;
+  const double extent = (box.High - box.Low).maxCoeff();
+  const double magnitude = box.GetMagnitude();
+  const bool isLarge = magnitude > most, isSmall = extent > 0.0 && extent < least;
+  if (!std::isfinite(magnitude) || !std::isfinite(extent) || (!isLarge && !isSmall))
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text
+    << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
+    << (isLarge ? magnitude : extent)
+    << "): lengths squared and cubed leave the range of double precision. Scale the mesh; between "
+       "1e-100 and 1e100 all is well.";
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+using TrianglePoints = std::array<vtkIdType, 3>;
+
+TrianglePoints PointsOf(const GridView& grid, vtkIdType triangle)
+{
+  TrianglePoints ids{};
+  grid.GetCorners(triangle, 3, ids.data());
+  return ids;
+}
+
+Box FindBox(const GridView& grid, const std::vector<vtkIdType>& cells, int corners)
+{
+  Box box;
+  for (vtkIdType cell : cells)
+  {
+    vtkIdType ids[4] = {};
+    grid.GetCorners(cell, corners, ids);
+    std::for_each(ids, ids + corners, [&](vtkIdType p) { box.Add(grid.GetPoint(p)); });
+  }
+  return box;
+}
+
+Vec<3> AreaVector(const GridView& grid, vtkIdType triangle)
+{
+  const TrianglePoints ids = PointsOf(grid, triangle);
+  const Vec<3> a = grid.GetPoint(ids[0]), b = grid.GetPoint(ids[1]), c = grid.GetPoint(ids[2]);
+  return 0.5 * Vec<3>(b - a).cross(Vec<3>(c - a));
+}
+
+/**
+ * Sum of all area vectors, those that look backwards turned round; its sign such that what was
+ * turned round is the smaller part. Zero only if no triangle has an area.
+ */
+Vec<3> FindNormal(const GridView& grid, const std::vector<vtkIdType>& triangles)
+{
+  Vec<3> largest = Vec<3>::Zero();
+  for (vtkIdType triangle : triangles)
+  {
+    const Vec<3> area = AreaVector(grid, triangle);
+    if (area.squaredNorm() > largest.squaredNorm())
+    {
+      largest = area;
+    }
+  }
+  Vec<3> sum = Vec<3>::Zero(), turned = Vec<3>::Zero();
+  for (vtkIdType triangle : triangles)
+  {
+    const Vec<3> area = AreaVector(grid, triangle);
+    (area.dot(largest) < 0.0 ? turned : sum) += area;
+  }
+  const Vec<3> normal = sum - turned;
+  return turned.squaredNorm() > sum.squaredNorm() ? Vec<3>(-normal) : normal;
+}
+
+/**
+ * The coordinate that all points have in common, or -1; z is preferred.
+ */
+int FindConstantCoordinate(const Box& box)
+{
+  for (int i = 2; i >= 0; --i)
+  {
+    if (box.Low[i] == box.High[i])
+    {
+      return i;
+    }
+  }
+  return -1;
+}
+
+Frame<2> MakeDirect(const Box& box, int constant, bool positive)
+{
+  Frame<2> frame;
+  frame.Origin[constant] = box.Low[constant];
+  const int first = (constant + 1) % 3, second = (constant + 2) % 3;
+  frame.Direct[0] = positive ? first : second;
+  frame.Direct[1] = positive ? second : first;
+  frame.Axes[0] = Vec<3>::Unit(frame.Direct[0]);
+  frame.Axes[1] = Vec<3>::Unit(frame.Direct[1]);
+  return frame;
+}
+
+/**
+ * `x` is a point of the plane, `middle` one near it.
+ */
+Frame<2> MakeTilted(const Vec<3>& middle, const Vec<3>& x, const Vec<3>& normal)
+{
+  Frame<2> frame;
+  frame.Direct[0] = frame.Direct[1] = -1;
+  frame.Origin = middle;
+  frame.Origin += normal * normal.dot(x - frame.Origin);
+  frame.Axes[0] = normal.unitOrthogonal();
+  frame.Axes[1] = normal.cross(frame.Axes[0]);
+  return frame;
+}
+
+double DistanceOf(const Frame<2>& frame, const Vec<3>& x)
+{
+  return std::abs(frame.Axes[0].cross(frame.Axes[1]).dot(x - frame.Origin));
+}
+
+/**
+ * Of points that are equally far away the one with the lowest id.
+ */
+void FindFarthest(
+  const GridView& grid, const std::vector<vtkIdType>& triangles, const Vec<3>& normal, Plane& plane)
+{
+  for (vtkIdType triangle : triangles)
+  {
+    for (vtkIdType p : PointsOf(grid, triangle))
+    {
+      const double distance = std::abs(normal.dot(grid.GetPoint(p) - plane.Frame.Origin));
+      if (distance > plane.Farthest ||
+        (distance == plane.Farthest && distance > 0.0 && p < plane.FarthestPoint))
+      {
+        plane.Farthest = distance;
+        plane.FarthestPoint = p;
+      }
+    }
+  }
+}
+
+Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, const Box& box)
+{
+  Plane plane;
+  plane.Extent = box.GetDiagonal();
+  plane.Tolerance = 1e-6 * plane.Extent + 4.0 * grid.GetPrecision() * box.GetMagnitude();
+  Vec<3> normal = FindNormal(grid, triangles);
+  const int constant = FindConstantCoordinate(box);
+  if (constant >= 0)
+  {
+    plane.Frame = MakeDirect(box, constant, !(normal[constant] < 0.0));
+    return plane;
+  }
+  if (normal.squaredNorm() == 0.0) // all on one line
+  {
+    normal = Vec<3>(box.High - box.Low).unitOrthogonal();
+  }
+  normal.normalize();
+  // The middle of the box need not lie in the plane.
+  const Vec<3> x = grid.GetPoint(PointsOf(grid, triangles.front())[0]);
+  plane.Frame = MakeTilted(0.5 * (box.Low + box.High), x, normal);
+  FindFarthest(grid, triangles, normal, plane);
+  return plane;
+}
+
+} // namespace
+
+bool Plane::Has(const Vec<3>& x) const { return DistanceOf(this->Frame, x) <= this->Tolerance; }
+
+Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles)
+{
+  return FindPlane(grid, triangles, FindBox(grid, triangles, 3));
+}
+
+//------------------------------------------------------------------------------
+std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>&)
+{
+  return CheckExtent(FindBox(GridView(grid), cells.Simplices, 4));
+}
+
+std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<2>& frame)
+{
+  const GridView view(grid);
+  const Box box = FindBox(view, cells.Simplices, 3);
+  const std::string error = CheckExtent(box);
+  if (!error.empty())
+  {
+    return error;
+  }
+  const Plane plane = FindPlane(view, cells.Simplices, box);
+  if (!plane.HasAll())
+  {
+    std::ostringstream text;
+    text << "The triangles are not in one plane: point " << plane.FarthestPoint << " is "
+         << plane.Farthest << " away from it (extent of the mesh " << plane.Extent
+         << "). Triangles are optimized in a plane only; a volume needs tetrahedra.";
+    return text.str();
+  }
+  frame = plane.Frame;
+  return {};
+}
+
+} // namespace vtkMeshBridge

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * grid -> core: points and simplices of a grid as the core's MeshInput.
+ */
+#ifndef vtkMeshBridgeImport_h
+#define vtkMeshBridgeImport_h
+
+#include "vtkMeshBridgeFrame.h"
+
+#include "Mesh/SimplexMesh.h"
+
+#include <vector>
+
+class vtkUnstructuredGrid;
+
+namespace vtkMeshBridge
+{
+
+/**
+ * Point ids of the core are those of the grid (points that no simplex uses are there as well); its
+ * cell k is simplices[k].
+ */
+template <int D>
+meshopt::MeshInput<D> ImportGeometry(
+  vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, const Frame<D>& frame);
+
+} // namespace vtkMeshBridge
+
+#endif

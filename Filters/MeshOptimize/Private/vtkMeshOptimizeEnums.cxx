@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The enums of the filters have the numbers of the core's: values are cast from one to the other.
+#include "vtkMeshOptimizeFilter.h"
+#include "vtkMeshQualityMinMax.h"
+#include "vtkSolutionMetricFilter.h"
+
+#include "Metric/SolutionMetric.h"
+#include "Quality/Measure.h"
+#include "Run/Options.h"
+#include "Run/Report.h"
+
+namespace
+{
+
+template <class Theirs>
+constexpr bool Same(int mine, Theirs theirs)
+{
+  return mine == static_cast<int>(theirs);
+}
+
+using Optimize = vtkMeshOptimizeFilter;
+using MinMax = vtkMeshQualityMinMax;
+using meshopt::Algorithm;
+using meshopt::Effort;
+using meshopt::Measure;
+using meshopt::Recovery;
+using meshopt::StopReason;
+
+static_assert(Same(Optimize::Paper1996, Algorithm::Paper1996));
+static_assert(Same(Optimize::WorstFirst, Algorithm::WorstFirst));
+
+static_assert(Same(Optimize::Shape, Measure::Shape));
+static_assert(Same(Optimize::RadiusRatio, Measure::RadiusRatio));
+static_assert(Same(Optimize::MeanRatio, Measure::MeanRatio));
+static_assert(Same(Optimize::MinimumSine, Measure::MinimumSine));
+static_assert(Same(Optimize::WarpedSine, Measure::WarpedSine));
+static_assert(Same(Optimize::VolumeLength, Measure::VolumeLength));
+
+static_assert(Same(MinMax::Shape, Measure::Shape));
+static_assert(Same(MinMax::RadiusRatio, Measure::RadiusRatio));
+static_assert(Same(MinMax::MeanRatio, Measure::MeanRatio));
+static_assert(Same(MinMax::MinimumSine, Measure::MinimumSine));
+static_assert(Same(MinMax::WarpedSine, Measure::WarpedSine));
+static_assert(Same(MinMax::VolumeLength, Measure::VolumeLength));
+static_assert(Same(MinMax::MinimumDihedralAngle, Measure::MinimumDihedralAngle));
+
+static_assert(Same(Optimize::Quick, Effort::Quick));
+static_assert(Same(Optimize::Default, Effort::Default));
+static_assert(Same(Optimize::Best, Effort::Best));
+
+static_assert(Same(Optimize::NotRun, StopReason::NotRun));
+static_assert(Same(Optimize::TargetReached, StopReason::TargetReached));
+static_assert(Same(Optimize::CappedBySurface, StopReason::CappedBySurface));
+static_assert(Same(Optimize::NoFurtherGain, StopReason::NoFurtherGain));
+static_assert(Same(Optimize::IterationLimit, StopReason::IterationLimit));
+static_assert(Same(Optimize::TimeLimitReached, StopReason::TimeLimit));
+static_assert(Same(Optimize::Aborted, StopReason::Aborted));
+static_assert(Same(Optimize::NothingToDo, StopReason::NothingToDo));
+static_assert(Same(Optimize::GrowthLimit, StopReason::GrowthLimit));
+
+static_assert(Same(vtkSolutionMetricFilter::LumpedMass, Recovery::LumpedMass));
+static_assert(Same(vtkSolutionMetricFilter::LeastSquares, Recovery::LeastSquares));
+
+} // namespace

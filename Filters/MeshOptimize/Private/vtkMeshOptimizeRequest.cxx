@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshOptimizeRequest.h"
+
+#include <algorithm>
+
+namespace vtkMeshOptimizeBridge
+{
+namespace
+{
+
+/**
+ * Which of two stop reasons says more about a whole of several grids.
+ */
+int Strength(meshopt::StopReason reason)
+{
+  using meshopt::StopReason;
+  switch (reason)
+  {
+    case StopReason::Aborted:
+      return 8;
+    case StopReason::TimeLimit:
+      return 7;
+    case StopReason::IterationLimit:
+      return 6;
+    case StopReason::GrowthLimit:
+      return 5;
+    case StopReason::NoFurtherGain:
+      return 4;
+    case StopReason::CappedBySurface:
+      return 3;
+    case StopReason::TargetReached:
+      return 2;
+    case StopReason::NothingToDo:
+      return 1;
+    case StopReason::NotRun:
+      break;
+  }
+  return 0;
+}
+
+double Mean(double a, vtkIdType countA, double b, vtkIdType countB)
+{
+  return (a * static_cast<double>(countA) + b * static_cast<double>(countB)) /
+    static_cast<double>(std::max<vtkIdType>(countA + countB, 1));
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void Outcome::Add(const Outcome& other)
+{
+  const bool isFirst = this->NumberOfCellsBefore == 0;
+  meshopt::Report& mine = this->Report;
+  const meshopt::Report& its = other.Report;
+  if (other.NumberOfCellsBefore > 0)
+  {
+    mine.worstBefore = isFirst ? its.worstBefore : std::min(mine.worstBefore, its.worstBefore);
+    mine.worstAfter = isFirst ? its.worstAfter : std::min(mine.worstAfter, its.worstAfter);
+    mine.bound = isFirst ? its.bound : std::min(mine.bound, its.bound);
+    mine.meanBefore = Mean(
+      mine.meanBefore, this->NumberOfCellsBefore, its.meanBefore, other.NumberOfCellsBefore);
+    mine.meanAfter = Mean(mine.meanAfter, this->NumberOfCells, its.meanAfter, other.NumberOfCells);
+    mine.cappedCells += its.cappedCells;
+    mine.invertedBefore += its.invertedBefore;
+    mine.invertedAfter += its.invertedAfter;
+  }
+  if (Strength(its.stopReason) > Strength(mine.stopReason))
+  {
+    mine.stopReason = its.stopReason;
+  }
+  this->NumberOfCells += other.NumberOfCells;
+  this->NumberOfCellsBefore += other.NumberOfCellsBefore;
+  this->NumberOfSimplices += other.NumberOfSimplices;
+  this->NumberOfGhostSimplices += other.NumberOfGhostSimplices;
+  this->NumberOfSurfaceTriangles += other.NumberOfSurfaceTriangles;
+  this->NumberOfReorientedCells += other.NumberOfReorientedCells;
+  this->NumberOfQuadraticSimplices += other.NumberOfQuadraticSimplices;
+  this->NumberOfOperations += other.NumberOfOperations;
+  this->Seconds += other.Seconds;
+  this->Lengths.add(other.Lengths);
+  this->Tangle = Joined(this->Tangle, other.Tangle);
+  this->Sizes = Joined(this->Sizes, other.Sizes);
+}
+
+std::string Joined(const std::string& a, const std::string& b)
+{
+  return a + (a.empty() || b.empty() ? "" : " ") + b;
+}
+
+} // namespace vtkMeshOptimizeBridge
