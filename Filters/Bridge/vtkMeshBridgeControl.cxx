@@ -19,28 +19,15 @@ int ResolveNumberOfThreads(int wanted)
   return wanted > 0 ? wanted : std::max(available, 1);
 }
 
-Deadline::Deadline(double seconds)
-  : Start(std::chrono::steady_clock::now())
-  , Seconds(seconds)
-{
-}
-
-bool Deadline::HasPassed()
-{
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Start;
-  this->Seen = this->Seconds > 0.0 && spent.count() >= this->Seconds;
-  return this->Seen;
-}
-
 meshopt::Control MakeControl(
-  vtkAlgorithm* filter, int numberOfThreads, double first, double last, Deadline& deadline)
+  vtkAlgorithm* filter, int numberOfThreads, double first, double last)
 {
   meshopt::Control control;
-  control.progress = [=, &deadline](double fraction, const std::string& text)
+  control.progress = [=](double fraction, const std::string& text)
   {
     filter->SetProgressText(text.c_str());
     filter->UpdateProgress(first + (last - first) * std::min(1.0, std::max(0.0, fraction)));
-    return !CheckAbort(filter) && !deadline.HasPassed();
+    return !CheckAbort(filter);
   };
   if (numberOfThreads > 1)
   {

@@ -335,14 +335,12 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
     return error;
   }
   bridge::StartHistory(ports.History, isComposite);
-  vtkMeshBridge::Deadline deadline(filter->GetTimeLimit());
-  request.TimeLimit = &deadline;
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
-    request.Control = vtkMeshBridge::MakeControl(
-      filter, request.NumberOfThreads, first, last, deadline);
+    request.Control =
+      vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
     const Task& task = tasks[i];
     const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;
@@ -352,7 +350,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
       return title + error;
     }
     bridge::AppendHistory(one.Report, task.Block, ports.History);
-    for (std::string* text : { &one.Tangle, &one.Sizes })
+    for (std::string* text : { &one.Overlap, &one.Tangle, &one.Sizes })
     {
       *text = text->empty() ? "" : title + *text;
     }
@@ -377,7 +375,7 @@ void Warn(vtkMeshOptimizeFilter* filter, const bridge::Outcome& outcome)
       << outcome.NumberOfReorientedCells
       << " cells were numbered the wrong way round (negative volume); they have been renumbered.");
   }
-  for (const std::string& text : { outcome.Tangle, outcome.Sizes })
+  for (const std::string& text : { outcome.Overlap, outcome.Tangle, outcome.Sizes })
   {
     if (!text.empty())
     {

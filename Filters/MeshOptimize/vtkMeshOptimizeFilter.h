@@ -138,9 +138,10 @@ public:
   /**
    * The shape measure S that is optimized. All are 0 for a flat simplex, negative for an inverted
    * one and greatest for the regular one (1 but for the sines); size does not matter. Shape leads
-   * to good overall shapes, MinimumSine to good smallest dihedral angles. Default: Shape.
+   * to good overall shapes, MinimumSine to good smallest dihedral angles. Any other number is an
+   * error when the filter runs. Default: Shape.
    */
-  vtkSetClampMacro(QualityMeasure, int, Shape, VolumeLength);
+  vtkSetMacro(QualityMeasure, int);
   vtkGetMacro(QualityMeasure, int);
   void SetQualityMeasureToShape() { this->SetQualityMeasure(Shape); }
   void SetQualityMeasureToRadiusRatio() { this->SetQualityMeasure(RadiusRatio); }

@@ -209,6 +209,11 @@ void vtkMeshQualityMinMax::Run::PassBlock(
 //------------------------------------------------------------------------------
 std::string vtkMeshQualityMinMax::Run::FindArrays()
 {
+  if (!meshopt::isMeasure(this->Self->GetQualityMeasure()))
+  {
+    return "QualityMeasure is " + std::to_string(this->Self->GetQualityMeasure()) +
+      ", which is none of the known measures.";
+  }
   std::vector<vtkUnstructuredGrid*> grids;
   for (const quality::Block& block : this->Blocks)
   {

@@ -93,8 +93,9 @@ public:
    *  - WarpedSine: the same, with sines of obtuse angles times .75;
    *  - VolumeLength: 6 sqrt(2) V / l_rms^3; triangles: 4 A / (sqrt(3) l_rms^2);
    *  - MinimumDihedralAngle: least dihedral (corner) angle in degrees, at most 70.53 (60).
+   * Any other number is an error when the filter runs.
    */
-  vtkSetClampMacro(QualityMeasure, int, Shape, MinimumDihedralAngle);
+  vtkSetMacro(QualityMeasure, int);
   vtkGetMacro(QualityMeasure, int);
   void SetQualityMeasureToShape() { this->SetQualityMeasure(Shape); }
   void SetQualityMeasureToRadiusRatio() { this->SetQualityMeasure(RadiusRatio); }

@@ -244,9 +244,8 @@ int vtkThermoelasticFilter::RequestData(
   bridge::Request request = MakeRequest(this);
   Results results;
   bridge::Outcome& outcome = results.Outcome;
-  vtkMeshBridge::Deadline never(0.0);
   const int threads = vtkMeshBridge::ResolveNumberOfThreads(this->NumberOfThreads);
-  request.Control = vtkMeshBridge::MakeControl(this, threads, 0.0, 1.0, never);
+  request.Control = vtkMeshBridge::MakeControl(this, threads, 0.0, 1.0);
   std::string error = CheckDistribution(this->Controller, input->GetNumberOfCells() > 0);
   try
   {

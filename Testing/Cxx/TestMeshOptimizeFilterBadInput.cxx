@@ -296,11 +296,17 @@ void TestOptions()
   ExpectError(box, { "target" }, [](vtkMeshOptimizeFilter* f) { f->SetTargetQuality(NaN); });
   ExpectError(box, { "beta" }, [](vtkMeshOptimizeFilter* f) { f->SetBeta(NaN); });
   ExpectError(box, { "OptimizeBelow" }, [](vtkMeshOptimizeFilter* f) { f->SetOptimizeBelow(NaN); });
+  for (int number : { -1, 99 })
+  {
+    ExpectError(box, { "quality measure", "none of the known" },
+      [=](vtkMeshOptimizeFilter* f) { f->SetQualityMeasure(number); });
+  }
+  // a measure that can only be reported
+  ExpectError(box, { "dihedral", "not to optimize" },
+    [](vtkMeshOptimizeFilter* f) { f->SetQualityMeasure(vtkMeshQualityMinMax::MinimumDihedralAngle); });
   OptimizeFilter f;
   f->SetTargetQuality(7.0);
   CHECK(f->GetTargetQuality() == 1.0);
-  f->SetQualityMeasure(99);
-  CHECK(f->GetQualityMeasure() == vtkMeshOptimizeFilter::VolumeLength);
   f->SetNeighborhoodLevel(-1);
   CHECK(f->GetNeighborhoodLevel() == 0);
   f->SetEpsilon(-1.0);

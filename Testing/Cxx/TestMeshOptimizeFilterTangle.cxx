@@ -97,6 +97,37 @@ void TestRepaired()
 }
 
 /**
+ * Nodes thrown about, and the cells that this inverts renumbered: all have a positive volume and
+ * lie on each other. The warning says so, nothing is renumbered, and none becomes inverted.
+ */
+void TestOverlapIsNamed()
+{
+  Grid grid = MakeBox(3, 0.9);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (SignedVolume(grid, c) < 0.0)
+    {
+      grid->GetCellPoints(c, ids);
+      const vtkIdType swapped[4] = { ids->GetId(0), ids->GetId(1), ids->GetId(3), ids->GetId(2) };
+      grid->GetCells()->ReplaceCellAtId(c, 4, swapped);
+    }
+  }
+  CHECK(CountInverted(grid) == 0);
+  OptimizeFilter filter;
+  Messages messages(filter);
+  filter->SetInputData(grid);
+  filter->Update();
+  CHECK(messages.Errors.empty());
+  CHECK(messages.Warnings.size() == 1);
+  CHECK(!messages.Warnings.empty() && Has(messages.Warnings[0], "Cells of the input overlap"));
+  CHECK(!messages.Warnings.empty() && Has(messages.Warnings[0], "same side"));
+  CHECK(CountInverted(filter->GetOutput()) == 0);
+  CHECK(filter->GetWorstQualityBefore() > 0.0);
+  CHECK(filter->GetWorstQualityAfter() >= filter->GetWorstQualityBefore());
+}
+
+/**
  * The cells that the warning names are inverted ones: `cell 17` with the id of the input.
  */
 void CheckNames(const std::string& warning, vtkUnstructuredGrid* output)
@@ -238,6 +269,7 @@ int main(int, char*[])
     []()
     {
       TestRepaired();
+      TestOverlapIsNamed();
       TestSurfaceAtFault();
       TestNotAllowed();
       TestBlocks();

@@ -292,6 +292,18 @@ void TestErrors()
     Check(errors->Text.find(c.Says) != std::string::npos,
       "says " + std::string(c.Says) + ": " + errors->Text);
   }
+  for (int number : { -1, vtkMeshQualityMinMax::MinimumDihedralAngle + 1 })
+  {
+    vtkNew<vtkMeshQualityMinMax> filter;
+    vtkNew<ErrorCounter> errors;
+    filter->AddObserver(vtkCommand::ErrorEvent, errors);
+    filter->SetInputData(grid);
+    filter->SetQualityMeasure(number);
+    filter->Update();
+    Check(errors->Count == 1, "one error for a measure that is none");
+    Check(errors->Text.find("QualityMeasure is " + std::to_string(number)) != std::string::npos,
+      "names the measure: " + errors->Text);
+  }
 }
 
 void TestThreads()

@@ -283,23 +283,27 @@ struct MeshBuilder
           ++this->mesh.reoriented_;
         }
       }
-      this->mesh.foldedFacets_ += isPositive ? this->countFolded(component) : 0;
+      if (isPositive)
+      {
+        this->findFolds(component);
+      }
     }
   }
 
   /// Facets that both of their cells lie on the same side of.
-  Index countFolded(const std::vector<Index>& cells) const
+  void findFolds(const std::vector<Index>& cells)
   {
-    Index count = 0;
     for (Index c : cells)
     {
       for (int i = 0; i <= D; ++i)
       {
         const Index h = this->mesh.adjacent(c, i);
-        count += h > Mesh::handle(c, i) && !this->agree(c, i);
+        if (h > Mesh::handle(c, i) && !this->agree(c, i) && this->mesh.foldedFacets_++ == 0)
+        {
+          this->mesh.firstFoldedFacet_ = this->mesh.facet(c, i);
+        }
       }
     }
-    return count;
   }
 
   double propagate(Index seed, std::vector<std::int8_t>& sign, std::vector<Index>& component)

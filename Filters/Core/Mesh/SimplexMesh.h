@@ -130,6 +130,8 @@ public:
   Index numberOfReorientedCells() const { return this->reoriented_; }
   /// Facets of the input that both of their cells lie on the same side of.
   Index numberOfFoldedFacets() const { return this->foldedFacets_; }
+  /// The nodes of one of them, where there is one.
+  const Facet<D>& firstFoldedFacet() const { return this->firstFoldedFacet_; }
   Index countCells() const;  ///< live cells; linear
   Index countPoints() const; ///< points used by a cell; linear
   bool hasConstrainedEdges() const { return this->hasConstrainedEdges_; }
@@ -255,6 +257,7 @@ private:
   Index inputCells_ = 0;
   Index reoriented_ = 0;
   Index foldedFacets_ = 0;
+  Facet<D> firstFoldedFacet_{};
   bool hasConstrainedEdges_ = false;
 };
 

@@ -24,15 +24,19 @@ std::string wrongLength(const char* what, std::size_t length, Index points)
 
 template <int D>
 std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<double>& sizes,
-  const std::vector<Tensor<D>>& tensors)
+  const std::vector<Tensor<D>>& tensors, NodalValues* blamed)
 {
+  NodalValues ignored;
+  NodalValues& about = blamed ? *blamed : ignored;
   const Index n = mesh.numberOfInputPoints();
+  about = NodalValues::Sizes;
   if (!sizes.empty() && static_cast<Index>(sizes.size()) != n)
   {
     return wrongLength("Desired sizes", sizes.size(), n);
   }
   if (!tensors.empty() && static_cast<Index>(tensors.size()) != n)
   {
+    about = NodalValues::Tensors;
     return wrongLength("Metric tensors", tensors.size(), n);
   }
   std::vector<Sample> values(sizes.empty() && tensors.empty() ? 0 : mesh.numberOfPointSlots());
@@ -55,6 +59,7 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
     }
     if (!tensors.empty() && !logarithm<D>(tensors[p], values[p].logTensor))
     {
+      about = NodalValues::Tensors;
       std::ostringstream text;
       text << "The metric tensor at point " << p
            << " is not symmetric, finite and positive definite.";

@@ -15,6 +15,13 @@
 
 namespace meshopt
 {
+/// Which of the values at points a sentence is about.
+enum class NodalValues
+{
+  Sizes,
+  Tensors
+};
+
 /// The field lives on the *background*: a copy of the input mesh with the values the user gave at
 /// its points. At the points of the mesh being optimized it is sampled by linear interpolation (of
 /// log h*, and of log M: log-Euclidean), again whenever a point moves or comes, so that it does
@@ -41,18 +48,15 @@ public:
   /// 0; tensors empty or one per input point, symmetric positive definite, in 1 / unit of length
   /// squared. Returns a sentence naming the first unusable value, or an empty string; after an
   /// error nothing has changed. Points that no cell uses may have any value.
+  /// `blamed`, where not null, is told which of the two the sentence is about.
   std::string set(const SimplexMesh<D>& background, const std::vector<double>& sizes,
-    const std::vector<Tensor<D>>& tensors);
+    const std::vector<Tensor<D>>& tensors, NodalValues* blamed = nullptr);
 
   /// One tensor for all points; same error.
   std::string setConstant(const Tensor<D>& tensor);
 
   bool isTrivial() const { return this->values_.empty() && !this->hasConstant_; }
   bool hasSizes() const { return this->hasSizes_; }
-  /// True if tensors vary from point to point.
-  bool hasTensors() const { return this->hasTensors_; }
-  /// True if setConstant() gave one tensor for all points.
-  bool hasConstantTensor() const { return this->hasConstant_; }
 
   /// Samples the background at x and stores the values for point p (moved or new). Does nothing
   /// where the field does not vary. Points out of the background take the nearest cell's clamped
@@ -100,9 +104,6 @@ public:
   /// The number of regular elements whose edges have the wanted length that fill `mesh` (5.3); it is
   /// to be the one that the values were given for.
   double predictedNumberOfElements(const SimplexMesh<D>& mesh) const;
-
-  /// The frozen input mesh; null if the field does not vary.
-  const std::shared_ptr<const Background<D>>& background() const { return this->background_; }
 
 private:
   double logSize(Index p) const;

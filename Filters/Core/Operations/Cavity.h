@@ -36,9 +36,8 @@ public:
   double grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index seed, Index p,
     const Vec<D>& x, const Limits& limits);
 
-  /// The cells of the best prefix, and how many points vanish with them.
+  /// The cells of the best prefix.
   const std::vector<Index>& cells() const { return this->cells_; }
-  int swallowed() const { return this->bestSwallowed_; }
   double oldWorst() const { return this->oldWorst_; }
   /// Boundary facets of the best prefix, ordered such that (facet, node) is positive.
   const std::vector<Facet<D>>& facets() const { return this->facets_; }
@@ -76,7 +75,7 @@ private:
   std::uint32_t mark_ = 0;
   Index p_ = None;
   Vec<D> x_;
-  int swallowed_ = 0, bestSwallowed_ = 0;
+  int swallowed_ = 0;
   double oldWorst_ = 0.0;
 };
 
@@ -224,7 +223,7 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
   this->mark_ = editor.newMark();
   this->p_ = p;
   this->x_ = x;
-  this->swallowed_ = this->bestSwallowed_ = 0;
+  this->swallowed_ = 0;
   double best = -std::numeric_limits<double>::infinity();
   std::size_t bestSize = 0;
   bool more = this->take(editor, model, seed, limits.swallowed);
@@ -248,7 +247,6 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
     {
       best = top.q;
       bestSize = this->cells_.size();
-      this->bestSwallowed_ = this->swallowed_;
     }
     const Index h = mesh.adjacent(top.cell, top.facet);
     if (h == None || mesh.isConstrained(top.cell, top.facet) || !editor.owns(mesh.cellOf(h)) ||

@@ -33,9 +33,6 @@ public:
     this->metrics_.clear();
   }
 
-  int numberOfFacets() const { return static_cast<int>(this->facets_.size()); }
-  int numberOfPoints() const { return static_cast<int>(this->ring_.size()); }
-
   int addPoint(Index p, const Vec<D>& x)
   {
     const int k = this->numbers_.add(p);

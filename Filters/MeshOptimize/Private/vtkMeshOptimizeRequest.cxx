@@ -2,6 +2,7 @@
 #include "vtkMeshOptimizeRequest.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -47,6 +48,20 @@ double Mean(double a, vtkIdType countA, double b, vtkIdType countB)
 } // namespace
 
 //------------------------------------------------------------------------------
+meshopt::Options Request::OptionsNow() const
+{
+  meshopt::Options options = this->Options;
+  if (options.timeLimit > 0.0)
+  {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Start;
+    // 0 would mean no limit
+    options.timeLimit =
+      std::max(options.timeLimit - spent.count(), std::numeric_limits<double>::min());
+  }
+  return options;
+}
+
+//------------------------------------------------------------------------------
 void Outcome::Add(const Outcome& other)
 {
   const bool isFirst = this->NumberOfCellsBefore == 0;
@@ -78,6 +93,7 @@ void Outcome::Add(const Outcome& other)
   this->NumberOfOperations += other.NumberOfOperations;
   this->Seconds += other.Seconds;
   this->Lengths.add(other.Lengths);
+  this->Overlap = Joined(this->Overlap, other.Overlap);
   this->Tangle = Joined(this->Tangle, other.Tangle);
   this->Sizes = Joined(this->Sizes, other.Sizes);
 }

@@ -13,15 +13,11 @@
 
 #include "vtkType.h"
 
+#include <chrono>
 #include <string>
 
 class vtkAlgorithm;
 class vtkPolyData;
-
-namespace vtkMeshBridge
-{
-class Deadline;
-}
 
 namespace vtkMeshOptimizeBridge
 {
@@ -35,7 +31,8 @@ struct Request
   meshopt::Options Options;
   meshopt::Control Control;
   int NumberOfThreads = 1;
-  const vtkMeshBridge::Deadline* TimeLimit = nullptr; ///< tells an abort by the clock from others
+  /// The time limit counts from here on: reading the grid is part of it, and so are other grids.
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   double OptimizeBelow = 0.0; ///< only cells under it may change, and layers around; 0: all
   int NumberOfLayers = 0;
   bool Slide = false; ///< the boundary may be remeshed along its curves
@@ -44,6 +41,9 @@ struct Request
 
   /// Sizes count for the quality, or the boundary follows them.
   bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }
+
+  /// The options for a run that begins now: with what is left of the time limit.
+  meshopt::Options OptionsNow() const;
 };
 
 /**
@@ -63,6 +63,7 @@ struct Outcome
   double Seconds = 0.0;
   meshopt::EdgeLengths Lengths; ///< in the end; no edges if neither sizes nor a metric are given
   std::string Sizes;            ///< what the user should know about the wanted sizes; or empty
+  std::string Overlap;          ///< about cells of the input that lie on each other; or empty
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
   /// Takes another grid's outcome in: minima, means by number of cells, sums, the strongest stop

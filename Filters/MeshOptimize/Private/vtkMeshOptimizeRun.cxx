@@ -54,11 +54,7 @@ void Optimize(
   const double areaBefore = D == 2 ? model.Mesh.volume() : 0.0;
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(
-    model.Mesh, model.Metric, request.Options, request.Control, SurfaceOf<D>(request, curves));
-  if (outcome.Report.stopReason == meshopt::StopReason::Aborted && request.TimeLimit->WasSeen())
-  {
-    outcome.Report.stopReason = meshopt::StopReason::TimeLimit;
-  }
+    model.Mesh, model.Metric, request.OptionsNow(), request.Control, SurfaceOf<D>(request, curves));
   outcome.NumberOfCells = model.Mesh.countCells();
   outcome.Sizes = Joined(DescribeSizes(outcome.Report, request),
     D == 2 ? DescribeArea(areaBefore, model.Mesh.volume(), request) : "");
@@ -154,6 +150,7 @@ std::string OptimizeSimplices(
     return error;
   }
   outcome.NumberOfReorientedCells = model.Mesh.numberOfReorientedCells();
+  outcome.Overlap = DescribeOverlap(model.Mesh);
   if (request.OptimizeBelow > 0.0)
   {
     OptimizeZone(request, curves, model, outcome);

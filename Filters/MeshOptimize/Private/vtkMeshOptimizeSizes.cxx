@@ -71,16 +71,15 @@ std::string SetMetric(const Request& request, Model<D>& model)
   {
     return {};
   }
-  const std::vector<double> sizesAtPoints = vtkMeshBridge::ReadSizes(sizes);
-  const std::string error = model.Metric.set(
-    model.Mesh, sizesAtPoints, vtkMeshBridge::ReadTensors(tensors, model.Frame));
+  meshopt::NodalValues blamed;
+  const std::string error = model.Metric.set(model.Mesh, vtkMeshBridge::ReadSizes(sizes),
+    vtkMeshBridge::ReadTensors(tensors, model.Frame), &blamed);
   if (error.empty())
   {
     return {};
   }
-  meshopt::NodalMetric<D> alone; // tells which of the two arrays it is
-  const bool isSize = sizes && !alone.set(model.Mesh, sizesAtPoints, {}).empty();
-  return (isSize || !tensors ? NameOf("Size array", sizes) : NameOf("Metric array", tensors)) +
+  return (blamed == meshopt::NodalValues::Sizes ? NameOf("Size array", sizes)
+                                                : NameOf("Metric array", tensors)) +
     error;
 }
 

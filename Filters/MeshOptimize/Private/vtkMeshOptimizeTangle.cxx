@@ -257,6 +257,23 @@ std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
   return text + ".";
 }
 
+template <int D>
+std::string DescribeOverlap(const SimplexMesh<D>& mesh)
+{
+  const Index folds = mesh.numberOfFoldedFacets();
+  if (folds == 0)
+  {
+    return {};
+  }
+  const std::string noun = D == 3 ? " face" : " edge";
+  return "Cells of the input overlap, though none of them is inverted: at " +
+    std::to_string(folds) + (folds == 1 ? noun : noun + "s") +
+    " both cells lie on the same side (the first one has the points of the input " +
+    ListPoints<D>(mesh.firstFoldedFacet()) + "). They have not been renumbered.";
+}
+
+template std::string DescribeOverlap<2>(const SimplexMesh<2>&);
+template std::string DescribeOverlap<3>(const SimplexMesh<3>&);
 template std::string DescribeTangle<2>(
   vtkUnstructuredGrid*, const OutputMap&, const SimplexMesh<2>&, const meshopt::Report&);
 template std::string DescribeTangle<3>(

@@ -33,6 +33,13 @@ template <int D>
 std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
   const meshopt::SimplexMesh<D>& mesh, const meshopt::Report& report);
 
+/**
+ * A sentence about cells of the input that lie on each other though none of them is inverted, or an
+ * empty string if there are none.
+ */
+template <int D>
+std::string DescribeOverlap(const meshopt::SimplexMesh<D>& mesh);
+
 } // namespace vtkMeshOptimizeBridge
 
 #endif

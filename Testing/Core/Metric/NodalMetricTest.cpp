@@ -264,7 +264,6 @@ TEST_F(Metric3, LogEuclideanAndSizes)
   EXPECT_TRUE(metric.isTrivial());
   ASSERT_EQ(metric.set(this->mesh_, sizes, tensors), "");
   EXPECT_TRUE(metric.hasSizes());
-  EXPECT_TRUE(metric.hasTensors());
   EXPECT_FALSE(metric.isTrivial());
   for (int k = 0; k < 200; ++k)
   {

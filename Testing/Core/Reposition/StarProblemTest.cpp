@@ -84,8 +84,6 @@ struct Star
       problem.addFacet(this->facets[k], this->weights[k]);
       problem.addFacetMetric({});
     }
-    EXPECT_EQ(problem.numberOfPoints(), int(this->points.size()));
-    EXPECT_EQ(problem.numberOfFacets(), int(this->facets.size()));
   }
 
   template <class Shape>
