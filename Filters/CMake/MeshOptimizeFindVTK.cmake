@@ -17,6 +17,13 @@ set(_meshoptimize_vtk_optional
   FiltersVerdict IOXML IOLegacy ParallelMPI TestingCore)
 
 if (NOT DEFINED MESHOPTIMIZE_WITH_PARAVIEW OR MESHOPTIMIZE_WITH_PARAVIEW)
+  # Where ParaView's package is, without reading it yet: this file of it names the prefix and no more.
+  find_package(MeshOptimizeParaViewPrefix QUIET NAMES ParaView CONFIGS paraview-prefix.cmake
+    HINTS "${ParaView_DIR}" "${ParaView_ROOT}" "$ENV{ParaView_DIR}" "$ENV{ParaView_ROOT}")
+  if (MeshOptimizeParaViewPrefix_FOUND)
+    meshoptimize_python_targets("${MeshOptimizeParaViewPrefix_DIR}/vtk" "${_vtk_module_import_prefix}")
+    meshoptimize_python_targets("${MeshOptimizeParaViewPrefix_DIR}" "${_vtk_module_import_prefix}")
+  endif ()
   set(_required QUIET)
   if (MESHOPTIMIZE_WITH_PARAVIEW)
     set(_required REQUIRED)
