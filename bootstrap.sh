@@ -56,7 +56,8 @@ missing() {
 }
 
 apt_install() {
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" > /dev/null
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    -o DPkg::Lock::Timeout=600 "$@" > /dev/null
 }
 
 # Installs what is missing of the core's packages and the given ones. In a new build folder the core, which is most of the
