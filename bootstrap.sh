@@ -57,7 +57,7 @@ missing() {
 
 apt_install() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-    -o DPkg::Lock::Timeout=600 "$@" > /dev/null
+    -o DPkg::Lock::Timeout=600 -o Dpkg::Use-Pty=0 "$@" > /dev/null
 }
 
 # Installs what is missing of the core's packages and the given ones. In a new build folder the core, which is most of the
@@ -81,7 +81,8 @@ prepare() {
 configure() {
   local log=$build_dir/configure.log
   mkdir -p "$build_dir"
-  cmake -G Ninja -S "$source_dir" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release "$@" > "$log" 2>&1 \
+  cmake -G Ninja -S "$source_dir" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release \
+    -DMESHOPTIMIZE_PRECOMPILED_HEADERS=ON "$@" > "$log" 2>&1 \
     || { tail -n 40 "$log"; return 1; }
 }
 
