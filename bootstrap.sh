@@ -86,7 +86,7 @@ configure() {
     || { tail -n 40 "$log"; return 1; }
 }
 
-compile() { cmake --build "$build_dir" --parallel "$(nproc)" "$@"; }
+compile() { cmake --build "$build_dir" --parallel "$(nproc)"; }
 
 compile_core() {
   echo "== compiling the core meanwhile"
