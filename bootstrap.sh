@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# MeshOptimize from nothing to a running filter on Debian 12.
+# MeshOptimize from nothing to a running filter on Debian 12 or 13.
 #
 #   ./bootstrap.sh demo    install what is missing, build, optimize a cracked pellet, show before and after
 #   ./bootstrap.sh test    install what is missing, build, run every test
@@ -13,15 +13,14 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 build_dir=${MESHOPTIMIZE_BUILD:-$source_dir/build}
 output_dir=${MESHOPTIMIZE_OUTPUT:-$build_dir/demo}
 python_dir=$build_dir/lib/python3/site-packages
-plugin_dir=$build_dir/lib/paraview-5.11/plugins/MeshOptimize
 
-# The shortest list that configures, builds, loads and renders on a bare system (the rest comes as their dependencies).
+# The shortest lists that configure, build, load and render on a bare system (the rest comes as their dependencies).
+core_packages=(g++ cmake ninja-build libeigen3-dev)  # all that Filters/Core needs
 packages=(
-  g++ cmake ninja-build paraview-dev python3-paraview libeigen3-dev libtet1.5-dev
+  paraview-dev python3-paraview python3-dev libtet1.5-dev
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev liblzma-dev liblz4-dev
-  qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools
   xvfb libgl1-mesa-dri)
-test_packages=(libgtest-dev calculix-ccx)
+test_packages=(libgtest-dev)
 
 usage() { sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
@@ -29,36 +28,88 @@ as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-install_missing() {
-  local missing=() package
+# What differs between releases: the Qt of ParaView, and that Debian 13 has no CalculiX (its test is skipped there).
+choose_release() {
+  local release
+  release=$(. /etc/os-release && echo "${ID:-} ${VERSION_CODENAME:-}")
+  case "$release" in
+    "debian bookworm")
+      packages+=(qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools)
+      test_packages+=(calculix-ccx)
+      ;;
+    "debian trixie") packages+=(qt6-base-dev) ;;
+    *)
+      echo "bootstrap.sh knows the packages of Debian 12 (bookworm) and 13 (trixie), and this is: $release" >&2
+      echo "See \"Build it yourself\" in README.md: it says what to install." >&2
+      exit 1
+      ;;
+  esac
+}
+
+missing() {
+  local package
   for package in "$@"; do
     if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
-      missing+=("$package")
+      echo "$package"
     fi
   done
-  [ ${#missing[@]} -eq 0 ] && return
-  echo "== installing ${#missing[@]} packages: ${missing[*]}"
+}
+
+apt_install() {
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    -o DPkg::Lock::Timeout=600 -o Dpkg::Use-Pty=0 "$@" > /dev/null
+}
+
+# Installs what is missing of the core's packages and the given ones. In a new build folder the core, which is most of the
+# work, is compiled meanwhile.
+prepare() {
+  local first rest installing status=0
+  mapfile -t first < <(missing "${core_packages[@]}")
+  mapfile -t rest < <(missing "$@")
+  [ $((${#first[@]} + ${#rest[@]})) -eq 0 ] && return
+  echo "== installing $((${#first[@]} + ${#rest[@]})) packages: ${first[*]} ${rest[*]}"
   as_root apt-get update -qq
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" > /dev/null
+  [ ${#first[@]} -eq 0 ] || apt_install "${first[@]}"
+  [ ${#rest[@]} -eq 0 ] && return
+  apt_install "${rest[@]}" &
+  installing=$!
+  [ -f "$build_dir/build.ninja" ] || compile_core || status=$?
+  wait "$installing"
+  return $status
+}
+
+configure() {
+  local log=$build_dir/configure.log
+  mkdir -p "$build_dir"
+  cmake -G Ninja -S "$source_dir" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release \
+    -DMESHOPTIMIZE_PRECOMPILED_HEADERS=ON "$@" > "$log" 2>&1 \
+    || { tail -n 40 "$log"; return 1; }
+}
+
+compile() { cmake --build "$build_dir" --parallel "$(nproc)"; }
+
+compile_core() {
+  echo "== compiling the core meanwhile"
+  configure -DMESHOPTIMIZE_CORE_ONLY=ON && compile
 }
 
 build() {
-  local log=$build_dir/configure.log
-  mkdir -p "$build_dir"
-  if [ ! -f "$build_dir/build.ninja" ] || [ "${1:-}" != "$(cat "$build_dir/.testing" 2>/dev/null)" ]; then
+  if [ ! -f "$build_dir/build.ninja" ] || [ "$1" != "$(cat "$build_dir/.testing" 2>/dev/null)" ]; then
     echo "== configuring"
-    cmake -G Ninja -S "$source_dir" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING="$1" \
-      -DMESHOPTIMIZE_WITH_PARAVIEW=ON > "$log" 2>&1 || { tail -n 40 "$log"; exit 1; }
+    configure -DMESHOPTIMIZE_CORE_ONLY=OFF -DBUILD_TESTING="$1" -DMESHOPTIMIZE_WITH_PARAVIEW=ON || exit 1
     echo "$1" > "$build_dir/.testing"
   fi
   echo "== building"
-  cmake --build "$build_dir" --parallel "$(nproc)"
+  compile
 }
 
 print_env() {
+  local plugins=("$build_dir"/lib/paraview-*/plugins/MeshOptimize/MeshOptimize.so)  # of the newest ParaView, if there are more
+  local plugin=${plugins[-1]}
+  [ -f "$plugin" ] || { echo "nothing is built in $build_dir yet: ./bootstrap.sh demo does" >&2; exit 1; }
   cat <<END
-export MESHOPTIMIZE_PLUGIN='$plugin_dir/MeshOptimize.so'
-export PV_PLUGIN_PATH='$plugin_dir'
+export MESHOPTIMIZE_PLUGIN='$plugin'
+export PV_PLUGIN_PATH='$(dirname "$plugin")'
 export PYTHONPATH='$python_dir'"\${PYTHONPATH:+:\$PYTHONPATH}"
 END
 }
@@ -96,12 +147,14 @@ run_tests() {
 
 case "${1:-}" in
   demo)
-    install_missing "${packages[@]}"
+    choose_release
+    prepare "${packages[@]}"
     build "$( [ -f "$build_dir/.testing" ] && cat "$build_dir/.testing" || echo OFF)"
     run_demo
     ;;
   test)
-    install_missing "${packages[@]}" "${test_packages[@]}"
+    choose_release
+    prepare "${packages[@]}" "${test_packages[@]}"
     build ON
     run_tests
     ;;

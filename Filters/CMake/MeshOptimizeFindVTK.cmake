@@ -3,6 +3,8 @@
 # MESHOPTIMIZE_WITH_PARAVIEW  ON by default when ParaView >= 5.11 is found. OFF: plain VTK >= 9.1 (VTK_DIR).
 # MESHOPTIMIZE_WITH_PYTHON    ON by default when that VTK wraps Python.
 
+include(MeshOptimizePythonTargets)
+
 # A python3 that comes first on the PATH is often not the one VTK was built with.
 if (NOT Python3_EXECUTABLE AND EXISTS "/usr/bin/python3")
   set(Python3_EXECUTABLE "/usr/bin/python3" CACHE FILEPATH "The Python that VTK was built with")
@@ -21,12 +23,14 @@ if (NOT DEFINED MESHOPTIMIZE_WITH_PARAVIEW OR MESHOPTIMIZE_WITH_PARAVIEW)
   if (MESHOPTIMIZE_WITH_PARAVIEW)
     set(_required REQUIRED)
   endif ()
+  meshoptimize_python_targets(ParaView)
   # Bare find_package(ParaView) would ask for every Qt component: name what a plugin needs.
   find_package(ParaView 5.11 ${_required} COMPONENTS
     RemotingCore RemotingServerManager RemotingClientServerStream VTKExtensionsCore PythonInitializer)
 endif ()
 option(MESHOPTIMIZE_WITH_PARAVIEW "Build against ParaView, and its plugin" ${ParaView_FOUND})
 
+meshoptimize_python_targets(VTK)
 find_package(VTK 9.1 REQUIRED
   COMPONENTS ${_meshoptimize_vtk_required}
   OPTIONAL_COMPONENTS ${_meshoptimize_vtk_optional})

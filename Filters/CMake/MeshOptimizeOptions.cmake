@@ -48,3 +48,14 @@ add_library(MeshOptimizeWarnings INTERFACE)
 target_compile_options(MeshOptimizeWarnings INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra>
   $<$<BOOL:${MESHOPTIMIZE_WERROR}>:-Werror>)
+
+# Headers of others that most sources read, read once: a whole build costs a tenth less. Off by default, since a source that
+# forgets one of them compiles all the same, and since ccache does not keep what is compiled so.
+option(MESHOPTIMIZE_PRECOMPILED_HEADERS "Precompile the headers of Eigen, VTK and the standard library" OFF)
+function (meshoptimize_precompile_headers target)
+  if (MESHOPTIMIZE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN}
+      <Eigen/Cholesky> <Eigen/Core> <Eigen/Eigenvalues> <Eigen/Geometry> <Eigen/LU>
+      <algorithm> <array> <cmath> <functional> <map> <memory> <numeric> <optional> <string> <thread> <unordered_map> <vector>)
+  endif ()
+endfunction ()

@@ -16,5 +16,6 @@ install(
   FILES
     "${CMAKE_BINARY_DIR}/${MESHOPTIMIZE_CMAKE_DIR}/MeshOptimizeConfig.cmake"
     "${CMAKE_BINARY_DIR}/${MESHOPTIMIZE_CMAKE_DIR}/MeshOptimizeConfigVersion.cmake"
+    "${CMAKE_CURRENT_LIST_DIR}/MeshOptimizePythonTargets.cmake"
   DESTINATION "${MESHOPTIMIZE_CMAKE_DIR}"
   COMPONENT development)

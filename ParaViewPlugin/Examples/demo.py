@@ -101,18 +101,19 @@ def histogram(quality, column):
     return vtk_to_numpy(servermanager.Fetch(quality, idx=2).GetColumnByName(column))
 
 
-def bars(qualities, counts, width, height, decades):
-    """The histogram as rectangles in a box of width x height; heights are logarithmic, so that one bad element shows."""
+def bars(qualities, counts, box, decades):
+    """The histogram as rectangles in a box (left, bottom, width, height); heights are logarithmic, so that one bad element shows."""
+    left, bottom, width, height = box
     points, polygons, colours = vtkPoints(), vtkCellArray(), vtkDoubleArray()
     colours.SetName("MeshQuality")
     step = width / len(counts)
     for quality, count in zip(qualities, counts):
         if count == 0:
             continue
-        x = quality * width - step / 2
-        top = height * (np.log10(count) + 0.15) / decades  # one element: a low bar, not none
+        x = left + quality * width - step / 2
+        top = bottom + height * (np.log10(count) + 0.15) / decades  # one element: a low bar, not none
         polygons.InsertNextCell(4)
-        for corner in ((x, 0), (x + 0.86 * step, 0), (x + 0.86 * step, top), (x, top)):
+        for corner in ((x, bottom), (x + 0.86 * step, bottom), (x + 0.86 * step, top), (x, top)):
             polygons.InsertCellPoint(points.InsertNextPoint(corner[0], corner[1], 0))
         colours.InsertNextValue(quality)
     result = vtkPolyData()
@@ -127,9 +128,8 @@ def show_histogram(quality, title, view, decades):
     left, bottom, width, height = 90, 60, 690, 340
     columns = [histogram(quality, name) for name in ("BinCenter", "Count")]
     source = TrivialProducer()
-    source.GetClientSideObject().SetOutput(bars(*columns, width, height, decades))
+    source.GetClientSideObject().SetOutput(bars(*columns, (left, bottom, width, height), decades))
     display = Show(source, view)
-    display.Position = [left, bottom, 0]
     display.Ambient, display.Diffuse = 1.0, 0.0
     ColorBy(display, ("CELLS", "MeshQuality"))
     display.LookupTable = colour_map()

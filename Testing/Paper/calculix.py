@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thermoelastic against CalculiX (Debian's calculix-ccx): the same mesh, material, temperature, constraints and loads.
+"""Thermoelastic against CalculiX (Debian 12's calculix-ccx): the same mesh, material, temperature, constraints and loads.
 
     /usr/bin/python3 Testing/Paper/calculix.py [MESH.vtu] [--folder DIR] [--ccx PROGRAM]
 
@@ -202,7 +202,7 @@ def main():
     parser.add_argument("--ccx", default=shutil.which("ccx"))
     opt = parser.parse_args()
     if not opt.ccx:
-        print("there is no ccx (Debian: calculix-ccx); nothing compared")
+        print("there is no ccx (Debian 12: calculix-ccx); nothing compared")
         return NO_CCX
     case = mesh_case(opt.mesh) if opt.mesh else box_case()
     with tempfile.TemporaryDirectory() as temporary:

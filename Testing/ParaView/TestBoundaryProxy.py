@@ -101,9 +101,10 @@ view.UseColorPaletteForBackground = 0
 view.Background = [1, 1, 1]
 view.OrientationAxesVisibility = 0
 for source, x in ((coarse, -1.1), (optimize, 1.1)):
-    display = simple.Show(source, view)
+    moved = simple.Transform(Input=source)
+    moved.Transform.Translate = [x, 0, 0]
+    display = simple.Show(moved, view)
     display.SetRepresentationType("Surface With Edges")
-    display.Position = [x, 0, 0]
     display.Ambient, display.Diffuse = 1.0, 0.0
     display.EdgeColor = [0.2, 0.25, 0.32]
     simple.ColorBy(display, ("POINTS", ""))

@@ -124,7 +124,13 @@ bool WriteArray(int file, const std::vector<T>& array)
   ::setrlimit(RLIMIT_CORE, &none);
   ::dup2(textFile, STDOUT_FILENO);
   ::dup2(textFile, STDERR_FILENO);
-  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ); // what was printed is out before a crash
+  // What TetGen prints must be out before it crashes: line by line. That may be set before the first
+  // use of a stream only, and the application may have printed already: the stream is opened anew.
+  if (std::freopen("/dev/null", "w", stdout))
+  {
+    ::dup2(textFile, ::fileno(stdout));
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  }
 
   int status = 1;
   try

@@ -103,7 +103,8 @@ void addConstraints(vtkUnstructuredGrid* mesh)
 /// Stress along x at the top of the hole, (0, 1).
 double stressAtHole(vtkUnstructuredGrid* solution)
 {
-  const vtkIdType p = solution->FindPoint(0.0, 1.0, 0.0);
+  double top[3] = { 0.0, 1.0, 0.0 };
+  const vtkIdType p = solution->FindPoint(top);
   return solution->GetPointData()->GetArray("Stress")->GetComponent(p, 0);
 }
 }
