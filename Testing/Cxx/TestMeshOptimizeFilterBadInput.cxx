@@ -5,6 +5,7 @@
 #include "vtkCellArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
+#include "vtkMeshQualityMinMax.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
@@ -302,8 +303,9 @@ void TestOptions()
       [=](vtkMeshOptimizeFilter* f) { f->SetQualityMeasure(number); });
   }
   // a measure that can only be reported
-  ExpectError(box, { "dihedral", "not to optimize" },
-    [](vtkMeshOptimizeFilter* f) { f->SetQualityMeasure(vtkMeshQualityMinMax::MinimumDihedralAngle); });
+  ExpectError(box, { "MinimumDihedralAngle", "not to optimize" },
+    [](vtkMeshOptimizeFilter* f)
+    { f->SetQualityMeasure(vtkMeshQualityMinMax::MinimumDihedralAngle); });
   OptimizeFilter f;
   f->SetTargetQuality(7.0);
   CHECK(f->GetTargetQuality() == 1.0);

@@ -5,6 +5,7 @@
 #define meshopt_Bound_Caps_h
 
 #include "Bound/SurfaceBound.h"
+#include "Mesh/Ids.h"
 
 #include <unordered_map>
 
@@ -49,15 +50,9 @@ private:
   struct Hash
   {
     template <std::size_t N>
-    std::size_t operator()(const std::array<Index, N>& f) const
+    std::size_t operator()(const std::array<Index, N>& ids) const
     {
-      std::size_t h = 0;
-      for (Index p : f)
-      {
-        h = (h ^ std::uint32_t(p)) * 0x9e3779b97f4a7c15ull;
-        h ^= h >> 29;
-      }
-      return h;
+      return hashIds(ids);
     }
   };
 

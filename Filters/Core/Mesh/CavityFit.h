@@ -31,8 +31,7 @@ Facets<D> facetsOf(const std::vector<Simplex<D>>& cells)
       Facet<D> f;
       std::transform(
         std::begin(local), std::end(local), f.begin(), [&](int i) { return cells[k][i]; });
-      std::sort(f.begin(), f.end());
-      facets.push_back({ f, k });
+      facets.push_back({ sortedIds(f), k });
     }
   }
   std::sort(facets.begin(), facets.end());
@@ -135,11 +134,10 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   {
     for (int i = 0; i <= D; ++i)
     {
-      Facet<D> f = mesh.facet(c, i);
+      const Facet<D> f = mesh.facet(c, i);
       if (!inCavity(mesh.adjacent(c, i)) && !(change && isAmong(change->gone, f)))
       {
-        std::sort(f.begin(), f.end());
-        outer.push_back({ f, old.size() });
+        outer.push_back({ sortedIds(f), old.size() });
       }
     }
     old.push_back(mesh.nodes(c));

@@ -34,6 +34,11 @@ inline std::array<Index, 2> sortedIds(std::array<Index, 2> f)
   return f;
 }
 
+inline std::array<Index, 2> sortedIds(Index a, Index b)
+{
+  return sortedIds(std::array<Index, 2>{ a, b });
+}
+
 inline std::array<Index, 3> sortedIds(std::array<Index, 3> f)
 {
   if (f[0] > f[1])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file LocalNumbers.h
-/// Local numbers 0, 1, 2, ... for the few points of a cluster, in the order of their first mention.
+/// Local numbers 0, 1, 2, ... for a few points or cells, in the order of their first mention.
 #ifndef meshopt_Mesh_LocalNumbers_h
 #define meshopt_Mesh_LocalNumbers_h
 

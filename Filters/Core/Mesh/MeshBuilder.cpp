@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Building a SimplexMesh: checks, adjacency by a bucket sort, orientation, what must be kept.
+#include "Mesh/Ids.h"
+#include "Mesh/PinchedPoints.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <algorithm>
@@ -385,9 +387,7 @@ struct MeshBuilder
     {
       for (int i = 0; i <= D; ++i)
       {
-        Facet<D> f = this->mesh.facet(c, i);
-        std::sort(f.begin(), f.end());
-        if (std::binary_search(facets.begin(), facets.end(), f))
+        if (std::binary_search(facets.begin(), facets.end(), sortedIds(this->mesh.facet(c, i))))
         {
           this->keepFacet(c, i);
         }
@@ -396,8 +396,7 @@ struct MeshBuilder
       {
         const Index a = this->mesh.nodes(c)[Local<D>::edges[k][0]];
         const Index b = this->mesh.nodes(c)[Local<D>::edges[k][1]];
-        const std::array<Index, 2> e{ std::min(a, b), std::max(a, b) };
-        if (std::binary_search(edges.begin(), edges.end(), e))
+        if (std::binary_search(edges.begin(), edges.end(), sortedIds(a, b)))
         {
           this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
           this->mesh.points_[a].flags |= Mesh::PointHeld;
@@ -413,7 +412,7 @@ struct MeshBuilder
   {
     for (auto& ids : list)
     {
-      std::sort(ids.begin(), ids.end());
+      ids = sortedIds(ids);
     }
     std::sort(list.begin(), list.end());
   }
@@ -422,24 +421,10 @@ struct MeshBuilder
   /// point) must not move: its star would be seen in part only.
   void fixPinchedPoints()
   {
-    std::vector<Index> count(this->mesh.points_.size(), 0), star;
-    for (const auto& cell : this->mesh.cells_)
+    const std::vector<std::uint8_t> pinched = pinchedPoints(this->mesh, true);
+    for (std::size_t p = 0; p < pinched.size(); ++p)
     {
-      for (Index p : cell.nodes)
-      {
-        ++count[p];
-      }
-    }
-    for (Index p = 0; p < this->mesh.numberOfPointSlots(); ++p)
-    {
-      if (count[p] > 0 && this->mesh.isFree(p))
-      {
-        this->mesh.star(p, star);
-        if (static_cast<Index>(star.size()) != count[p])
-        {
-          this->mesh.points_[p].flags |= Mesh::PointHeld;
-        }
-      }
+      this->mesh.points_[p].flags |= pinched[p] ? Mesh::PointHeld : 0;
     }
   }
 };

@@ -1,61 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/SimplexMesh.h"
 
+#include "Mesh/LocalNumbers.h"
+
 #include <algorithm>
 
 namespace meshopt
 {
-namespace
-{
-/// A small set of cells: open addressing, doubling; stars have some 24 cells, rarely hundreds.
-class SmallSet
-{
-public:
-  SmallSet() { this->table_.assign(128, None); }
-
-  bool insert(Index c)
-  {
-    if (2 * (this->size_ + 1) > this->table_.size())
-    {
-      std::vector<Index> old(2 * this->table_.size(), None);
-      old.swap(this->table_);
-      this->size_ = 0;
-      for (Index o : old)
-      {
-        if (o != None)
-        {
-          this->insert(o);
-        }
-      }
-    }
-    const std::size_t mask = this->table_.size() - 1;
-    for (std::size_t k = (std::uint32_t(c) * 2654435761u >> 7) & mask;; k = (k + 1) & mask)
-    {
-      if (this->table_[k] == c)
-      {
-        return false;
-      }
-      if (this->table_[k] == None)
-      {
-        this->table_[k] = c;
-        ++this->size_;
-        return true;
-      }
-    }
-  }
-
-  void clear()
-  {
-    this->table_.assign(128, None);
-    this->size_ = 0;
-  }
-
-private:
-  std::vector<Index> table_;
-  std::size_t size_ = 0;
-};
-}
-
 template <int D>
 Index SimplexMesh<D>::countCells() const
 {
@@ -73,18 +24,23 @@ Index SimplexMesh<D>::countPoints() const
 template <int D>
 void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
 {
-  thread_local SmallSet seen;
+  thread_local LocalNumbers seen; // the star, numbered as it is listed
   seen.clear();
   star.assign(1, this->points_[p].cell);
-  seen.insert(star[0]);
+  seen.add(star[0]);
   for (std::size_t k = 0; k < star.size(); ++k)
   {
     const Cell& cell = this->cells_[star[k]];
     for (int i = 0; i <= D; ++i)
     {
-      if (cell.nodes[i] != p && cell.adjacent[i] != None && seen.insert(cellOf(cell.adjacent[i])))
+      if (cell.nodes[i] == p || cell.adjacent[i] == None)
       {
-        star.push_back(cellOf(cell.adjacent[i]));
+        continue;
+      }
+      const Index next = cellOf(cell.adjacent[i]);
+      if (seen.add(next) == static_cast<int>(star.size()))
+      {
+        star.push_back(next);
       }
     }
   }

@@ -13,9 +13,10 @@
 #ifndef meshopt_Operations_Cavity_h
 #define meshopt_Operations_Cavity_h
 
+#include "Edit/QualityModel.h"
+#include "Mesh/KeptEdges.h"
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
-#include "Edit/QualityModel.h"
 
 #include <algorithm>
 
@@ -63,7 +64,6 @@ private:
   };
 
   bool take(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, int limit);
-  bool closesKeptEdge(const MeshEditor<D>& editor, Index c) const;
   double quality(const QualityModel<D, Shape>& model, const Facet<D>& f, const int* numbers);
   void finish(MeshEditor<D>& editor);
 
@@ -110,39 +110,6 @@ double Cavity<D, Shape>::quality(
   std::copy(f.begin(), f.end(), cell.begin());
   cell[D] = this->p_;
   return model(cell);
-}
-
-/// True if all cells around a kept edge of cell c are in the cavity now: the edge would vanish.
-template <int D, class Shape>
-bool Cavity<D, Shape>::closesKeptEdge(const MeshEditor<D>& editor, [[maybe_unused]] Index c) const
-{
-  const SimplexMesh<D>& mesh = editor.mesh();
-  for (int e = 0; D == 3 && mesh.hasConstrainedEdges() && e < Local<D>::numberOfEdges; ++e)
-  {
-    if (!mesh.isEdgeConstrained(c, e))
-    {
-      continue;
-    }
-    const Index a = mesh.nodes(c)[Local<D>::edges[e][0]], b = mesh.nodes(c)[Local<D>::edges[e][1]];
-    Index current = c, back = None; // the facet of `current` that was come in by
-    do
-    {
-      int exit = 0;
-      while (mesh.nodes(current)[exit] == a || mesh.nodes(current)[exit] == b ||
-        mesh.handle(current, exit) == back)
-      {
-        ++exit;
-      }
-      back = mesh.isConstrained(current, exit) ? None : mesh.adjacent(current, exit);
-      current = back == None ? None : mesh.cellOf(back);
-    } while (current != None && current != c && editor.owns(current) &&
-      editor.isMarked(current, this->mark_));
-    if (current == c)
-    {
-      return true;
-    }
-  }
-  return false;
 }
 
 /// Takes cell c in. False if that would make points or edges vanish that must not.
@@ -193,7 +160,8 @@ bool Cavity<D, Shape>::take(
     this->heap_.push_back({ this->quality(model, mesh.facet(c, i), numbers), c, i });
     std::push_heap(this->heap_.begin(), this->heap_.end());
   }
-  if (this->closesKeptEdge(editor, c))
+  if (enclosesKeptEdge(mesh, c,
+        [&](Index other) { return editor.owns(other) && editor.isMarked(other, this->mark_); }))
   {
     return false;
   }

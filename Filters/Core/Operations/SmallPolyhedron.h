@@ -14,9 +14,10 @@
 #define meshopt_Operations_SmallPolyhedron_h
 
 #include "Bound/ApexBound.h"
+#include "Edit/QualityModel.h"
+#include "Mesh/KeptEdges.h"
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
-#include "Edit/QualityModel.h"
 #include "Operations/PolyhedronSearch.h"
 
 #include <algorithm>

@@ -123,32 +123,7 @@ bool SmallPolyhedron<Shape>::closesKept(Index c)
       return true;
     }
   }
-  for (int e = 0; mesh.hasConstrainedEdges() && e < 6; ++e)
-  {
-    if (!mesh.isEdgeConstrained(c, e))
-    {
-      continue;
-    }
-    // around the edge, through cells that are taken
-    const Index a = mesh.nodes(c)[Local<3>::edges[e][0]], b = mesh.nodes(c)[Local<3>::edges[e][1]];
-    Index current = c, entry = None;
-    do
-    {
-      int exit = 0;
-      while (mesh.nodes(current)[exit] == a || mesh.nodes(current)[exit] == b ||
-        mesh.handle(current, exit) == entry)
-      {
-        ++exit;
-      }
-      entry = mesh.isConstrained(current, exit) ? None : mesh.adjacent(current, exit);
-      current = entry == None ? None : mesh.cellOf(entry);
-    } while (current != None && current != c && this->taken_.get(current) >= 0);
-    if (current == c)
-    {
-      return true;
-    }
-  }
-  return false;
+  return enclosesKeptEdge(mesh, c, [&](Index other) { return this->taken_.get(other) >= 0; });
 }
 
 /// The cell across facet i of cell c, if it may be taken in.

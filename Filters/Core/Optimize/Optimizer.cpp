@@ -65,7 +65,8 @@ void Optimizer<D>::optimize()
   }
   if (this->run_.options.algorithm == Algorithm::Paper1996)
   {
-    optimizePaper1996<D>(this->run_);
+    const Options& o = this->run_.options;
+    optimizePaper1996<D>(this->run_, o.targetQuality, o.lookAhead);
     return;
   }
   const long growth = growthOf(this->run_.options, input.cells, D);
@@ -86,17 +87,13 @@ void Optimizer<D>::optimize()
 template <int D>
 bool Optimizer<D>::untangle()
 {
-  Options options = this->run_.options;
-  options.targetQuality = std::min(options.targetQuality, UntangledQuality);
-  options.lookAhead = false;
-  const Run<D>& run = this->run_;
-  Run<D> untangling{ run.editor, run.metric, run.surface, options, run.control, run.clock,
-    run.report, run.growth };
+  Run<D>& run = this->run_;
   std::vector<PassRecord>& history = run.report.history;
   const std::size_t rows = history.size();
   {
     const Clock::Part part(run.clock, 0.0, Untangled);
-    optimizePaper1996<D>(untangling);
+    const double target = std::min(run.options.targetQuality, UntangledQuality);
+    optimizePaper1996<D>(run, target, false);
   }
   PassRecord row = summarize(run.mesh(), run.options.targetQuality);
   row.stage = "untangling";
@@ -118,8 +115,7 @@ template <int D>
 std::optional<NodalMetric<D>> Optimizer<D>::attainable()
 {
   const Run<D>& run = this->run_;
-  auto floor = keptSizeFloor(
-    run.mesh(), run.metric, run.surface, run.report.sizes.longestKept);
+  auto floor = keptSizeFloor(run.mesh(), run.metric, run.surface, run.report.sizes.longestKept);
   if (floor && run.options.beta > 0.0)
   {
     return run.metric.raised(run.mesh(), std::move(floor));

@@ -19,11 +19,12 @@ namespace meshopt
 /// Optimizes the mesh, whose qualities must be up to date (and are kept so); appends two rows per
 /// alternation to the history and sets report.stopReason. The surface is kept. At most run.growth cells
 /// may come.
+/// `target` takes the place of options.targetQuality; without `lookAhead` no element gets one.
 template <int D>
-void optimizePaper1996(Run<D>& run);
+void optimizePaper1996(Run<D>& run, double target, bool lookAhead);
 
-extern template void optimizePaper1996<2>(Run<2>&);
-extern template void optimizePaper1996<3>(Run<3>&);
+extern template void optimizePaper1996<2>(Run<2>&, double, bool);
+extern template void optimizePaper1996<3>(Run<3>&, double, bool);
 }
 
 #endif

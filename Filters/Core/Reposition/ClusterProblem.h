@@ -14,6 +14,7 @@
 #include "Mesh/Cluster.h"
 #include "Quality/ElementQuality.h"
 #include "Reposition/MinNormPoint.h"
+#include "Reposition/TrustRegion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,47 +31,41 @@ public:
   double maximize(Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
     const std::vector<ElementMetric<D>>& metrics, double enough, double gain, int maximumSteps = 40)
   {
-    const auto metric = [&](std::size_t k) -> const ElementMetric<D>&
-    { return metrics[metrics.size() == 1 ? 0 : k]; };
-    double worst = *std::min_element(cluster.quality.begin(), cluster.quality.end());
+    const double worst = *std::min_element(cluster.quality.begin(), cluster.quality.end());
     const double length = cluster.meanEdge();
-    double tau = 0.1 * length * length;
-    for (int step = 0; step < maximumSteps && worst < enough;)
-    {
-      this->linearize(cluster, quality, metric, worst);
-      bool moved = false;
-      for (int trial = 0; trial < 5 && step < maximumSteps && !moved; ++trial, ++step)
-      {
-        const double predicted = this->solve(cluster.numberOfMoving, tau) - worst;
-        if (!(predicted > gain))
-        {
-          return worst;
-        }
-        const double there = this->evaluate(cluster, quality, metric, worst + 0.1 * predicted);
-        moved = there > worst + 0.1 * predicted;
-        tau *= there > worst + 0.7 * predicted ? 3.0 : moved ? 1.0 : 0.25;
-        if (moved)
-        {
-          cluster.x.swap(this->x_);
-          cluster.quality.swap(this->values_);
-          worst = there;
-        }
-      }
-      if (!moved)
-      {
-        break;
-      }
-    }
-    return worst;
+    Ascent ascent{ *this, cluster, quality, metrics };
+    return ascend(
+      ascent, worst, TrustRegion::FirstShare * length * length, enough, gain, maximumSteps);
   }
 
 private:
   static constexpr double Window = 0.15; ///< above the worst: what a step could make the worst
 
-  template <class Metric>
-  void linearize(const Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
-    const Metric& metric, double worst)
+  /// What ascend() asks for.
+  struct Ascent
   {
+    ClusterProblem& problem;
+    Cluster<D>& cluster;
+    const ElementQuality<D, Shape>& quality;
+    const std::vector<ElementMetric<D>>& metrics;
+
+    const ElementMetric<D>& metric(std::size_t k) const
+    {
+      return this->metrics[this->metrics.size() == 1 ? 0 : k];
+    }
+    void linearize(double worst) { this->problem.linearize(*this, worst); }
+    double predict(double tau) { return this->problem.solve(this->cluster.numberOfMoving, tau); }
+    double tryStep(double required) { return this->problem.evaluate(*this, required); }
+    void accept()
+    {
+      this->cluster.x.swap(this->problem.x_);
+      this->cluster.quality.swap(this->problem.values_);
+    }
+  };
+
+  void linearize(const Ascent& ascent, double worst)
+  {
+    const Cluster<D>& cluster = ascent.cluster;
     this->functions_.clear();
     std::array<Vec<D>, D + 1> g;
     for (std::size_t k = 0; k < cluster.cells.size(); ++k)
@@ -79,7 +74,7 @@ private:
       {
         continue;
       }
-      quality.gradient(cluster.corners(static_cast<int>(k)), metric(k), g);
+      ascent.quality.gradient(cluster.corners(static_cast<int>(k)), ascent.metric(k), g);
       SparsePoint<D> f;
       f.first = cluster.quality[k] - worst;
       for (int i = 0; i <= D; ++i)
@@ -129,10 +124,9 @@ private:
 
   /// Places and qualities after the step, in x_ and values_; given up, with less than `required`,
   /// at the first cell that has not got it.
-  template <class Metric>
-  double evaluate(const Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
-    const Metric& metric, double required)
+  double evaluate(const Ascent& ascent, double required)
   {
+    const Cluster<D>& cluster = ascent.cluster;
     this->x_ = cluster.x;
     for (int p = 0; p < cluster.numberOfMoving; ++p)
     {
@@ -147,7 +141,7 @@ private:
       {
         c[i] = this->x_[cluster.nodes[k][i]];
       }
-      this->values_[k] = quality.value(c, metric(k));
+      this->values_[k] = ascent.quality.value(c, ascent.metric(k));
       worst = std::min(worst, this->values_[k]);
       if (!(this->values_[k] > required))
       {

@@ -13,6 +13,7 @@
 #include "Quality/EdgeSum.h"
 #include "Quality/ElementQuality.h"
 #include "Reposition/ProximalStep.h"
+#include "Reposition/TrustRegion.h"
 
 #include <Eigen/Geometry>
 
@@ -116,41 +117,35 @@ public:
   /// `enough`, or when a step gains less than `gain`. After it values() belong to x.
   double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = 20)
   {
-    double worst = this->evaluate(x);
-    double tau = this->firstTau(x);
-    for (int step = 0; step < maximumSteps && worst < enough;)
-    {
-      this->linearize(x, worst);
-      bool moved = false;
-      for (int trial = 0; trial < 5 && step < maximumSteps && !moved; ++trial, ++step)
-      {
-        Vec<D> d;
-        const double predicted = this->solver_.solve(this->active_, tau, d) - worst;
-        if (!(predicted > gain))
-        {
-          step = maximumSteps;
-          break;
-        }
-        const Vec<D> y = x + d;
-        const double there = this->evaluate(y);
-        moved = there > worst + 0.1 * predicted;
-        tau *= there > worst + 0.7 * predicted ? 3.0 : moved ? 1.0 : 0.25;
-        if (moved)
-        {
-          x = y;
-          worst = there;
-        }
-      }
-      if (!moved)
-      {
-        break;
-      }
-    }
+    Ascent ascent{ *this, x };
+    ascend(ascent, this->evaluate(x), this->firstTau(x), enough, gain, maximumSteps);
     return this->evaluate(x);
   }
 
 private:
   static constexpr bool HasSum = EdgeSum<Shape>::value;
+  /// Above the worst: elements up to there are those that a step could make the worst.
+  static constexpr double Window = 0.35;
+
+  /// What ascend() asks for, with the node at x.
+  struct Ascent
+  {
+    StarProblem& star;
+    Vec<D>& x;
+    Vec<D> step = Vec<D>::Zero(), next = Vec<D>::Zero();
+
+    void linearize(double worst) { this->star.linearize(this->x, worst); }
+    double predict(double tau)
+    {
+      return this->star.solver_.solve(this->star.active_, tau, this->step);
+    }
+    double tryStep(double /*required*/)
+    {
+      this->next = this->x + this->step;
+      return this->star.evaluate(this->next);
+    }
+    void accept() { this->x = this->next; }
+  };
 
   struct RingPoint
   {
@@ -203,11 +198,11 @@ private:
     }
   }
 
-  /// Values and gradients of the elements that a step could make the worst.
+  /// Values and gradients of the elements in the window.
   void linearize(const Vec<D>& x, double worst)
   {
     this->active_.clear();
-    const double limit = worst + 0.35;
+    const double limit = worst + Window;
     for (std::size_t k = 0; k < this->facets_.size(); ++k)
     {
       if (this->values_[k] < limit)
@@ -242,8 +237,7 @@ private:
     return this->facets_[k].weight * g[D];
   }
 
-  /// Trust at the start: a unit gradient per length L moves the node by a tenth of L, the mean
-  /// distance to the points around.
+  /// Trust at the start, with the mean distance to the points around.
   double firstTau(const Vec<D>& x) const
   {
     double sum = 0.0;
@@ -251,7 +245,8 @@ private:
     {
       sum += (x - r.x).squaredNorm();
     }
-    return 0.1 * sum / static_cast<double>(std::max<std::size_t>(1, this->ring_.size()));
+    return TrustRegion::FirstShare * sum /
+      static_cast<double>(std::max<std::size_t>(1, this->ring_.size()));
   }
 
   ElementQuality<D, Shape> quality_;

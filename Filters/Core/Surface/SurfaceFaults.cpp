@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surface/SurfaceFaults.h"
 
+#include "Mesh/Ids.h"
 #include "Mesh/Predicates.h"
 
 #include <Eigen/Geometry>
@@ -64,8 +65,7 @@ std::vector<Kept<D>> keptFacets(const SimplexMesh<D>& mesh, const std::vector<ch
     {
       if (mesh.isConstrained(c, i))
       {
-        facets.push_back({ mesh.facet(c, i), SimplexMesh<D>::handle(c, i) });
-        std::sort(facets.back().nodes.begin(), facets.back().nodes.end());
+        facets.push_back({ sortedIds(mesh.facet(c, i)), SimplexMesh<D>::handle(c, i) });
       }
     }
   }

@@ -87,7 +87,7 @@ private:
   StopReason reason();
 
   const SimplexMesh<D>& mesh() const { return this->run_.mesh(); }
-  bool isPast(double target) const { return target > this->options_.targetQuality + 1e-9; }
+  bool isPast(double target) const { return target > this->options_.targetQuality + SameTarget; }
   double worst() const { return this->run_.report.history.back().worst; }
 
   Run<D>& run_;
@@ -161,7 +161,7 @@ std::vector<double> Schedule<D, Shape>::stages() const
   std::vector<double> result;
   for (double s : Stages)
   {
-    if (s < this->options_.targetQuality - 1e-9)
+    if (s < this->options_.targetQuality - SameTarget)
     {
       result.push_back(s);
     }
