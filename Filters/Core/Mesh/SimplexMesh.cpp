@@ -7,7 +7,7 @@ namespace meshopt
 {
 namespace
 {
-/// A small set of cells: open addressing, doubling; stars have some 24 cells, rarely hundreds.
+/// A small set of cells: open addressing, doubling. Stars have about 24 cells, rarely hundreds.
 class SmallSet
 {
 public:
@@ -46,6 +46,7 @@ public:
 
   void clear()
   {
+    // Back to the first size, so that one large star does not slow down all later ones.
     this->table_.assign(128, None);
     this->size_ = 0;
   }
@@ -73,6 +74,7 @@ Index SimplexMesh<D>::countPoints() const
 template <int D>
 void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
 {
+  // The set is not part of the mesh, since several threads may ask for stars at the same time.
   thread_local SmallSet seen;
   seen.clear();
   star.assign(1, this->points_[p].cell);
@@ -97,8 +99,8 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
   ring.assign(1, c);
   if constexpr (D == 3)
   {
-    // The two nodes off the edge: leave through the facet opposite to the first one and, if the
-    // ring proves open, go the other way round from the start.
+    // Two nodes are off the edge. Leave through the facet opposite to the first one. If the ring
+    // proves open, go the other way round from the start.
     bool crossed = false;
     for (int way = 0; way < 2; ++way)
     {
@@ -127,7 +129,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
           return !crossed;
         }
         ring.push_back(nextCell);
-        // leave through the facet opposite to the node that is neither a, b nor the newcomer
+        // leave through the facet opposite to the node that is neither a, b nor the new one
         const int entry = facetOf(h);
         for (int i = 0; i < 4; ++i)
         {
@@ -142,7 +144,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
       }
       if (way == 0)
       {
-        // so far outwards from c; turn it round so that the list runs from end to end
+        // So far the list runs outwards from c: reverse it, so that it runs from end to end.
         std::reverse(ring.begin(), ring.end());
       }
     }
