@@ -4,8 +4,8 @@
 ///
 /// The elements are the facets of a polyhedron (the link of a node, or the boundary of a cavity)
 /// joined to the node. For a fixed topology the worst shape quality is quasi-concave where it is
-/// positive, so that the maximum found is global; it is found by steps of ProximalStep with a
-/// trust in the linearization (tau) that grows and shrinks by what the steps really gain.
+/// positive, so the maximum found is global. It is found by steps of ProximalStep. The trust in the
+/// linearization (tau) grows and shrinks with what the steps really gain.
 #ifndef meshopt_Reposition_StarProblem_h
 #define meshopt_Reposition_StarProblem_h
 
@@ -22,7 +22,7 @@ template <int D, class Shape>
 class StarProblem
 {
 public:
-  /// Plain: Euclidean, without size factor. Otherwise setFacetMetric() gives each facet its metric.
+  /// plain: Euclidean, without size factor. Otherwise addFacetMetric() gives each facet its metric.
   void clear(const ElementQuality<D, Shape>& quality, bool plain)
   {
     this->quality_ = quality;
@@ -43,8 +43,8 @@ public:
     return k;
   }
 
-  /// Whether x is in the box of the points. Outside there is no place without an inverted element, but one
-  /// that gets flatter the farther away the node is, and seems better.
+  /// Whether x is in the bounding box of the points. Outside of it some element is always inverted.
+  /// But elements get flatter the farther away the node is, so that such a place may seem better.
   bool isAmidPoints(const Vec<D>& x) const
   {
     Eigen::AlignedBox<double, D> box;
@@ -55,8 +55,8 @@ public:
     return box.contains(x);
   }
 
-  /// Facet of local point numbers; (facet, node) is positive for a node inside. The quality of its
-  /// element counts `weight` times, > 0; usually once.
+  /// Adds a facet, by local point numbers; (facet, node) is positive for a node inside. The quality
+  /// of its element is multiplied by `weight` > 0.
   void addFacet(const std::array<int, D>& f, double weight = 1.0)
   {
     FacetData data;
@@ -86,7 +86,7 @@ public:
   }
   void addFacetMetric(const ElementMetric<D>& m) { this->metrics_.push_back(m); }
 
-  /// Quality of each element with the node at x; returns the worst.
+  /// Computes the quality of each element with the node at x; returns the worst.
   double evaluate(const Vec<D>& x)
   {
     this->values_.resize(this->facets_.size());
@@ -112,8 +112,8 @@ public:
   /// Qualities of the last evaluate(), in the order of the facets.
   const std::vector<double>& values() const { return this->values_; }
 
-  /// Moves x to a better place; returns the worst quality there. Stops when it is at least
-  /// `enough`, or when a step gains less than `gain`. After it values() belong to x.
+  /// Moves x to a better place; returns the worst quality there. Stops when that is at least
+  /// `enough`, or when a step promises less than `gain`. Afterwards values() belong to x.
   double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = 20)
   {
     double worst = this->evaluate(x);
@@ -133,6 +133,8 @@ public:
         }
         const Vec<D> y = x + d;
         const double there = this->evaluate(y);
+        // Trust region: a step is taken if it gains a tenth of what it promises; at 70 % the region
+        // grows.
         moved = there > worst + 0.1 * predicted;
         tau *= there > worst + 0.7 * predicted ? 3.0 : moved ? 1.0 : 0.25;
         if (moved)
@@ -146,6 +148,7 @@ public:
         break;
       }
     }
+    // The last step may have been refused: values() must belong to x.
     return this->evaluate(x);
   }
 
@@ -203,7 +206,7 @@ private:
     }
   }
 
-  /// Values and gradients of the elements that a step could make the worst.
+  /// Values and gradients of the elements that one step could make the worst.
   void linearize(const Vec<D>& x, double worst)
   {
     this->active_.clear();
@@ -242,8 +245,8 @@ private:
     return this->facets_[k].weight * g[D];
   }
 
-  /// Trust at the start: a unit gradient per length L moves the node by a tenth of L, the mean
-  /// distance to the points around.
+  /// The trust at the start: with a gradient of 1 / L the node moves by a tenth of L, where L is
+  /// the (quadratic) mean distance to the points around.
   double firstTau(const Vec<D>& x) const
   {
     double sum = 0.0;
