@@ -36,6 +36,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
   {
     if (e.cap < limit && e.b != None)
     {
+      // An edge may have several wedges: the lowest of their caps counts.
       double& cap = this->edges_.try_emplace(sortedIds(e.a, e.b), 1.0).first->second;
       cap = std::min(cap, e.cap);
       this->largest_ = std::max(this->largest_, e.cap);
@@ -74,6 +75,7 @@ template <int D>
 bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 {
   const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh, mesh.nodes(c)) : 1.0);
+  // The caps are looked up only for cells that may be at one: most are above the largest cap.
   if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))
   {
     return false;
@@ -122,6 +124,8 @@ bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
       {
         continue;
       }
+      // Some cell at the edge is at most the cap, but it is not known which. It is this one if all
+      // others are better.
       mesh.ring(c, a, b, false, ring);
       if (std::none_of(ring.begin(), ring.end(),
             [&](Index o) { return o != c && mesh.quality(o) <= found->second; }))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The audit: everything that must hold of a SimplexMesh, checked without trusting any of it.
+// The audit: checks all invariants of a SimplexMesh, without trusting any of its data.
 #include "Mesh/EulerCharacteristic.h"
 #include "Mesh/Ids.h"
 #include "Mesh/SimplexMesh.h"
@@ -92,7 +92,7 @@ struct Audit
     }
   }
 
-  /// Facets counted anew, without the adjacency.
+  /// Counts facets again, without the adjacency.
   void counts()
   {
     std::map<Facet<D>, int> count;
@@ -161,6 +161,7 @@ std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
       audit.cell(c, requirePositive);
     }
   }
+  // Further checks walk over ids that the first ones have found to be valid.
   if (audit.faults.empty())
   {
     audit.counts();

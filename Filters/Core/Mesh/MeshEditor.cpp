@@ -12,7 +12,7 @@ template <int D>
 MeshEditor<D>::MeshEditor(Mesh& mesh)
   : mesh_(&mesh)
 {
-  // Take over from whoever edited before: marks and stamps only ever grow.
+  // Continue after whoever edited before: marks and stamps only ever grow.
   for (const CellData& data : mesh.cellData_)
   {
     this->mark_ = std::max(this->mark_, data.mark);
@@ -58,7 +58,7 @@ void MeshEditor<D>::detach(PointAttachment<D>& attachment)
   this->attachments_.erase(at);
 }
 
-/// Patches are for all cell slots or for none; `isFirst`: from now on for all.
+/// Patches exist for all cell slots or for none. `isFirst`: create them.
 template <int D>
 void MeshEditor<D>::growPatches(bool isFirst)
 {
@@ -92,6 +92,7 @@ void MeshEditor<D>::growCells(Index n)
   this->mesh_->cells_.resize(first + n);
   this->mesh_->cellData_.resize(first + n);
   this->growPatches();
+  // In reverse, so that the lowest id is taken first from the back.
   for (Index c = first + n; c-- > first;)
   {
     this->freeCells_.push_back(c);
@@ -129,7 +130,7 @@ Index MeshEditor<D>::takeCell()
     {
       this->journal_.push_back(Entry::CellTaken);
       this->slotRecords_.push_back(c);
-      this->saveCell(c);
+      this->saveCell(c); // also of a dead slot: undo is bit for bit
     }
     return c;
   }
@@ -155,7 +156,7 @@ void MeshEditor<D>::freeCell(Index c)
   }
 }
 
-/// A slot for a new point; None if there is none in the pool and the mesh may not grow.
+/// A slot for a new point; None if the pool has none and the mesh may not grow.
 template <int D>
 Index MeshEditor<D>::takePoint()
 {
@@ -267,6 +268,7 @@ void MeshEditor<D>::commit(std::size_t)
 {
   if (--this->depth_ == 0)
   {
+    // An inner transaction keeps its entries: the outer one may still be rolled back.
     this->journal_.clear();
     this->cellRecords_.clear();
     this->patchRecords_.clear();
@@ -309,6 +311,7 @@ void MeshEditor<D>::undo(Entry entry)
       const CellRecord r = pop(this->cellRecords_);
       const std::uint32_t mark = this->mesh_->cellData_[r.id].mark;
       this->mesh_->cells_[r.id] = r.cell;
+      // The mark is scratch, not state: code that is using it must find it as it left it.
       this->mesh_->cellData_[r.id] = r.data;
       this->mesh_->cellData_[r.id].mark = mark;
       if (!this->mesh_->patches_.empty())
@@ -345,6 +348,7 @@ void MeshEditor<D>::undo(Entry entry)
       this->freeCells_.push_back(pop(this->slotRecords_));
       break;
     case Entry::CellGrown:
+      // Entries are undone in reverse, so the last slot of the array is the one that was added.
       this->mesh_->cells_.pop_back();
       this->mesh_->cellData_.pop_back();
       if (!this->mesh_->patches_.empty())
@@ -376,6 +380,7 @@ void MeshEditor<D>::undo(Entry entry)
 template <int D>
 void MeshEditor<D>::movePoint(Index p, const Vec<D>& x, Index near)
 {
+  // Saved even if the point does not move: attachments may change nevertheless.
   this->savePoint(p);
   this->saveAttachments(p);
   Point& point = this->mesh_->points_[p];
@@ -450,7 +455,7 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
   if (this->owner_ != None && mesh.points_[p].owner != this->owner_)
   {
     this->blocked_ = true;
-    return false; // the point's cell may be changing
+    return false; // the point's cell may be changing at this moment
   }
   star.push_back(mesh.points_[p].cell);
   if (!this->owns(star[0]))
@@ -470,7 +475,7 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
       }
       if (!this->owns(Mesh::cellOf(h)))
       {
-        return false; // not even its mark may be looked at
+        return false; // not even its mark may be read
       }
       if (this->isMarked(Mesh::cellOf(h), seen))
       {

@@ -24,6 +24,7 @@ Index SimplexMesh<D>::countPoints() const
 template <int D>
 void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
 {
+  // These are not part of the mesh, since several threads may ask for stars at the same time.
   thread_local LocalNumbers seen; // the star, numbered as it is listed
   seen.clear();
   star.assign(1, this->points_[p].cell);
@@ -53,8 +54,8 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
   ring.assign(1, c);
   if constexpr (D == 3)
   {
-    // The two nodes off the edge: leave through the facet opposite to the first one and, if the
-    // ring proves open, go the other way round from the start.
+    // Two nodes are off the edge. Leave through the facet opposite to the first one. If the ring
+    // proves open, go the other way round from the start.
     bool crossed = false;
     for (int way = 0; way < 2; ++way)
     {
@@ -83,7 +84,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
           return !crossed;
         }
         ring.push_back(nextCell);
-        // leave through the facet opposite to the node that is neither a, b nor the newcomer
+        // leave through the facet opposite to the node that is neither a, b nor the new one
         const int entry = facetOf(h);
         for (int i = 0; i < 4; ++i)
         {
@@ -98,7 +99,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
       }
       if (way == 0)
       {
-        // so far outwards from c; turn it round so that the list runs from end to end
+        // So far the list runs outwards from c: reverse it, so that it runs from end to end.
         std::reverse(ring.begin(), ring.end());
       }
     }

@@ -49,7 +49,7 @@ struct BasisGradients
   }
 };
 
-/// Hessians by (5.4), each the symmetric tensor's D (D + 1) / 2 numbers in a row, for all points.
+/// Hessians by (5.4) at all points. Each is a row of the symmetric tensor's D (D + 1) / 2 numbers.
 template <int D>
 class LumpedMassRecovery
 {
@@ -126,6 +126,7 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
     return;
   }
   const Simplex<D>& nodes = this->mesh_.nodes(c);
+  // Lumped mass: each node gets an equal part of the cell.
   for (Index p : nodes)
   {
     mass[p] += std::abs(basis.volume) / (D + 1);
@@ -139,6 +140,7 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
     {
       gradient += (value(i) - value(0)) * basis.of[i];
     }
+    // (5.4), symmetrized: minus the integral of (du / dx_a) (dphi / dx_b), constant in the cell.
     for (int i = 0; i <= D; ++i)
     {
       double* row = &this->rows_(nodes[i], k * Numbers);
@@ -154,8 +156,8 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
   }
 }
 
-/// The interior points' Hessians; boundary points, and those whose cells are all flat, get numbers
-/// as unknowns.
+/// Computes the Hessians of interior points. Boundary points, and points whose cells are all flat,
+/// become unknowns and get numbers.
 template <int D>
 void LumpedMassRecovery<D>::integrate()
 {
@@ -171,6 +173,7 @@ void LumpedMassRecovery<D>::integrate()
   {
     if (this->mesh_.isPointAlive(p) && (this->unknown_[p] != None || mass[p] == 0.0))
     {
+      // The weak form lacks its boundary term there, so these sums are of no use.
       this->unknown_[p] = this->numberOfUnknowns_++;
       this->rows_.row(p).setZero();
     }
@@ -181,7 +184,8 @@ void LumpedMassRecovery<D>::integrate()
   }
 }
 
-/// Every part of the mesh needs an interior point: there is nothing to extrapolate from otherwise.
+/// Finds a point in a part of the mesh without interior points: there is nothing to extrapolate
+/// from.
 template <int D>
 std::string LumpedMassRecovery<D>::findUnreached() const
 {
@@ -222,8 +226,8 @@ std::string LumpedMassRecovery<D>::findUnreached() const
   return std::string();
 }
 
-/// Minimizes int |grad H|^2 over the unknown values. Where a cell is flat, plain differences
-/// along its edges stand for the integral, so that all unknowns are tied to something.
+/// Minimizes int |grad H|^2 over the unknown values. In a flat cell, plain differences along its
+/// edges replace the integral, so that every unknown is tied to something.
 template <int D>
 void LumpedMassRecovery<D>::extrapolate()
 {
@@ -243,6 +247,7 @@ void LumpedMassRecovery<D>::extrapolate()
       continue;
     }
     const BasisGradients<D> basis(this->mesh_.corners(c));
+    // Of the same magnitude as the integral: |grad|^2 times volume is a length to the power D - 2.
     const double difference = basis.length > 0.0 ? std::pow(basis.length, D - 2) : 1.0;
     for (int i = 0; i <= D; ++i)
     {

@@ -13,8 +13,8 @@ namespace meshopt
 {
 namespace
 {
-constexpr double LeastGain = 1e-3; // of the worst quality in one alternation, as a fraction
-constexpr int LookAheads = 20;     // elements that get one, when nothing else gains
+constexpr double LeastGain = 1e-3; // in the worst quality of one alternation, as a fraction
+constexpr int LookAheads = 20;     // worst elements with look-ahead when nothing else gains
 
 template <int D>
 class Paper1996
@@ -56,7 +56,7 @@ private:
   double passBegin_; // by the clock
 };
 
-// How far the work is, is not known beforehand: the fraction approaches 1 as steps are made.
+// The amount of work is not known beforehand: the fraction approaches 1 as steps are made.
 template <int D>
 bool Paper1996<D>::goesOn(const char* stage, double worst)
 {
@@ -136,7 +136,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   this->record(stage, tried, done);
 }
 
-// Elements around nodes that have moved are reconnected again.
+// Marks the elements around moved nodes: they are reconnected again.
 template <int D>
 void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
 {
@@ -209,7 +209,7 @@ bool Paper1996<D>::alternate(int lookAhead)
   return this->worst() > before + LeastGain * std::abs(before);
 }
 
-// The certified bound, and how many cells under the target are at their caps.
+// Sets the certified bound, and counts the cells under the target that are at their caps.
 template <int D>
 void Paper1996<D>::countCapped()
 {
@@ -252,6 +252,8 @@ StopReason Paper1996<D>::iterate()
     {
       return StopReason::TargetReached;
     }
+    // Look-ahead is expensive: only after an alternation without gain, and it ends if it fails,
+    // too.
     const bool looksAhead = !rises;
     rises = this->alternate(looksAhead ? LookAheads : 0);
     if (this->run_.clock.hasStopped())

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ClusterProblem.h
-/// Where to put several nodes at once: what StarProblem does for one node. The last resort for
-/// nodes each of which is where it should be as long as the others stay.
+/// Where to put several nodes at once: the same as StarProblem for one node. A last resort, for
+/// nodes that are all at their best places as long as the others stay.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2: (2.4)-(2.6) on the optimization
-/// cluster. Departure: as in ProximalStep the step maximizes the linearized minimum less
-/// |d|^2 / (2 tau). With w_k = (1 + q_k - q_min; sqrt(tau) grad q_k), and mu in the unit simplex,
+/// cluster. Departure: as in ProximalStep, the step maximizes the linearized minimum minus |d|^2 /
+/// (2 tau). With w_k = (1 + q_k - q_min; sqrt(tau) grad q_k), and mu in the unit simplex,
 ///     |sum mu_k w_k|^2 = 1 + 2 s + s^2 + |d|^2 / tau,  s = sum mu_k (q_k - q_min),
-/// is its dual up to s^2, which is small against 2 s: one problem of least norm, as the paper's.
+/// is its dual up to s^2, which is small against 2 s. So it is one problem of least norm, like the
+/// paper's.
 #ifndef meshopt_Reposition_ClusterProblem_h
 #define meshopt_Reposition_ClusterProblem_h
 
@@ -26,8 +27,9 @@ class ClusterProblem
 {
 public:
   /// Moves the moving nodes of the cluster to better places: changes cluster.x and cluster.quality.
-  /// Returns the worst quality, which never falls. Stops when it is at least `enough`, when a step
-  /// promises less than `gain`, or after so many steps. `metrics`: one per cell, or one for all.
+  /// Returns the worst quality, which never falls. Stops when that is at least `enough`, when a
+  /// step promises less than `gain`, or after maximumSteps steps. `metrics`: one per cell, or one
+  /// for all.
   double maximize(Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
     const std::vector<ElementMetric<D>>& metrics, double enough, double gain, int maximumSteps = 40)
   {
@@ -39,7 +41,7 @@ public:
   }
 
 private:
-  static constexpr double Window = 0.15; ///< above the worst: what a step could make the worst
+  static constexpr double Window = 0.15; ///< above the worst: cells that a step may make worst
 
   /// What ascend() asks for.
   struct Ascent
@@ -90,13 +92,14 @@ private:
     this->worst_ = worst;
   }
 
-  /// The step, in step_; returns the linearized minimum there.
+  /// Computes the step (in step_) and returns the linearized minimum there.
   double solve(int numberOfMoving, double tau)
   {
     const double root = std::sqrt(tau);
     this->points_ = this->functions_;
     for (SparsePoint<D>& w : this->points_)
     {
+      // The 1 turns the linear term of the dual into a part of the norm: see the head of the file.
       w.first += 1.0;
       for (int i = 0; i < w.count; ++i)
       {
@@ -122,8 +125,8 @@ private:
     return least;
   }
 
-  /// Places and qualities after the step, in x_ and values_; given up, with less than `required`,
-  /// at the first cell that has not got it.
+  /// Computes places and qualities after the step, in x_ and values_. Gives up at the first cell
+  /// whose quality is not above `required`, and then returns -infinity.
   double evaluate(const Ascent& ascent, double required)
   {
     const Cluster<D>& cluster = ascent.cluster;

@@ -4,8 +4,8 @@
 ///
 /// The elements are the facets of a polyhedron (the link of a node, or the boundary of a cavity)
 /// joined to the node. For a fixed topology the worst shape quality is quasi-concave where it is
-/// positive, so that the maximum found is global; it is found by steps of ProximalStep with a
-/// trust in the linearization (tau) that grows and shrinks by what the steps really gain.
+/// positive, so the maximum found is global. It is found by steps of ProximalStep. The trust in the
+/// linearization (tau) grows and shrinks with what the steps really gain.
 #ifndef meshopt_Reposition_StarProblem_h
 #define meshopt_Reposition_StarProblem_h
 
@@ -23,7 +23,7 @@ template <int D, class Shape>
 class StarProblem
 {
 public:
-  /// Plain: Euclidean, without size factor. Otherwise setFacetMetric() gives each facet its metric.
+  /// plain: Euclidean, without size factor. Otherwise addFacetMetric() gives each facet its metric.
   void clear(const ElementQuality<D, Shape>& quality, bool plain)
   {
     this->quality_ = quality;
@@ -44,8 +44,8 @@ public:
     return k;
   }
 
-  /// Whether x is in the box of the points. Outside there is no place without an inverted element, but one
-  /// that gets flatter the farther away the node is, and seems better.
+  /// Whether x is in the bounding box of the points. Outside of it some element is always inverted.
+  /// But elements get flatter the farther away the node is, so that such a place may seem better.
   bool isAmidPoints(const Vec<D>& x) const
   {
     Eigen::AlignedBox<double, D> box;
@@ -56,8 +56,8 @@ public:
     return box.contains(x);
   }
 
-  /// Facet of local point numbers; (facet, node) is positive for a node inside. The quality of its
-  /// element counts `weight` times, > 0; usually once.
+  /// Adds a facet, by local point numbers; (facet, node) is positive for a node inside. The quality
+  /// of its element is multiplied by `weight` > 0.
   void addFacet(const std::array<int, D>& f, double weight = 1.0)
   {
     FacetData data;
@@ -87,7 +87,7 @@ public:
   }
   void addFacetMetric(const ElementMetric<D>& m) { this->metrics_.push_back(m); }
 
-  /// Quality of each element with the node at x; returns the worst.
+  /// Computes the quality of each element with the node at x; returns the worst.
   double evaluate(const Vec<D>& x)
   {
     this->values_.resize(this->facets_.size());
@@ -113,8 +113,8 @@ public:
   /// Qualities of the last evaluate(), in the order of the facets.
   const std::vector<double>& values() const { return this->values_; }
 
-  /// Moves x to a better place; returns the worst quality there. Stops when it is at least
-  /// `enough`, or when a step gains less than `gain`. After it values() belong to x.
+  /// Moves x to a better place; returns the worst quality there. Stops when that is at least
+  /// `enough`, or when a step promises less than `gain`. Afterwards values() belong to x.
   double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = 20)
   {
     Ascent ascent{ *this, x };
@@ -237,7 +237,8 @@ private:
     return this->facets_[k].weight * g[D];
   }
 
-  /// Trust at the start, with the mean distance to the points around.
+  /// The trust at the start: with a gradient of 1 / L the node moves by a tenth of L, where L is
+  /// the (quadratic) mean distance to the points around.
   double firstTau(const Vec<D>& x) const
   {
     double sum = 0.0;
