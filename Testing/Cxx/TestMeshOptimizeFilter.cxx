@@ -79,9 +79,9 @@ void CheckHistory(vtkMeshOptimizeFilter* filter)
       done += succeeded;
     }
   }
-  for (const char* name : { "NodeMotionTried", "EdgeRemovalTried", "FaceRemovalTried",
-         "EdgeContractionTried", "NodeInsertionTried", "NodeReplacementTried",
-         "RetriangulationTried", "LookAheadTried" })
+  for (const char* name :
+    { "NodeMotionTried", "EdgeRemovalTried", "FaceRemovalTried", "EdgeContractionTried",
+      "NodeInsertionTried", "NodeReplacementTried", "RetriangulationTried", "LookAheadTried" })
   {
     CHECK(table->GetColumnByName(name) != nullptr);
   }
