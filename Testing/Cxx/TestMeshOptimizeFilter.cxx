@@ -64,14 +64,26 @@ void CheckHistory(vtkMeshOptimizeFilter* filter)
     CHECK(row == 0 ||
       table->GetValueByName(row, "Worst").ToDouble() >=
         table->GetValueByName(row - 1, "Worst").ToDouble());
-    for (const std::string name : { "NodeMotion", "EdgeRemoval", "FaceRemoval", "EdgeContraction",
-           "NodeInsertion", "NodeReplacement", "Retriangulation", "LookAhead" })
+    for (vtkIdType column = 0; column < table->GetNumberOfColumns(); ++column)
     {
-      const int tried = table->GetValueByName(row, (name + "Tried").c_str()).ToInt();
-      const int succeeded = table->GetValueByName(row, (name + "Done").c_str()).ToInt();
+      std::string name = table->GetColumnName(column);
+      const std::size_t suffix = name.rfind("Tried");
+      if (suffix == std::string::npos)
+      {
+        continue;
+      }
+      const int tried = table->GetValue(row, column).ToInt();
+      name.replace(suffix, std::string::npos, "Done");
+      const int succeeded = table->GetValueByName(row, name.c_str()).ToInt();
       CHECK(tried >= succeeded && succeeded >= 0);
       done += succeeded;
     }
+  }
+  for (const char* name :
+    { "NodeMotionTried", "EdgeRemovalTried", "FaceRemovalTried", "EdgeContractionTried",
+      "NodeInsertionTried", "NodeReplacementTried", "RetriangulationTried", "LookAheadTried" })
+  {
+    CHECK(table->GetColumnByName(name) != nullptr);
   }
   CHECK(done == filter->GetNumberOfOperations() && done > 0);
 }

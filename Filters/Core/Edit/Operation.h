@@ -20,7 +20,12 @@ enum class Operation
   Count
 };
 inline constexpr int NumberOfOperations = static_cast<int>(Operation::Count);
-const char* toString(Operation op);
+
+/// Their names in the history, in the order of their numbers.
+inline constexpr const char* OperationNames[] = { "NodeMotion", "EdgeRemoval", "FaceRemoval",
+  "EdgeContraction", "NodeInsertion", "NodeReplacement", "Retriangulation", "LookAhead" };
+static_assert(sizeof(OperationNames) / sizeof(OperationNames[0]) == NumberOfOperations,
+  "a name for each operation");
 }
 
 #endif
