@@ -7,6 +7,17 @@
 
 namespace meshopt
 {
+namespace
+{
+/// Scratch that is not part of the mesh, since several threads may ask for stars at the same time.
+/// Not inlined: its address would be asked for at each use, not once per star.
+[[gnu::noinline]] LocalNumbers& numbersOfThread()
+{
+  thread_local LocalNumbers numbers;
+  return numbers;
+}
+}
+
 template <int D>
 Index SimplexMesh<D>::countCells() const
 {
@@ -24,8 +35,7 @@ Index SimplexMesh<D>::countPoints() const
 template <int D>
 void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
 {
-  // These are not part of the mesh, since several threads may ask for stars at the same time.
-  thread_local LocalNumbers seen; // the star, numbered as it is listed
+  LocalNumbers& seen = numbersOfThread(); // of the cells, in the order of the list
   seen.clear();
   star.assign(1, this->points_[p].cell);
   seen.add(star[0]);
