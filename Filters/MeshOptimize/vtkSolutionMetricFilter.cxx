@@ -148,7 +148,7 @@ int vtkSolutionMetricFilter::RequestData(
 {
   vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  if (!input) // a block of a composite data set: the executive does not look at its type
+  if (!input) // a block of another type in a composite data set: the executive does not check it
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
                     << " has been left out: it is no vtkUnstructuredGrid.");

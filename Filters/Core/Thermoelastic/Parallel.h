@@ -12,7 +12,7 @@
 namespace meshopt::fem
 {
 /// Calls body(begin, end) for parts of [0, n) on the caller's threads. The parts depend on n only.
-/// A body must write nothing that another part reads or writes.
+/// A body must not write anything that another part reads or writes.
 template <class Body>
 void parallelRanges(const Control& control, Index n, const Body& body)
 {

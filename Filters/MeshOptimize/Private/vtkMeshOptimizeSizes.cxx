@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr double MostElements = 1e8; // memory, and the core's 32-bit ids
-constexpr double LongEdge = 2.0;     // of an edge that is kept, in the wanted length
+constexpr double LongEdge = 2.0;     // length of a kept edge in units of the wanted length
 constexpr double AreaChange = 0.1;
 
 std::string NameOf(const char* what, vtkDataArray* array)
@@ -28,7 +28,7 @@ std::string NameOf(const char* what, vtkDataArray* array)
   return std::string(what) + (name ? " '" + std::string(name) + "'" : "") + ": ";
 }
 
-/// The sizes, if they count.
+/// The sizes, if they are used.
 template <int D>
 vtkDataArray* SizesOf(const Request& request, const Model<D>& model)
 {
@@ -40,7 +40,7 @@ constexpr vtkMeshBridge::Kind SimplexKind = D == 3 ? vtkMeshBridge::Kind::Tetrah
                                                    : vtkMeshBridge::Kind::Triangle;
 
 /**
- * What NodalMetric::set() would make of the values at a point. Either array may be nullptr.
+ * The result of NodalMetric::set() for the values at one point. Either array may be nullptr.
  */
 template <int D>
 typename meshopt::NodalMetric<D>::Sample ReadSample(
