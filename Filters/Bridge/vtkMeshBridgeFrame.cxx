@@ -79,8 +79,8 @@ std::string CheckExtent(const Box& box)
   text
     << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
     << (isLarge ? magnitude : extent)
-    << "): lengths squared and cubed leave the range of double precision. Scale the mesh; between "
-       "1e-100 and 1e100 all is well.";
+    << "): squared and cubed lengths leave the range of double precision. Scale the mesh to lengths "
+       "between 1e-100 and 1e100.";
   return text.str();
 }
 

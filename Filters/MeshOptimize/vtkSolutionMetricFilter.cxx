@@ -135,8 +135,8 @@ void Warn(vtkSolutionMetricFilter* filter, const bridge::Outcome& outcome)
   if (!outcome.IsCountReached)
   {
     vtkWarningWithObjectMacro(
-      filter, << "The limits on the size do not allow the wanted number of elements: about "
-              << std::round(outcome.PredictedCount) << " it will be.");
+      filter, << "The limits on the size do not allow the wanted number of elements. There will "
+              << "be about " << std::round(outcome.PredictedCount) << ".");
   }
 }
 
@@ -151,7 +151,7 @@ int vtkSolutionMetricFilter::RequestData(
   if (!input) // a block of another type in a composite data set: the executive does not check it
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " has been left out: it is no vtkUnstructuredGrid.");
+                    << " was skipped: it is not a vtkUnstructuredGrid.");
     output->Initialize();
     return 1;
   }

@@ -313,7 +313,7 @@ int vtkTetGenFilter::RequestData(
   if (!input) // a block of another type: the executive does not check it
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " has been left out: it is no vtkPolyData.");
+                    << " was skipped: it is not a vtkPolyData.");
     output->Initialize();
     return 1;
   }

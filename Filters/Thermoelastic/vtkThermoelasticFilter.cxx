@@ -236,7 +236,7 @@ int vtkThermoelasticFilter::RequestData(
   if (!input) // a block of another type: the executive does not check it
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " has been left out: it is no vtkUnstructuredGrid.");
+                    << " was skipped: it is not a vtkUnstructuredGrid.");
     output->Initialize();
     history->Initialize();
     return 1;

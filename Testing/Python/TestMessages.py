@@ -162,7 +162,7 @@ f = make(optimize, DesiredSize=0.015, BoundaryMode=1, MetricArray="m")  # two co
 expect("sizes given up", f, [], [["given up", "lower than before", "target"]],
        square(8, m=lambda x, y: np.tile([5.05, 5.05, 1, -4.95, 0, 0], (len(x), 1))))
 f = make(optimize, DesiredSize=0.3, Beta=1.0, MetricArray="turning", BoundaryMode=1, Effort=0, TargetQuality=0.1)
-expect("a metric that turns", f, [], [["No more edges were split", "2566", "faster"]], square(32, turning=turning))
+expect("a metric that turns", f, [], [["Splitting of edges was stopped", "2566", "faster"]], square(32, turning=turning))
 for count, angle, boundary, warnings in ((8, 50.0, 1, ["area", "10.8 %", "greater", "Corner Angle"]), (8, 50.0, 0, None),
                                          (16, 50.0, 1, None)):
     for data, prefix in ((disc(count), ""), (blocks(disc(count)), "Block 1: ")):

@@ -99,7 +99,7 @@ private:
     if (!imbalance.empty())
     {
       return Error{
-        "The loads are not in equilibrium, and nothing holds against them: " + imbalance + "."
+        "The loads are not in equilibrium, and no constraint balances them: " + imbalance + "."
       };
     }
     // Conjugate gradients stay orthogonal to the free motions by themselves. The factorizations

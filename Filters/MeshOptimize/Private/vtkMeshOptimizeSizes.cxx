@@ -122,8 +122,8 @@ std::string CheckCount(const Request& request, const Model<D>& model)
   }
   std::ostringstream text;
   text
-    << "The wanted sizes stand for some " << count
-    << " elements, more than can be made (1e8). Is the size in the units of the coordinates, or, "
+    << "The wanted sizes need about " << count
+    << " elements; the limit is 1e8. Is the size in the units of the coordinates, or, "
        "with a metric, of the metric?";
   return text.str();
 }
@@ -136,27 +136,24 @@ std::string DescribeSizes(const meshopt::Report& report, const Request& request)
   text.precision(3);
   if (sizes.isGivenUp)
   {
-    text << "The wanted sizes have been given up: with them the worst quality would be "
-         << sizes.worstWithSizes << ", lower than before (" << report.worstBefore
-         << ") and than the target (" << request.Options.targetQuality
-         << "). A lower target takes them. ";
+    text << "The wanted sizes were given up: with them the worst quality would be "
+         << sizes.worstWithSizes << ", which is lower than before (" << report.worstBefore
+         << ") and lower than the target (" << request.Options.targetQuality
+         << "). Choose a lower target to get the sizes. ";
   }
   if (sizes.cellsAtBrake > 0)
   {
-    text << "No more edges were split when there were " << sizes.cellsAtBrake
-         << " elements where the wanted sizes stand for "
+    text << "Splitting of edges was stopped at " << sizes.cellsAtBrake << " elements; "
          << static_cast<long>(std::round(sizes.predictedCells))
-         << ": the sizes, or the directions of the metric, change faster from point to point than "
-            "elements can follow. Give them on a finer mesh, or smoother (Gradation and Maximum "
+         << " were predicted. The sizes, or the directions of the metric, change faster from point "
+            "to point than elements can follow. Give them on a finer mesh, or smoother (Gradation and Maximum "
             "Anisotropy of Solution Metric). ";
   }
   if (sizes.longestKept > LongEdge)
   {
-    text << "Edges that are kept are up to " << sizes.longestKept
-         << " times as long as wanted, and elements beside them can only grow towards the wanted "
-            "size"
-         << (request.Slide ? "."
-                           : ": set the boundary mode to Slide to have the boundary divided.");
+    text << "Kept edges are up to " << sizes.longestKept
+         << " times as long as wanted, and elements beside them can only approach the wanted size."
+         << (request.Slide ? "" : " Set the boundary mode to Slide to have the boundary divided.");
   }
   std::string result = text.str();
   result.erase(result.find_last_not_of(' ') + 1);
