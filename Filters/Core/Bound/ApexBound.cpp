@@ -338,6 +338,7 @@ bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& 
   {
     return false;
   }
+  // On the safe side: the views of the facets have this error.
   c *= 1.0 - 8.0 * slack;
   double low, high;
   angleCapLevel(c, low, high, width);

@@ -32,6 +32,7 @@ MeshEditor<D> MeshEditor<D>::beside(const MeshEditor& other)
   editor.mark_ = other.mark_;
   for (PointAttachment<D>* attachment : other.attachments_)
   {
+    // Makes another journal: editors that work at the same time must not share one.
     editor.attach(*attachment);
   }
   return editor;
@@ -43,6 +44,7 @@ template <int D>
 void MeshEditor<D>::attach(PointAttachment<D>& attachment)
 {
   assert(this->depth_ == 0);
+  // Room for all points now: nothing may grow while several editors place points.
   attachment.reserve(this->mesh_->numberOfPointSlots());
   this->attachments_.push_back(&attachment);
   this->attachmentJournals_.push_back(attachment.makeJournal());
@@ -115,6 +117,7 @@ template <int D>
 bool MeshEditor<D>::reserveCells(std::size_t n)
 {
   const bool room = n <= this->freeCells_.size() || this->owner_ == None;
+  // Such a failure is due to the pool, not to the mesh.
   this->blocked_ |= !room;
   return room;
 }
@@ -196,6 +199,7 @@ Index MeshEditor<D>::addPoint(const Vec<D>& x)
     Point& point = this->mesh_->points_[p];
     point.x = x;
     point.cell = None;
+    // A new time: earlier failures of a point in this slot do not count.
     point.stamp = ++this->clock_;
     point.owner = this->owner_ == None ? 0 : this->owner_;
     point.flags = 0;
@@ -292,6 +296,7 @@ void MeshEditor<D>::rollback(std::size_t place)
     this->journal_.pop_back();
     this->undo(last);
   }
+  // Closes the transaction; its entries are gone already.
   this->commit(place);
 }
 
@@ -329,6 +334,7 @@ void MeshEditor<D>::undo(Entry entry)
     case Entry::PointChanged:
     {
       const PointRecord r = pop(this->pointRecords_);
+      // Without the owner, which other threads may be reading.
       this->mesh_->points_[r.id].restore(r.point);
       break;
     }
@@ -414,6 +420,7 @@ void MeshEditor<D>::setPatch(Index c, int i, Index patch)
   }
   this->saveCell(c);
   this->mesh_->patches_[c][i] = patch;
+  // The facet is stored twice, once for each of its cells.
   const Index h = this->mesh_->adjacent(c, i);
   if (h != None)
   {
@@ -437,6 +444,7 @@ void MeshEditor<D>::stamp(const std::vector<Index>& cells)
   {
     for (Index p : this->mesh_->cells_[c].nodes)
     {
+      // Saves each point once, although several cells share it.
       if (this->mesh_->points_[p].stamp != this->clock_)
       {
         this->savePoint(p);

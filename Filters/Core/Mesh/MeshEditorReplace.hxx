@@ -31,6 +31,7 @@ void MeshEditor<D>::collectOpenFacets(
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
       const bool kept = this->mesh_->isConstrained(c, i);
+      // No new cell has a kept facet that vanishes: it is not part of the boundary to fill.
       if (kept && isGone(sortedIds(this->mesh_->facet(c, i))))
       {
         continue;
@@ -201,6 +202,7 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
   CellData& data = this->mesh_->cellData_[c];
   data.quality = quality;
   data.region = region;
+  // A new cell has not failed yet.
   data.stamp = 0;
   data.level = 0;
   data.flags = Mesh::CellAlive;
@@ -235,6 +237,7 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   }
   if (this->table_[k] == None)
   {
+    // The first new cell at a facet inside the cavity: the second one finds it here.
     this->table_[k] = static_cast<Index>(this->facets_.size());
     this->facets_.push_back({ key, Mesh::handle(c, i), None, None, false, false });
     return None;
@@ -272,6 +275,7 @@ Index MeshEditor<D>::parentIn(Index region) const
       return r[1];
     }
   }
+  // The cavity has no cell of this region: any parent will do.
   return this->parents_[0][1];
 }
 
@@ -286,6 +290,7 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
   {
     return false;
   }
+  // A new time: all points of the cavity get it as their stamp.
   ++this->clock_;
   const std::uint32_t inCavity = this->newMark();
   for (Index c : cavity)

@@ -31,7 +31,7 @@ public:
 
   virtual ~PointAttachment() = default;
   virtual std::unique_ptr<Journal> makeJournal() = 0;
-  /// Makes room for points 0 ... n - 1. Never called while several editors are at work.
+  /// Makes room for points 0 ... n - 1. Never called while several editors work.
   virtual void reserve(Index n) = 0;
   /// Called when point p, moved or new, is now at x. The point `near` is near x; it may be p
   /// itself.

@@ -35,6 +35,7 @@ struct BasisGradients
       this->length = std::max(this->length, (x[e[0]] - x[e[1]]).norm());
     }
     this->volume = signedVolume(x);
+    // Relative to the longest edge, so that the test does not depend on units.
     this->isFlat = !(std::abs(this->volume) > 1e-14 * std::pow(this->length, D));
     if (!this->isFlat)
     {
@@ -67,6 +68,7 @@ public:
 
   std::string run(std::vector<Tensor<D>>& hessians)
   {
+    // First, since integrate() numbers these points as unknowns.
     this->markBoundary();
     this->integrate();
     std::string error = this->findUnreached();
@@ -262,6 +264,7 @@ void LumpedMassRecovery<D>::extrapolate()
         }
         else
         {
+          // Known values go to the right-hand side.
           right.row(row) -= entry * this->rows_.row(nodes[j]);
         }
       }
@@ -269,6 +272,7 @@ void LumpedMassRecovery<D>::extrapolate()
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
+  // Regular, since every unknown is connected to an interior point: see findUnreached().
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
   const Eigen::MatrixXd solution = solver.solve(right);
   for (std::size_t p = 0; p < this->unknown_.size(); ++p)

@@ -12,6 +12,7 @@ void SmallPolyhedron<Shape>::start(
   this->model_ = &model;
   this->limits_ = limits;
   this->limits_.points = std::min(limits.points, MaximumPoints);
+  // Otherwise qualities need ids of the mesh, which offered points do not have.
   this->limits_.newPoints = model.plain ? limits.newPoints : 0;
   this->searches_ = 0;
   this->steps_ = 0;
@@ -165,6 +166,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
     const Index h = mesh.adjacent(c, i);
     if (h != None && !mesh.isConstrained(c, i) && this->taken_.get(mesh.cellOf(h)) >= 0)
     {
+      // A facet between two taken cells is inside.
       this->faces_.erase(std::find_if(this->faces_.begin(), this->faces_.end(),
         [&](const Face& f) { return f.cell == mesh.cellOf(h) && f.facet == mesh.facetOf(h); }));
       continue;
@@ -307,6 +309,7 @@ void SmallPolyhedron<Shape>::rate()
     { return this->enoughOfSide_[side] >= 0.0 && t.quality >= this->enoughOfSide_[side]; };
     if (this->anyEnough_ && std::any_of(t.sides.begin(), t.sides.end(), isEnough))
     {
+      // It is enough on its kept facet, so it must not limit the worst quality.
       t.quality += AsGoodAsAny;
     }
   }
@@ -346,6 +349,7 @@ void SmallPolyhedron<Shape>::keepSolution()
       cell[i] = this->ids_[t[i]];
       if (cell[i] <= FirstNew)
       {
+        // Numbered in the order of their first use.
         Index& k = place[FirstNew - cell[i]];
         if (k == None)
         {
@@ -397,6 +401,7 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
         if (q > bound)
         {
           this->keepSolution();
+          // If all cells are enough on their kept facets, take off what was added.
           return q < AsGoodAsAny ? q : std::min(1.0, q - AsGoodAsAny);
         }
         bare = this->search_.bareFacet();

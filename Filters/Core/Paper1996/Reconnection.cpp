@@ -83,6 +83,7 @@ void Reconnection<D, Shape>::touch(
   const std::vector<Index>& cells, const std::vector<Index>& points)
 {
   this->memory_.resize(this->mesh_);
+  // A new time: what failed before is fresh again around these points.
   const std::uint32_t now = ++this->memory_.time;
   const auto touchPoint = [&](Index p)
   {
@@ -152,6 +153,7 @@ void Reconnection<D, Shape>::collectCandidates(Index worst)
   }
   const auto rank = [&](Index c)
   {
+    // Sharing an edge means to share two nodes or more.
     int shared = 0;
     for (Index p : this->mesh_.nodes(c))
     {
@@ -172,6 +174,7 @@ void Reconnection<D, Shape>::improveAround(Index worst)
   {
     return;
   }
+  // Not fresh any more, until something changes around it.
   this->memory_.failed[worst] = this->memory_.time;
   this->collectCandidates(worst);
   for (Index c : this->candidates_)
@@ -210,6 +213,7 @@ void Reconnection<D, Shape>::listWorst()
 template <int D, class Shape>
 bool Reconnection<D, Shape>::lookAheadAt(Index c)
 {
+  // 0: all clusters, whenever they changed: what failed alone may gain with a look-ahead.
   this->clusters_.gather(this->editor_, c, this->memory_, 0);
   return this->clusters_.forEach(this->mesh_,
     [&](const Part<D>& part, Filling kind, const Apex<D>& apex)

@@ -156,6 +156,7 @@ bool MinNormPoint<D>::reduceToCorral()
       const double w = this->weights_[i], a = this->affine_[i];
       if (a < LeastWeight)
       {
+        // On the border of the simplex, or beyond.
         inside = false;
         theta = w > a ? std::min(theta, w / (w - a)) : theta;
       }
@@ -172,6 +173,7 @@ bool MinNormPoint<D>::reduceToCorral()
       this->weights_[i] += theta * (this->affine_[i] - this->weights_[i]);
       least = this->weights_[i] < this->weights_[least] ? i : least;
     }
+    // A single point can only have weight 1.
     if (this->corral_.size() == 1)
     {
       this->weights_[0] = 1.0;

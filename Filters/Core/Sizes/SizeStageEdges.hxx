@@ -222,6 +222,7 @@ long SizeStage<D>::contract()
     {
       continue;
     }
+    // Either end may vanish; the better of both is taken.
     const bool first = this->contractEdge(edge.a, edge.b, best);
     const bool second = this->contractEdge(edge.b, edge.a, best);
     this->judge().start();

@@ -152,6 +152,7 @@ private:
     Stress<D> sum = Stress<D>::Zero();
     int count = 0;
     const Rows& cells = this->nodes_.cellsOfNode;
+    // In ascending order, so that the sum always has the same bits.
     for (Index n : this->nodesAround(cells.begin(node), cells.end(node)))
     {
       if (this->fits_[n].isValid)
@@ -238,6 +239,7 @@ RecoveryMesh<D> makeRecoveryMesh(const SimplexMesh<D>& mesh)
       corners.push_back({ mesh.nodes(c)[i], mesh.region(c), c, i });
     }
   }
+  // By point first: stressAtPoints() needs the nodes of one point in a row.
   std::sort(corners.begin(), corners.end());
   nodes.cells.resize(cells);
   for (std::size_t k = 0; k < corners.size(); ++k)
@@ -288,6 +290,7 @@ std::vector<Stress<D>> recoverStress(const SimplexMesh<D>& mesh, const RecoveryM
       });
     return stress;
   }
+  // Two loops over the nodes: the second one reads fits of other nodes.
   PatchRecovery<D> recovery(mesh, nodes, elementStress, method == StressRecovery::LocalPatch);
   parallelRanges(
     control, nodes.count(), [&](Index begin, Index end) { recovery.fitOwn(begin, end); });
@@ -323,6 +326,7 @@ std::vector<Stress<D>> stressAtPoints(const SimplexMesh<D>& mesh, const Recovery
       sum += v * nodalStress[last];
       volume += v;
     }
+    // In a single region the value stays as it is, without rounding by the division.
     stress[point] = last == first + 1 ? nodalStress[first] : Stress<D>(sum / volume);
     first = last;
   }
@@ -347,6 +351,7 @@ std::vector<double> estimateErrors(const SimplexMesh<D>& mesh, const Problem<D>&
         double squares = 0.0;
         for (int i = 0; i <= D; ++i)
         {
+          // The linear temperature makes the stress of the solution linear in the cell.
           const double here = problem.temperature.empty()
             ? 0.0
             : problem.temperature[mesh.nodes(c)[i]] - problem.referenceTemperature - d.rise(c);

@@ -54,8 +54,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     }
     else if (!widens || nearCap)
     {
-      // First more cells, since one that blocks may be the next in the list; then wider
-      // surroundings.
+      // First more cells; only then wider surroundings.
       break;
     }
     else if (worst.size() == wanted && wanted < MostPolishedCells)
