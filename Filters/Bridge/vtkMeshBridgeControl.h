@@ -22,8 +22,7 @@ int ResolveNumberOfThreads(int wanted);
  * core when the user aborts. Loops run on `numberOfThreads` threads of vtkSMPTools in a scope of
  * their own. The application's choice of backend (Debian's is Sequential) is not changed.
  */
-meshopt::Control MakeControl(
-  vtkAlgorithm* filter, int numberOfThreads, double first, double last);
+meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last);
 
 } // namespace vtkMeshBridge
 

@@ -76,11 +76,11 @@ std::string CheckExtent(const Box& box)
     return {};
   }
   std::ostringstream text;
-  text
-    << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
-    << (isLarge ? magnitude : extent)
-    << "): squared and cubed lengths leave the range of double precision. Scale the mesh to lengths "
-       "between 1e-100 and 1e100.";
+  text << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
+       << (isLarge ? magnitude : extent)
+       << "): squared and cubed lengths leave the range of double precision. Scale the mesh to "
+          "lengths "
+          "between 1e-100 and 1e100.";
   return text.str();
 }
 

@@ -338,8 +338,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
-    request.Control =
-      vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
+    request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
     const Task& task = tasks[i];
     const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;

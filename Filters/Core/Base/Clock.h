@@ -31,10 +31,7 @@ public:
   }
   bool isAborted() const { return this->progress_.cancelled(); }
   /// May be called by any thread.
-  bool isOutOfTime() const
-  {
-    return this->timeLimit_ > 0.0 && this->seconds() > this->timeLimit_;
-  }
+  bool isOutOfTime() const { return this->timeLimit_ > 0.0 && this->seconds() > this->timeLimit_; }
   bool hasStopped() const { return this->isAborted() || this->isOutOfTime(); }
   /// Since the construction of the clock.
   double seconds() const

@@ -63,8 +63,7 @@ public:
   /// true become moving nodes, in the order of distance. The cells are those that contain a moving
   /// node. What the editor does not own is ignored.
   template <class Movable>
-  void gather(
-    MeshEditor<D>& editor, Index cell, int level, Movable&& movable, Cluster<D>& cluster)
+  void gather(MeshEditor<D>& editor, Index cell, int level, Movable&& movable, Cluster<D>& cluster)
   {
     this->findNeighbours(editor, cell, level);
     this->front_.erase(std::remove_if(this->front_.begin(), this->front_.end(),

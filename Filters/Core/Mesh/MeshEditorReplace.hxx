@@ -38,8 +38,8 @@ void MeshEditor<D>::collectOpenFacets(
       }
       if (h == None || !this->owns(Mesh::cellOf(h)) || !this->isMarked(Mesh::cellOf(h), inCavity))
       {
-        this->facets_.push_back({ sortedIds(this->mesh_->facet(c, i)), h,
-          this->mesh_->parent(c), this->mesh_->patch(c, i), kept, false });
+        this->facets_.push_back({ sortedIds(this->mesh_->facet(c, i)), h, this->mesh_->parent(c),
+          this->mesh_->patch(c, i), kept, false });
       }
       else
       {
@@ -51,8 +51,7 @@ void MeshEditor<D>::collectOpenFacets(
 
 /// Collects the kept edges for the new cells: those of the cavity, with the changes.
 template <int D>
-void MeshEditor<D>::collectKeptEdges(
-  const std::vector<Index>& cavity, const KeptChange<D>* change)
+void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity, const KeptChange<D>* change)
 {
   this->keptEdges_.clear();
   if (!this->mesh_->hasConstrainedEdges_)

@@ -6,8 +6,8 @@
 
 #include "Mesh/SimplexMesh.h"
 #include "Metric/Background.h"
-#include "Metric/SizeFloor.h"
 #include "Metric/ElementMetric.h"
+#include "Metric/SizeFloor.h"
 
 #include <memory>
 #include <string>

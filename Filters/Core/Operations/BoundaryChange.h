@@ -39,8 +39,8 @@ public:
         return true;
       }
     }
-    for (int e = 0; e < Local<D>::numberOfEdges && level >= Level::Insertion &&
-         judge.switches().insertNodes;
+    for (int e = 0;
+         e < Local<D>::numberOfEdges && level >= Level::Insertion && judge.switches().insertNodes;
          ++e)
     {
       if (this->split(judge, t, e))
@@ -85,8 +85,7 @@ private:
     {
       return false;
     }
-    this->proposal_.moves.push_back(
-      { v, judge.surface()->at(place.part, place.parameter), place });
+    this->proposal_.moves.push_back({ v, judge.surface()->at(place.part, place.parameter), place });
     this->proposal_.oldWorst = this->proposal_.least = old;
     this->proposal_.newWorst = now;
     return judge.accept(this->proposal_);
@@ -104,9 +103,8 @@ private:
     // The node can join either of its two neighbours on the curve.
     for (std::size_t k = 0; k < 2 && range && !done; ++k)
     {
-      done =
-        proposeContraction(
-          judge.editor(), judge.surface(), v, range->ends[k], this->proposal_) &&
+      done = proposeContraction(
+               judge.editor(), judge.surface(), v, range->ends[k], this->proposal_) &&
         this->offer(judge);
     }
     judge.count(Operation::EdgeContraction, done);

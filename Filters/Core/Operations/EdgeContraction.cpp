@@ -78,8 +78,6 @@ bool proposeContraction(
   return !proposal.cells.empty();
 }
 
-template bool proposeContraction<2>(
-  MeshEditor<2>&, const Surface<2>*, Index, Index, Proposal<2>&);
-template bool proposeContraction<3>(
-  MeshEditor<3>&, const Surface<3>*, Index, Index, Proposal<3>&);
+template bool proposeContraction<2>(MeshEditor<2>&, const Surface<2>*, Index, Index, Proposal<2>&);
+template bool proposeContraction<3>(MeshEditor<3>&, const Surface<3>*, Index, Index, Proposal<3>&);
 }

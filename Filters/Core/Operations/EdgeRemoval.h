@@ -320,9 +320,8 @@ double EdgeRemoval<D, Shape>::triangulate(const QualityModel<D, Shape>& model, d
 }
 
 template <int D, class Shape>
-double EdgeRemoval<D, Shape>::propose(
-  const MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index t, int e, double above,
-  const Surface<D>* surface)
+double EdgeRemoval<D, Shape>::propose(const MeshEditor<D>& editor,
+  const QualityModel<D, Shape>& model, Index t, int e, double above, const Surface<D>* surface)
 {
   if (!this->gather(editor, t, e, surface))
   {
@@ -389,7 +388,8 @@ void EdgeRemoval<D, Shape>::fill(Proposal<D>& proposal, const SimplexMesh<D>& me
       const Index c = this->cavity_[0];
       const Index patch = mesh.patch(c, mesh.localIndex(c, this->ring_[1]));
       proposal.kept.clear();
-      proposal.kept.gone = { { this->low_, this->high_, first }, { this->low_, this->high_, last } };
+      proposal.kept.gone = { { this->low_, this->high_, first },
+        { this->low_, this->high_, last } };
       proposal.kept.come = { { first, last, this->low_ }, { first, last, this->high_ } };
       proposal.kept.patches.assign(2, patch);
       proposal.kept.regions.assign(proposal.cells.size(), mesh.region(c));

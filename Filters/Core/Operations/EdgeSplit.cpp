@@ -11,8 +11,8 @@ namespace
 {
 /// Collects the cells around the edge. Returns whether the editor owns all of them. `isKept`: the
 /// edge is part of a kept facet, or kept by itself.
-bool cellsAround(const MeshEditor<2>& editor, Index t, Index a, Index b, std::vector<Index>& cells,
-  bool& isKept)
+bool cellsAround(
+  const MeshEditor<2>& editor, Index t, Index a, Index b, std::vector<Index>& cells, bool& isKept)
 {
   const SimplexMesh<2>& mesh = editor.mesh();
   const int i = 3 - mesh.localIndex(t, a) - mesh.localIndex(t, b);
@@ -26,8 +26,8 @@ bool cellsAround(const MeshEditor<2>& editor, Index t, Index a, Index b, std::ve
   return h == None || editor.owns(mesh.cellOf(h));
 }
 
-bool cellsAround(const MeshEditor<3>& editor, Index t, Index a, Index b, std::vector<Index>& cells,
-  bool& isKept)
+bool cellsAround(
+  const MeshEditor<3>& editor, Index t, Index a, Index b, std::vector<Index>& cells, bool& isKept)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
   int edge = 0;

@@ -4,8 +4,8 @@
 #ifndef meshopt_Operations_FaceRemoval_h
 #define meshopt_Operations_FaceRemoval_h
 
-#include "Mesh/MeshEditor.h"
 #include "Edit/QualityModel.h"
+#include "Mesh/MeshEditor.h"
 
 #include <algorithm>
 

@@ -174,8 +174,8 @@ bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Vec<D>
 }
 
 template <int D, class Shape>
-bool NodeInsertion<D, Shape>::tryGain(Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x,
-  const typename Judge<D, Shape>::Mark& start)
+bool NodeInsertion<D, Shape>::tryGain(
+  Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x, const typename Judge<D, Shape>::Mark& start)
 {
   const double q = this->find(judge, t, p, x, true);
   const double required = judge.required(this->cavity_.oldWorst());

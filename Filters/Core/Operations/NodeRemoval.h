@@ -65,8 +65,8 @@ private:
       this->neighbours_.insert(this->neighbours_.end(), f.begin(), f.end());
     }
     std::sort(this->neighbours_.begin(), this->neighbours_.end());
-    this->neighbours_.erase(std::unique(this->neighbours_.begin(), this->neighbours_.end()),
-      this->neighbours_.end());
+    this->neighbours_.erase(
+      std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
   }
 
   /// Joins the facets of the link that do not contain u to u. Remembers the result if it is the

@@ -7,8 +7,8 @@
 #ifndef meshopt_Paper1996_Filling_h
 #define meshopt_Paper1996_Filling_h
 
-#include "Paper1996/FanCluster.h"
 #include "Paper1996/Fan.h"
+#include "Paper1996/FanCluster.h"
 
 #include <array>
 #include <cstdint>

@@ -10,8 +10,8 @@
 #ifndef meshopt_Paper1996_FillingLookAhead_h
 #define meshopt_Paper1996_FillingLookAhead_h
 
-#include "Paper1996/FillingTrial.h"
 #include "Paper1996/ClusterSolver.h"
+#include "Paper1996/FillingTrial.h"
 
 #include <algorithm>
 #include <utility>
@@ -74,7 +74,8 @@ void FillingLookAhead<D, Shape>::reposition(double& before)
   const std::vector<Index> made = this->changed_;
   for (int k = 0; k < Solves; ++k)
   {
-    const Index worst = *std::min_element(made.begin(), made.end(), [&](Index a, Index b)
+    const Index worst = *std::min_element(made.begin(), made.end(),
+      [&](Index a, Index b)
       { return std::make_pair(mesh.quality(a), a) < std::make_pair(mesh.quality(b), b); });
     if (!this->solver_.solve(worst, 0, this->movable_))
     {

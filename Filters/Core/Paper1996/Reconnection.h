@@ -41,8 +41,8 @@
 #include "Edit/Growth.h"
 #include "Mesh/MeshEditor.h"
 #include "Metric/NodalMetric.h"
-#include "Quality/ElementQuality.h"
 #include "Paper1996/Filling.h"
+#include "Quality/ElementQuality.h"
 
 #include <array>
 #include <functional>

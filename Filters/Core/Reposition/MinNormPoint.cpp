@@ -183,7 +183,7 @@ bool MinNormPoint<D>::reduceToCorral()
     this->drop(least);
     for (std::size_t i = this->corral_.size(); i-- > 0;)
     {
-      if (this->weights_[i] < LeastWeight && this->corral_.size() > 1)
+      if (this->weights_[i]<LeastWeight&& this->corral_.size()> 1)
       {
         this->drop(i);
         lowest = std::min(lowest, i);
@@ -260,8 +260,8 @@ void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numbe
       }
     }
     // If the best point is already in the corral, rounding has hidden the end of the search.
-    const bool known =
-      std::find(this->corral_.begin(), this->corral_.end(), best) != this->corral_.end();
+    const bool known = std::find(this->corral_.begin(), this->corral_.end(), best) !=
+      this->corral_.end();
     if (known || lowest >= this->squaredNorm_ - Tolerance * this->scale_ ||
       !this->append(points, best))
     {

@@ -61,7 +61,8 @@ public:
   bool improve(Index t, int level)
   {
     this->judge_.start();
-    return std::apply([&](auto&... operation) { return (this->attempt(operation, t, level) || ...); },
+    return std::apply([&](auto&... operation)
+      { return (this->attempt(operation, t, level) || ...); },
       this->operations_);
   }
 

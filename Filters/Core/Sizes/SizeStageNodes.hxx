@@ -35,8 +35,7 @@ bool SizeStage<D>::tryPlace(
   // As good as the worst was, or good enough; and positive. (nextafter(): equal is allowed.)
   p.least = std::max(0.0, std::nextafter(std::min(worst, 2.0 * GoodEnough), -1.0));
   this->judge().start();
-  return this->judge().acceptIf(
-    p, [&] { return this->energyAround(v) < WorthMoving * energy; });
+  return this->judge().acceptIf(p, [&] { return this->energyAround(v) < WorthMoving * energy; });
 }
 
 template <int D>

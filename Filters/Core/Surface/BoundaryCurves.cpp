@@ -191,8 +191,8 @@ void BoundaryCurves::addPiece(
   const std::size_t first = chain.isClosed ? 0 : 1;
   for (std::size_t k = first; k + first < chain.points.size(); ++k)
   {
-    editor.setPlace(chain.points[k],
-      { Freedom::Curve, static_cast<Index>(this->pieces_.size()), parameters[k] });
+    editor.setPlace(
+      chain.points[k], { Freedom::Curve, static_cast<Index>(this->pieces_.size()), parameters[k] });
   }
   this->pieces_.push_back(piece);
 }
@@ -350,8 +350,7 @@ void BoundaryCurves::join()
   }
 }
 
-std::optional<Span> BoundaryCurves::span(
-  const SimplexMesh<2>& mesh, Index a, Index b) const
+std::optional<Span> BoundaryCurves::span(const SimplexMesh<2>& mesh, Index a, Index b) const
 {
   const Place pa = mesh.place(a), pb = mesh.place(b);
   if (pa.part == None && pb.part == None)
@@ -420,8 +419,7 @@ Place BoundaryCurves::project(const Place& place, const Vec<2>& x, Vec<2>& there
   return result;
 }
 
-int BoundaryCurves::tangents(
-  const Place& place, const Vec<2>&, std::array<Vec<2>, 2>& basis) const
+int BoundaryCurves::tangents(const Place& place, const Vec<2>&, std::array<Vec<2>, 2>& basis) const
 {
   basis[0] = this->curves_[this->pieces_[place.part].curve].direction(place.parameter);
   return 1;

@@ -4,10 +4,10 @@
 #ifndef meshopt_Surface_BoundaryCurves_h
 #define meshopt_Surface_BoundaryCurves_h
 
+#include "Mesh/MeshEditor.h"
 #include "Surface/LineNetwork.h"
 #include "Surface/PlaneCurve.h"
 #include "Surface/Surface.h"
-#include "Mesh/MeshEditor.h"
 
 #include <map>
 #include <optional>
@@ -55,8 +55,7 @@ public:
     return this->curves_[this->pieces_[piece].curve].at(s);
   }
   Place project(const Place& place, const Vec<2>& x, Vec<2>& there) const override;
-  int tangents(
-    const Place& place, const Vec<2>& x, std::array<Vec<2>, 2>& basis) const override;
+  int tangents(const Place& place, const Vec<2>& x, std::array<Vec<2>, 2>& basis) const override;
   std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const override;
   std::optional<SlidingRange> range(
     const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const override;
@@ -67,8 +66,8 @@ public:
   bool maySwap(const SimplexMesh<2>&, Index, Index, Index, Index) const override { return false; }
   /// v can join only a neighbour on its piece. Not if that would fold the boundary, or if the curve
   /// would be farther from the new edge than a tenth of its length.
-  bool mayJoin(const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v,
-    Index u) const override;
+  bool mayJoin(
+    const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v, Index u) const override;
 
   double sagitta(const Span& s) const
   {

@@ -58,8 +58,7 @@ public:
 
   /// Whether the two facets of the surface at the edge (a, b), with third nodes c and d, may be
   /// replaced by those at the edge (c, d) (D = 3).
-  virtual bool maySwap(
-    const SimplexMesh<D>& mesh, Index a, Index b, Index c, Index d) const = 0;
+  virtual bool maySwap(const SimplexMesh<D>& mesh, Index a, Index b, Index c, Index d) const = 0;
 
   /// Whether v may vanish into its neighbour u: the shape of the surface stays, nothing folds, and
   /// no curve or corner is lost. `star`: the cells of v.

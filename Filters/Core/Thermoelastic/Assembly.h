@@ -8,8 +8,8 @@
 #ifndef meshopt_Thermoelastic_Assembly_h
 #define meshopt_Thermoelastic_Assembly_h
 
-#include "Mesh/SimplexMesh.h"
 #include "Base/Control.h"
+#include "Mesh/SimplexMesh.h"
 #include "Thermoelastic/Problem.h"
 
 #include <Eigen/SparseCore>

@@ -4,8 +4,8 @@
 #ifndef meshopt_Thermoelastic_Parallel_h
 #define meshopt_Thermoelastic_Parallel_h
 
-#include "Mesh/Types.h"
 #include "Base/Control.h"
+#include "Mesh/Types.h"
 
 #include <algorithm>
 

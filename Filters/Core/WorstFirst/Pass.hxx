@@ -49,7 +49,8 @@ void Schedule<D, Shape>::drain(const Task& task, const std::vector<Index>& bad, 
   // chunk later.
   this->chunks_.open(n, n > 1 ? Shifts[this->variant_++ % std::size(Shifts)] : 0.0, bad);
   this->instruct(task);
-  this->chunks_.run(this->run_.control, [&](Worker& w) { this->work(w, task); },
+  this->chunks_.run(
+    this->run_.control, [&](Worker& w) { this->work(w, task); },
     [&] { return this->goesOn(task.target); });
   this->chunks_.close();
   this->gather();

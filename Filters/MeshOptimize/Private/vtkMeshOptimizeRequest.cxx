@@ -55,8 +55,8 @@ meshopt::Options Request::OptionsNow() const
   {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Start;
     // 0 would mean: no limit
-    options.timeLimit =
-      std::max(options.timeLimit - spent.count(), std::numeric_limits<double>::min());
+    options.timeLimit = std::max(
+      options.timeLimit - spent.count(), std::numeric_limits<double>::min());
   }
   return options;
 }

@@ -121,10 +121,9 @@ std::string CheckCount(const Request& request, const Model<D>& model)
     return {};
   }
   std::ostringstream text;
-  text
-    << "The wanted sizes need about " << count
-    << " elements; the limit is 1e8. Is the size in the units of the coordinates, or, "
-       "with a metric, of the metric?";
+  text << "The wanted sizes need about " << count
+       << " elements; the limit is 1e8. Is the size in the units of the coordinates, or, "
+          "with a metric, of the metric?";
   return text.str();
 }
 
@@ -146,7 +145,8 @@ std::string DescribeSizes(const meshopt::Report& report, const Request& request)
     text << "Splitting of edges was stopped at " << sizes.cellsAtBrake << " elements; "
          << static_cast<long>(std::round(sizes.predictedCells))
          << " were predicted. The sizes, or the directions of the metric, change faster from point "
-            "to point than elements can follow. Give them on a finer mesh, or smoother (Gradation and Maximum "
+            "to point than elements can follow. Give them on a finer mesh, or smoother (Gradation "
+            "and Maximum "
             "Anisotropy of Solution Metric). ";
   }
   if (sizes.longestKept > LongEdge)
