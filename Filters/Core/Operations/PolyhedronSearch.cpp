@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Operations/PolyhedronSearch.h"
 
+#include "Base/Scramble.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -15,15 +17,6 @@ constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
 constexpr int choose4(int n) { return n * (n - 1) * (n - 2) / 2 * (n - 3) / 12; }
 
 constexpr std::size_t Memory = 4096; // fronts remembered; a new one replaces an older one
-
-/// A fixed pseudo-random number for each k (splitmix64).
-std::uint64_t scramble(std::uint64_t k)
-{
-  k += 0x9e3779b97f4a7c15ull;
-  k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9ull;
-  k = (k ^ (k >> 27)) * 0x94d049bb133111ebull;
-  return k ^ (k >> 31);
-}
 
 /// Sorts two numbers; returns 1 if they were exchanged, else 0: the parity of the permutation.
 int sort(int& a, int& b)
