@@ -35,7 +35,7 @@ TEST(ThermoelasticFilterRun, SameBitsWithAnyNumberOfThreads)
 
 TEST(ThermoelasticFilterRun, IncompleteCholeskyTakesFewerSteps)
 {
-  Grid box = MakeBox(6, 0.15);
+  Grid box = MakeBox(12, 0.15);
   Filter one = Solve(HotBox(box));
   Filter cholesky = HotBox(box);
   cholesky->SetSolverToIncompleteCholesky();
