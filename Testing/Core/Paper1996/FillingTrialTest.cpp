@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fillings that are made, and those that are not: every one of small meshes, against the fan itself.
+// Fillings that are made, and those that are not: all of small meshes, against the fan itself.
 #include "Paper1996/FillingTrial.h"
 #include "MeshSnapshot.h"
 #include "Run/Summary.h"

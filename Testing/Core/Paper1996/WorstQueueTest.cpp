@@ -97,8 +97,8 @@ TEST(WorstQueue, ACellThatWasNotEligibleComesBackWhenPushed)
   }
 }
 
-/// Qualities change, cells go and come, and become eligible and not: both ways of searching must give
-/// what sorting gives, and the heap must not return what has gone.
+/// Qualities change, cells go and come, and become eligible and not: both ways of searching give
+/// what sorting gives.
 TEST(WorstQueue, EqualsSortingThroughRandomChanges)
 {
   constexpr double limit = 0.8;
