@@ -7,7 +7,7 @@ using namespace meshopt;
 
 namespace
 {
-/// What the sides of the unit square ask for at x, where lengths are measured in diag(stretch^2, 1).
+/// What the sides of the unit square ask for at x, lengths being measured in diag(stretch^2, 1).
 double floorOfSquare(const Vec<2>& x, double stretch, double least)
 {
   constexpr double fall = 0.7; // of the size, by distance; see SizeFloor.cpp
