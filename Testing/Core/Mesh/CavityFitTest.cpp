@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fills a cavity, by counting all triangulations; what it meets outside, by a look at all cells.
+// What fills a cavity: all triangulations are counted. What it meets outside: all cells asked.
 #include "Mesh/CavityFit.h"
 #include "Mesh/PinchedPoints.h"
 #include "TestMeshes.h"
@@ -178,7 +178,7 @@ TEST(CavityFit2D, FillingsOfAPolygonAreItsTriangulations)
   EXPECT_EQ(countFillings<2>(polygon(6), 6, 4), 14);
 }
 
-// With the centre there are n cells. It is joined to d >= 3 of the corners, which are chosen freely;
+// With the centre there are n cells. It is joined to d >= 3 of the corners, whichever they are;
 // what they cut off are polygons, each with its own triangulations.
 TEST(CavityFit2D, FillingsOfAPolygonWithAPointInside)
 {
@@ -207,7 +207,7 @@ TEST(CavityFit3D, TwoToThreeAndBack)
   EXPECT_FALSE(fillsCavity<3>(mesh, all, { two[0], two[1], two[1] }));
 }
 
-/// Of any mesh: the cells themselves fit, a new node fits in the star of a node, one cell less does not.
+/// The cells themselves fit, a new node fits in the star of a node, one cell less does not.
 TYPED_TEST(CavityFit, StarsOfNodes)
 {
   constexpr int D = TypeParam::dimension;
