@@ -109,7 +109,47 @@ void expectRefused(Bench<D, Shape>& bench, Change&& change)
   EXPECT_TRUE(Snapshot<D>(bench.editor) == before);
 }
 
-/// Of the sixth of a mesh that lies around its middle: the live cell whose centre is nearest to x.
+/// Tries `operation` at every cell under `quality`, each time from the same mesh. Where it helps, what
+/// no operation may change is looked at, and that the sorted qualities have risen; where it does not,
+/// that every bit is as it was. Returns how many tries have helped.
+template <class Operation, int D, class Shape>
+int tryEverywhere(Operation& operation, Bench<D, Shape>& bench, int level, double quality = 0.8)
+{
+  const Unchanged<D, Shape> unchanged(bench);
+  const std::vector<double> before = sortedQualities(bench.mesh);
+  const Snapshot<D> bits(bench.editor);
+  const long growth = bench.judge.growth.left;
+  int helped = 0;
+  for (Index t = 0; t < bench.mesh.numberOfCellSlots(); ++t)
+  {
+    if (!bench.mesh.isAlive(t) || !(bench.mesh.quality(t) < quality))
+    {
+      continue;
+    }
+    const Index cells = bench.mesh.countCells();
+    const auto mark = bench.judge.begin();
+    bench.judge.start();
+    if (operation.improve(bench.judge, t, level))
+    {
+      ++helped;
+      unchanged.check();
+      EXPECT_TRUE(isAbove(sortedQualities(bench.mesh), before)) << "cell " << t;
+      EXPECT_FALSE(bench.judge.changed().empty());
+      EXPECT_EQ(growth - bench.judge.growth.left, bench.mesh.countCells() - cells);
+      bench.judge.rollback(mark);
+    }
+    else
+    {
+      EXPECT_TRUE(Snapshot<D>(bench.editor) == bits) << "cell " << t;
+      bench.judge.commit(mark);
+    }
+    EXPECT_TRUE(Snapshot<D>(bench.editor) == bits) << "cell " << t;
+    EXPECT_EQ(bench.judge.growth.left, growth);
+  }
+  return helped;
+}
+
+/// The live cell whose centre is nearest to x.
 template <int D>
 Index cellNear(const SimplexMesh<D>& mesh, const Vec<D>& x)
 {

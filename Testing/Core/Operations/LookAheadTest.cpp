@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several changes that pay only together: all of them or none, and an end to trying.
+#include "Operations/LookAhead.h"
+#include "Operations/NodeMotion.h"
+#include "Operations/Reconnect.h"
+#include "Polyhedra.h"
+#include "TestBench.h"
+
+using namespace meshopt;
+
+namespace
+{
+template <int D>
+using Shape = MeanEdgeShape<D>;
+
+/// What the engine does at the lowest level: reconnection, then motion.
+template <int D>
+struct Repair
+{
+  Bench<D>& bench;
+  Reconnect<D, Shape<D>> reconnect;
+  NodeMotion<D, Shape<D>> motion;
+  int calls = 0, level = -1;
+
+  bool operator()(Index t, int at)
+  {
+    ++this->calls;
+    this->level = at;
+    this->bench.judge.start();
+    return this->reconnect.improve(this->bench.judge, t, at) ||
+      this->motion.improve(this->bench.judge, t, at);
+  }
+};
+
+template <int D>
+MeshInput<D> testMesh()
+{
+  return jitteredGrid<D>(D == 3 ? 3 : 6, 0.35);
+}
+}
+
+template <class T>
+class LookingAhead : public ::testing::Test
+{
+};
+TYPED_TEST_SUITE(LookingAhead, TestDimensions);
+
+TYPED_TEST(LookingAhead, InAMeshEachTryRaisesOrRestores)
+{
+  constexpr int D = TypeParam::dimension;
+  Bench<D> b(testMesh<D>());
+  Repair<D> repair{ b, {}, {} };
+  LookAhead<D, Shape<D>> ahead;
+  ahead.setImprove(std::ref(repair));
+  const int helped = tryEverywhere(ahead, b, Level::LookAhead, D == 3 ? 0.45 : 0.7);
+  EXPECT_GT(helped, D == 3 ? 5 : 0);
+  EXPECT_EQ(repair.level, Level::Topology);
+  EXPECT_EQ(triedOf(b.judge.done, Operation::LookAhead), helped);
+}
+
+/// What changed was reported stays in changed(): of all changes, not of the last one only.
+TYPED_TEST(LookingAhead, ReportsAllThatIsAffected)
+{
+  constexpr int D = TypeParam::dimension;
+  Bench<D> b(testMesh<D>());
+  Repair<D> repair{ b, {}, {} };
+  LookAhead<D, Shape<D>> ahead;
+  ahead.setImprove(std::ref(repair));
+  const Index slots = b.mesh.numberOfCellSlots();
+  for (Index t = 0; t < slots; ++t)
+  {
+    std::vector<Simplex<D>> nodes;
+    std::vector<double> qualities;
+    for (Index c = 0; c < slots; ++c)
+    {
+      nodes.push_back(b.mesh.nodes(c));
+      qualities.push_back(b.mesh.quality(c));
+    }
+    const double old = b.mesh.quality(t);
+    const auto mark = b.judge.begin();
+    if (old < 0.5 && ahead.improve(b.judge, t, Level::LookAhead))
+    {
+      const std::vector<Index>& changed = b.judge.changed();
+      EXPECT_TRUE(std::is_sorted(changed.begin(), changed.end()));
+      for (Index c = 0; c < b.mesh.numberOfCellSlots(); ++c)
+      {
+        const bool isNew =
+          c >= slots || nodes[c] != b.mesh.nodes(c) || qualities[c] != b.mesh.quality(c);
+        if (b.mesh.isAlive(c) && isNew)
+        {
+          EXPECT_TRUE(std::binary_search(changed.begin(), changed.end(), c)) << c;
+          EXPECT_GT(b.mesh.quality(c), b.judge.required(old)); // all that was touched is better
+        }
+      }
+    }
+    b.judge.rollback(mark);
+  }
+}
+
+TYPED_TEST(LookingAhead, WithoutRepairOnlyAnInsertionThatPaysIsKept)
+{
+  constexpr int D = TypeParam::dimension;
+  Bench<D> b(fromOneCorner<D>());
+  LookAhead<D, Shape<D>> ahead;
+  int calls = 0;
+  ahead.setImprove(
+    [&](Index, int)
+    {
+      ++calls;
+      return false;
+    });
+  const double old = b.worst();
+  EXPECT_TRUE(ahead.improve(b.judge, 0, Level::LookAhead)); // its centre is all it takes
+  EXPECT_GT(b.worst(), b.judge.required(old));
+  calls = 0;
+  expectRefused(b, [&] { return ahead.improve(b.judge, b.editor.created()[0], Level::LookAhead); });
+  EXPECT_GT(calls, 0);
+}
+
+/// A repair that says it helps and does nothing is asked 30 times for each seed, or 120 times.
+TYPED_TEST(LookingAhead, GivesUpAfterSoManyOperations)
+{
+  constexpr int D = TypeParam::dimension;
+  for (int level : { Level::LookAhead, Level::LongLookAhead })
+  {
+    Bench<D> b(jitteredGrid<D>(3, 0.0)); // nothing gains here
+    LookAhead<D, Shape<D>> ahead;
+    int calls = 0, asked = -1;
+    ahead.setImprove(
+      [&](Index, int at)
+      {
+        asked = at;
+        b.judge.start();
+        ++calls;
+        return true;
+      });
+    const Index t = cellNear<D>(b.mesh, Vec<D>::Constant(0.5));
+    std::vector<Vec<D>> seeds;
+    NodeInsertion<D, Shape<D>>::findSeeds(b.mesh, t, seeds);
+    expectRefused(b, [&] { return ahead.improve(b.judge, t, level); });
+    const int most = level == Level::LookAhead ? 30 : 120;
+    EXPECT_EQ(asked, level == Level::LookAhead ? Level::Topology : Level::Insertion);
+    EXPECT_GT(calls, 0);
+    EXPECT_EQ(calls % most, 0);
+    EXPECT_LE(calls, most * static_cast<int>(seeds.size()));
+  }
+}
+
+TYPED_TEST(LookingAhead, AsksForTheWorstFirst)
+{
+  constexpr int D = TypeParam::dimension;
+  Bench<D> b(testMesh<D>());
+  LookAhead<D, Shape<D>> ahead;
+  ahead.setImprove(
+    [&](Index t, int)
+    {
+      for (Index c : b.judge.changed()) // at first those that the insertion has made
+      {
+        EXPECT_FALSE(b.mesh.isAlive(c) && b.mesh.quality(c) < b.mesh.quality(t));
+      }
+      return false;
+    });
+  for (Index t = 0; t < b.mesh.numberOfCellSlots(); ++t)
+  {
+    if (b.mesh.quality(t) < 0.5)
+    {
+      const auto mark = b.judge.begin();
+      ahead.improve(b.judge, t, Level::LookAhead);
+      b.judge.rollback(mark);
+    }
+  }
+}
+
+TYPED_TEST(LookingAhead, NothingWithoutASlotOrRoom)
+{
+  constexpr int D = TypeParam::dimension;
+  Bench<D> slots(fromOneCorner<D>()), room(fromOneCorner<D>());
+  LookAhead<D, Shape<D>> ahead;
+  ahead.setImprove([](Index, int) { return false; });
+  slots.giveAway({});
+  expectRefused(slots, [&] { return ahead.improve(slots.judge, 0, Level::LookAhead); });
+  room.judge.growth.left = 1;
+  expectRefused(room, [&] { return ahead.improve(room.judge, 0, Level::LookAhead); });
+  EXPECT_TRUE(room.judge.growth.isShort);
+  EXPECT_EQ(room.judge.growth.left, 1);
+}
