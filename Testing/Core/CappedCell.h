@@ -17,7 +17,8 @@ inline MeshInput<3> cellAtItsCap()
   MeshInput<3> in;
   in.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0.3, 0 } };
   Vec<3> apex;
-  facetCap(in.points[0], in.points[1], in.points[2], std::numeric_limits<double>::infinity(), &apex);
+  facetCap(
+    in.points[0], in.points[1], in.points[2], std::numeric_limits<double>::infinity(), &apex);
   in.points.push_back(apex);
   in.cells = { { 0, 1, 2, 3 } };
   return in;

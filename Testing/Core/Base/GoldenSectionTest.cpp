@@ -25,7 +25,8 @@ TEST(GoldenSection, FindsTheTopWhereverItIs)
     for (double top = low; top <= high; top += 0.0625)
     {
       const auto smooth = [top](double x) { return 3.0 - (x - top) * (x - top); };
-      const auto sharp = [top](double x) { return 3.0 - (x > top ? 2.0 : 0.5) * std::fabs(x - top); };
+      const auto sharp = [top](double x)
+      { return 3.0 - (x > top ? 2.0 : 0.5) * std::fabs(x - top); };
       const double tolerance = leftOf(high - low, steps) + 1e-7; // smooth tops are flat in rounding
       double best = 0.0;
       double x = goldenSection(low, high, steps, smooth, best);

@@ -114,8 +114,8 @@ TEST(Model3D, WeightsCountFromTheFloorOn)
   MeshInput<3> in;
   in.points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0.01, 0 } };
   Vec<3> apex;
-  const double cap = facetCap(in.points[0], in.points[1], in.points[2],
-    std::numeric_limits<double>::infinity(), &apex);
+  const double cap = facetCap(
+    in.points[0], in.points[1], in.points[2], std::numeric_limits<double>::infinity(), &apex);
   ASSERT_LT(cap, Caps<3>::Tiny);
   in.points.push_back(apex);
   in.cells = { { 0, 1, 2, 3 } };

@@ -107,7 +107,7 @@ void equalsAllFlips(unsigned seed, bool wanted, int& pays, int& refused)
       EXPECT_EQ(removal.oldWorst(), std::min(b.mesh.quality(t), b.mesh.quality(o)));
       EXPECT_EQ(removal.cavity(), (std::vector<Index>{ t, o }));
       EXPECT_EQ(removal.propose(b.editor, b.model, t, i, q), Never); // no better than what is asked
-      EXPECT_EQ(removal.propose(b.editor, b.model, t, i, std::nextafter(q, 0.0)), q);
+      EXPECT_EQ(removal.propose(b.editor, b.model, t, i, std::nextafter(q, Never)), q);
     }
   }
 }
@@ -139,8 +139,8 @@ TEST(FaceRemoval, IsTakenBackByEdgeRemoval)
   p.newWorst = removal.propose(b.editor, b.model, 0, b.mesh.localIndex(0, 1), Never);
   // all three are the same: the edge of .8, four of hypot(1, .4), and one of sqrt(3)
   EXPECT_NEAR(p.newWorst,
-    Shape3::value({ Vec<3>(0, 0, -0.4), Vec<3>(0, 0, 0.4), Vec<3>(1, 0, 0),
-      Vec<3>(-0.5, std::sqrt(0.75), 0) }),
+    Shape3::value(
+      { Vec<3>(0, 0, -0.4), Vec<3>(0, 0, 0.4), Vec<3>(1, 0, 0), Vec<3>(-0.5, std::sqrt(0.75), 0) }),
     1e-14);
   p.cavity = removal.cavity();
   p.cells = removal.cells();

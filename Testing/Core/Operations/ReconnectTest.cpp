@@ -17,8 +17,8 @@ std::vector<Index> cellsAt(const SimplexMesh<D>& mesh, const std::vector<Index>&
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
-    if (mesh.isAlive(c) && std::all_of(points.begin(), points.end(),
-                             [&](Index p) { return hasId(mesh.nodes(c), p); }))
+    if (mesh.isAlive(c) &&
+      std::all_of(points.begin(), points.end(), [&](Index p) { return hasId(mesh.nodes(c), p); }))
     {
       cells.push_back(c);
     }
@@ -30,8 +30,8 @@ std::vector<Index> cellsAt(const SimplexMesh<D>& mesh, const std::vector<Index>&
 template <int D>
 Index other(const SimplexMesh<D>& mesh, Index o, Index t)
 {
-  return *std::find_if(mesh.nodes(o).begin(), mesh.nodes(o).end(),
-    [&](Index p) { return !hasId(mesh.nodes(t), p); });
+  return *std::find_if(
+    mesh.nodes(o).begin(), mesh.nodes(o).end(), [&](Index p) { return !hasId(mesh.nodes(t), p); });
 }
 
 /// The worst cell if the facet of t opposite to its node a goes: each of its nodes is replaced in turn
@@ -66,8 +66,8 @@ std::vector<Index> ringAround(const SimplexMesh<3>& mesh, Index a, Index b)
     std::vector<Index> rest;
     std::copy_if(mesh.nodes(c).begin(), mesh.nodes(c).end(), std::back_inserter(rest),
       [&](Index p) { return p != a && p != b; });
-    const bool even =
-      signedVolume({ mesh.point(a), mesh.point(b), mesh.point(rest[0]), mesh.point(rest[1]) }) > 0.0;
+    const bool even = signedVolume({ mesh.point(a), mesh.point(b), mesh.point(rest[0]),
+                        mesh.point(rest[1]) }) > 0.0;
     arcs.push_back({ rest[even ? 0 : 1], rest[even ? 1 : 0] });
   }
   std::vector<Index> ring{ arcs[0][0] };
@@ -120,7 +120,8 @@ double bestOfAll(const Bench<D>& b, Index t)
       if (!ring.empty())
       {
         best = std::max(best,
-          bestTriangulation(b, nodes[e[0]], nodes[e[1]], ring, 0, static_cast<int>(ring.size()) - 1));
+          bestTriangulation(
+            b, nodes[e[0]], nodes[e[1]], ring, 0, static_cast<int>(ring.size()) - 1));
       }
     }
   }
@@ -145,10 +146,11 @@ TYPED_TEST(Reconnecting, TakesTheBestOfAllEdgesAndFaces)
     for (Index t = 0; t < b.mesh.numberOfCellSlots(); ++t)
     {
       const double expected = bestOfAll(b, t);
+      const bool pays = expected > b.judge.required(b.mesh.quality(t));
       const auto mark = b.judge.begin();
       b.judge.start();
       const bool helps = reconnect.improve(b.judge, t, 0);
-      EXPECT_EQ(helps, expected > b.judge.required(b.mesh.quality(t))) << "cell " << t;
+      EXPECT_EQ(helps, pays) << "cell " << t;
       if (helps)
       {
         EXPECT_NEAR(b.mesh.worstQuality(b.judge.changed()), expected, 1e-12) << "cell " << t;
@@ -177,6 +179,27 @@ TEST(Reconnecting2D, SwapsTheLongEdgeOfADiamond)
   EXPECT_NEAR(b.worst(), h / (mean * mean) / std::sqrt(0.1875), 1e-14);
   expectRefused(b, [&] { return reconnect.improve(b.judge, b.editor.created()[0], 0); });
   EXPECT_EQ(triedOf(b.judge.done, Operation::EdgeRemoval), 2); // done, undone, done
+}
+
+/// Two tetrahedra on a triangle, their apexes close to it: no edge can go, the face does.
+TEST(Reconnecting3D, TheFaceOfAFlatBipyramidGoes)
+{
+  MeshInput<3> in = ringOf(3);
+  in.points[0][2] = -0.3;
+  in.points[1][2] = 0.3;
+  in.cells = { { 2, 3, 4, 1 }, { 3, 2, 4, 0 } };
+  Bench<3> b(in);
+  Reconnect<3, MeanEdgeShape<3>> reconnect;
+  const double best = bestOfAll(b, 0);
+  doUndoAndDo(b, [&] { return reconnect.improve(b.judge, 0, 0); });
+  EXPECT_EQ(b.mesh.countCells(), 3);
+  EXPECT_NEAR(b.worst(), best, 1e-14);
+  EXPECT_EQ(triedOf(b.judge.done, Operation::FaceRemoval), 2);
+  EXPECT_EQ(triedOf(b.judge.done, Operation::EdgeRemoval), 0);
+  Bench<3> full(in);
+  full.judge.growth.left = 0; // it would bring one cell
+  expectRefused(full, [&] { return reconnect.improve(full.judge, 0, 0); });
+  EXPECT_TRUE(full.judge.growth.isShort);
 }
 
 /// Whatever is kept or another worker's: no change.

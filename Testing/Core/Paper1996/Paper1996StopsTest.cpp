@@ -97,7 +97,7 @@ TYPED_TEST(PaperStops, AfterMIterations)
   constexpr int D = TypeParam::dimension;
   for (int alternations : { 1, 20 }) // in the latter case one without gain comes before
   {
-    Options options = motionTo(0.8);
+    Options options = motionTo(D == 3 ? 0.8 : 1.0);
     options.maximumNumberOfIterations = 3;
     options.maximumNumberOfAlternations = alternations;
     SimplexMesh<D> mesh = buildMesh(testMesh<D>());
@@ -114,7 +114,7 @@ TYPED_TEST(PaperStops, AfterMIterations)
 TYPED_TEST(PaperStops, AfterSoManyAlternations)
 {
   constexpr int D = TypeParam::dimension;
-  Options options = target(0.8);
+  Options options = target(D == 3 ? 0.8 : 1.0);
   options.maximumNumberOfAlternations = 1;
   SimplexMesh<D> mesh = buildMesh(testMesh<D>());
   const Report report = run<D>(mesh, options);
@@ -193,7 +193,6 @@ TYPED_TEST(PaperStops, WithoutCellsThereIsNothingToDo)
   for (SimplexMesh<D>* mesh : { &empty, &points })
   {
     NodalMetric<D> metric;
-    EXPECT_EQ(
-      optimize<D>(*mesh, metric, target(0.6), {}).stopReason, StopReason::NothingToDo);
+    EXPECT_EQ(optimize<D>(*mesh, metric, target(0.6), {}).stopReason, StopReason::NothingToDo);
   }
 }

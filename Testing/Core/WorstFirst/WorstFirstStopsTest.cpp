@@ -141,8 +141,7 @@ TEST(WorstFirstStops3D, StopsOnceAllButTheCappedAreGood)
   EXPECT_NEAR(report.bound, cap, 1e-6);
   EXPECT_GT(report.worstAfter, 0.99 * cap);
   const std::vector<double> qualities = sortedQualities(mesh);
-  const long below =
-    std::lower_bound(qualities.begin(), qualities.end(), goal) - qualities.begin();
+  const long below = std::lower_bound(qualities.begin(), qualities.end(), goal) - qualities.begin();
   EXPECT_EQ(below, 1);
   EXPECT_EQ(report.cappedCells, below);
   EXPECT_EQ(report.history.back().belowTarget, below);
@@ -203,8 +202,7 @@ TYPED_TEST(WorstFirstStops, WithoutCellsThereIsNothingToDo)
   for (SimplexMesh<D>* mesh : { &empty, &points })
   {
     NodalMetric<D> metric;
-    EXPECT_EQ(
-      optimize<D>(*mesh, metric, target(0.6), {}).stopReason, StopReason::NothingToDo);
+    EXPECT_EQ(optimize<D>(*mesh, metric, target(0.6), {}).stopReason, StopReason::NothingToDo);
   }
 }
 
