@@ -128,14 +128,14 @@ TEST(WorstFirstStops3D, StopsWhereTheSurfaceCaps)
 }
 
 /// The same among many cells that reach the target: a point of a cube's surface lies close to an edge
-/// of it, which leaves a facet (0, 1) x (0, .3) with a cap of .347; all others allow more than .4.
+/// of it, which leaves a facet like (0, 0), (.3, 0), (1, 1) with a cap of .347. All others allow more.
 TEST(WorstFirstStops3D, StopsOnceAllButTheCappedAreGood)
 {
   constexpr double goal = 0.4;
   MeshInput<3> in = jitteredGrid<3>(4, 0.2);
   *std::find(in.points.begin(), in.points.end(), Vec<3>(0.25, 0.5, 0.0)) = { 0.075, 0.5, 0.0 };
   SimplexMesh<3> mesh = buildMesh(in);
-  const double cap = facetCap({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 0.3, 0 });
+  const double cap = facetCap({ 0, 0, 0 }, { 0.3, 0, 0 }, { 1, 1, 0 });
   const Report report = run<3>(mesh, target(goal));
   EXPECT_EQ(report.stopReason, StopReason::CappedBySurface);
   EXPECT_NEAR(report.bound, cap, 1e-6);
