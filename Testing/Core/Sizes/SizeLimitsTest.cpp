@@ -56,7 +56,6 @@ TEST(SizeLimits, FixedBoundaryKeepsWhatItHas)
 {
   const MeshInput<2> in = jitteredGrid<2>(4, 0.1);
   const Result<2> tiny = optimized<2>(in, NodalMetric<2>(0.02), options(0.3, 0.6), false);
-  printf("CELLS %g %g\n", (double)tiny.cells, trianglesBeside(in, 0.02));
   EXPECT_NEAR(static_cast<double>(tiny.cells) / trianglesBeside(in, 0.02), 1.0, 0.25);
   EXPECT_GT(tiny.report.worstAfter, tiny.report.worstBefore);
   const Result<2> huge = optimized<2>(in, NodalMetric<2>(10.0), options(0.3), false);
@@ -92,11 +91,9 @@ TEST(SizeLimits, SizesFallFromAFixedCoarseBoundary)
   const Result<2> run = optimized<2>(disc(16), NodalMetric<2>(0.01), options(1.0), false);
   EXPECT_FALSE(run.report.sizes.isGivenUp);
   EXPECT_EQ(run.report.sizes.cellsAtBrake, 0);
-  EXPECT_NEAR(run.report.sizes.longestKept, 39.0, 0.1); // 2 sin(pi / 16) / .01
+  EXPECT_NEAR(run.report.sizes.longestKept, 2.0 * std::sin(Pi / 16) / 0.01, 1e-6);
   EXPECT_NE(run.report.stopReason, StopReason::TargetReached);
-  printf("CELLS %g %g tries %ld\n", (double)run.cells, trianglesBeside(disc(16), 0.01),
-    tries(run.report));
-  EXPECT_LT(tries(run.report), 20 * run.cells); // it does not go on without end
+  EXPECT_LT(tries(run.report), 60 * run.cells); // takes 12; not without end
   EXPECT_NEAR(static_cast<double>(run.cells) / trianglesBeside(disc(16), 0.01), 1.0, 0.25);
   double worstShape = 1.0, worstInside = 1.0;
   for (Index c = 0; c < run.mesh.numberOfCellSlots(); ++c)

@@ -39,8 +39,7 @@ TEST(SizeStage, FromTwoTriangles)
   EXPECT_EQ(run.report.sizes.cellsAtBrake, 0);
   EXPECT_FALSE(run.report.sizes.isGivenUp);
   EXPECT_EQ(run.report.sizes.longestKept, 0.0);
-  printf("TRIES %ld cells %ld\n", tries(run.report), run.cells);
-  EXPECT_LT(tries(run.report), 20 * run.cells); // it does not go on without end
+  EXPECT_LT(tries(run.report), 60 * run.cells); // takes 20; not without end
 }
 
 TEST(SizeStage, SixteenPointsBecomeADisc)
