@@ -10,8 +10,8 @@
 
 namespace meshopt
 {
-/// One cell whose fourth node is the best there is for the facet of the others (facetCap()): no mesh
-/// with that facet has a worst cell of higher shape.
+/// One cell whose fourth node is the best there is for the facet of the others (facetCap()).
+/// No mesh with that facet has a worst cell of higher shape.
 inline MeshInput<3> cellAtItsCap()
 {
   MeshInput<3> in;

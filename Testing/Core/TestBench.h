@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh with all that works on it, for tests of single operations; and what doing and undoing must keep.
+// A mesh with all that works on it, for tests of single operations; what doing and undoing keep.
 #ifndef meshopt_Testing_TestBench_h
 #define meshopt_Testing_TestBench_h
 
@@ -109,9 +109,9 @@ void expectRefused(Bench<D, Shape>& bench, Change&& change)
   EXPECT_TRUE(Snapshot<D>(bench.editor) == before);
 }
 
-/// Tries `operation` at every cell under `quality`, each time from the same mesh. Where it helps, what
-/// no operation may change is looked at, and that the sorted qualities have risen; where it does not,
-/// that every bit is as it was. Returns how many tries have helped.
+/// Tries `operation` at every cell under `quality`, each time from the same mesh. Where it helps,
+/// what no operation may change is looked at, and that the sorted qualities have risen; where it
+/// does not, that every bit is as it was. Returns how many tries have helped.
 template <class Operation, int D, class Shape>
 int tryEverywhere(Operation& operation, Bench<D, Shape>& bench, int level, double quality = 0.8)
 {

@@ -68,7 +68,7 @@ Proposal<2> swap(Bench<2>& b, std::array<double, 2> old, const std::vector<doubl
 }
 }
 
-// ---- numbers that are asked ----------------------------------------------------------------------
+// ---- numbers that are asked ---------------------------------------------------------------------
 
 TEST(Judge, GainIsLessWhereAllIsTiny)
 {
@@ -157,7 +157,7 @@ TEST(Judge, MeasuringEndsAtTheFirstCellThatIsNoBetter)
   EXPECT_TRUE(b.judge.measure(p));
 }
 
-// ---- quality -------------------------------------------------------------------------------------
+// ---- quality ------------------------------------------------------------------------------------
 
 TEST(Judge, TakesWhatIsBetterThanLeast)
 {
@@ -208,7 +208,7 @@ TEST(Judge, ChangedAreTheCellsSinceStart)
   EXPECT_TRUE(b.judge.changed().empty());
 }
 
-// ---- topology ------------------------------------------------------------------------------------
+// ---- topology -----------------------------------------------------------------------------------
 
 TEST(Judge, WhereCellsOverlapTheCavityMustBeFilled)
 {
@@ -256,7 +256,7 @@ TEST(Judge, KeptEdgesStayUnlessTheProposalSaysOtherwise)
   EXPECT_TRUE(other.judge.accept(threeToTwo(other)));
 }
 
-// ---- growth --------------------------------------------------------------------------------------
+// ---- growth -------------------------------------------------------------------------------------
 
 TEST(Judge, NoMoreCellsComeThanMay)
 {
@@ -298,7 +298,7 @@ TEST(Judge, WithoutASlotNothingHappens)
   b.judge.commit(mark);
 }
 
-// ---- guard ---------------------------------------------------------------------------------------
+// ---- guard --------------------------------------------------------------------------------------
 
 TEST(Judge, BadnessGoesByThirds)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of all sets of cells on the points of a cavity those that fill it are found: as many as are known.
+// Of all sets of cells on the points of a cavity those that fill it are found: as many as known.
 #include "Mesh/CavityFit.h"
 #include "Mesh/PinchedPoints.h"
 #include "TestMeshes.h"
@@ -101,8 +101,9 @@ TEST(CavityFit2D, FindsAllTriangulationsOfAPolygon)
   }
 }
 
-/// An octahedron has three diagonals, each with 4 cells around it; and by its points alone 6 fillings
-/// of 5: a cell with two of the diagonals, two cells above it at the one, two below at the other.
+/// An octahedron has three diagonals, each with 4 cells around it; and by its points alone 6
+/// fillings of 5: a cell with two of the diagonals, two cells above it at the one, and two below
+/// at the other.
 TEST(CavityFit3D, FindsAllFillingsOfAnOctahedron)
 {
   EXPECT_EQ(fillings(ringOf(4), 3), 0);
@@ -163,7 +164,7 @@ TEST(CavityFit2D, WhatDoesNotHangTogetherIsNoFilling)
   EXPECT_TRUE(fillsCavity<2>(mesh, { 0, 1 }, { { 1, 2, 3 }, { 3, 0, 1 } }));
 }
 
-/// What the change lets go and come at the surface need not be there: a node in a side of the square.
+/// What the change lets go and come at the surface need not be there: a node in a side of a square.
 TEST(CavityFit2D, KeptFacetsGoAndComeByTheChange)
 {
   const SimplexMesh<2> mesh = buildMesh(polygon(4));

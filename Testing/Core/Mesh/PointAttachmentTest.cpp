@@ -95,8 +95,8 @@ TYPED_TEST(AttachmentOf, IsToldOfEachPlace)
   }
 }
 
-/// Random moves and new points in transactions within transactions; each is undone or kept, and a copy
-/// that was made at its beginning says what must be there after.
+/// Random moves and new points in transactions within transactions. Each is undone or kept; a copy
+/// made at its beginning says what must be there after it is undone.
 TYPED_TEST(AttachmentOf, IsUndoneWithThePoints)
 {
   constexpr int D = TypeParam::dimension;
@@ -186,7 +186,7 @@ TYPED_TEST(AttachmentOf, HearsNothingOnceDetached)
   EXPECT_EQ(second.values[p].times, 0);
 }
 
-/// The metric is the attachment that there is: linear in x, a moved point has that of its new place.
+/// The metric is the attachment that there is: a moved point has that of its new place.
 TYPED_TEST(AttachmentOf, TheMetricFollowsAndIsUndone)
 {
   constexpr int D = TypeParam::dimension;

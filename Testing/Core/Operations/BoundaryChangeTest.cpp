@@ -23,7 +23,7 @@ struct Plane
     this->bench.judge.start();
     return this->change.improve(this->bench.judge, t, level);
   }
-  /// change() must keep the area and the curves, and undoing it restore every bit; it is done to stay.
+  /// The change must keep the area and the curves, and undoing it restore every bit; then it stays.
   void doUndoAndDo(Index t, int level)
   {
     const Snapshot<2> before(this->bench.editor);
@@ -138,8 +138,10 @@ TEST(BoundaryChange, ALongSideIsDividedWhereThatIsBest)
   }
   ASSERT_GT(best, b.judge.required(b.mesh.quality(0)));
   expectRefused(b, [&] { return plane.improve(0, Level::Topology); });
+  EXPECT_FALSE(b.judge.growth.isShort);
   b.judge.growth.left = 1; // it comes one cell; room for two is asked for
   expectRefused(b, [&] { return plane.improve(0, Level::Insertion); });
+  EXPECT_TRUE(b.judge.growth.isShort); // so that a run can say why it stops
   b.judge.growth.left = 2;
   plane.doUndoAndDo(0, Level::Insertion);
   EXPECT_EQ(b.judge.growth.left, 1);

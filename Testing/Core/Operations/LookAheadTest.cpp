@@ -32,7 +32,7 @@ struct Repair
   }
 };
 
-/// Improves all cells under `quality` by single changes until none helps: what is left needs several.
+/// Improves all cells under `quality` by single changes until none helps: the rest needs several.
 template <int D>
 void useUpSingleChanges(Bench<D>& b, double quality)
 {

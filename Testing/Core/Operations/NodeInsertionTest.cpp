@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A node comes: into polygons and polyhedra whose best node is known, and never at the price of more
-// bad cells than before.
+// A node comes: into polygons and polyhedra whose best node is known, and never at the price of
+// more bad cells than before.
 #include "Operations/NodeInsertion.h"
 #include "Polyhedra.h"
 #include "TestBench.h"
@@ -54,7 +54,7 @@ TYPED_TEST(InsertingNode, NeedsRoomForItsCells)
 {
   constexpr int D = TypeParam::dimension;
   Bench<D> b(fromOneCorner<D>());
-  // With f facets of the boundary of a cavity of a disc of triangles come f - cells >= 2, in space >= 3.
+  // Whatever cavity is taken: f of its facets less its cells are at least D, as it has no inner point.
   b.judge.growth.left = D - 1;
   Insertion<D> insertion;
   expectRefused(b, [&] { return insertion.improve(b.judge, 0, Level::Insertion); });

@@ -34,8 +34,8 @@ Index other(const SimplexMesh<D>& mesh, Index o, Index t)
     mesh.nodes(o).begin(), mesh.nodes(o).end(), [&](Index p) { return !hasId(mesh.nodes(t), p); });
 }
 
-/// The worst cell if the facet of t opposite to its node a goes: each of its nodes is replaced in turn
-/// by the node across. In the plane that is the swap of an edge.
+/// The worst cell if the facet of t opposite to its node a goes: each of its nodes is replaced in
+/// turn by the node across. In the plane that is the swap of an edge.
 template <int D>
 double withoutFacet(const Bench<D>& b, Index t, Index a)
 {
@@ -163,8 +163,8 @@ TYPED_TEST(Reconnecting, TakesTheBestOfAllEdgesAndFaces)
   EXPECT_GT(left, 20);
 }
 
-/// The long edge of two flat triangles goes. Half lengths are 1 and h: the cells that come have sides
-/// of 2 h and twice sqrt(1 + h^2).
+/// The long edge of two flat triangles goes. Half lengths are 1 and h: the cells that come have
+/// sides of 2 h and twice sqrt(1 + h^2).
 TEST(Reconnecting2D, SwapsTheLongEdgeOfADiamond)
 {
   const double h = 0.3;

@@ -10,7 +10,7 @@ namespace
 {
 using Again = Retriangulation<3, MeanEdgeShape<3>>;
 
-/// An octahedron with axes 0-1, 2-3 and 4-5, of these half lengths, a bit askew; divided along one axis.
+/// An octahedron with axes 0-1, 2-3 and 4-5 of these half lengths, a bit askew, divided along one.
 MeshInput<3> octahedron(const Vec<3>& half, int axis, unsigned seed)
 {
   TestRandom random(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of a mesh are shared out: each once, in equal parts, by planes across the longest side.
+// The points of a mesh are shared out: each once, in equal parts, by planes across the long side.
 #include "Run/Chunks.h"
 #include "TestMeshes.h"
 
