@@ -78,7 +78,7 @@ TEST(PaperStops3D, WhereTheSurfaceCaps)
   EXPECT_EQ(bitsOf(mesh), before);
 }
 
-/// No node may move, and some of the cells under the target have no kept facet that could cap them.
+/// No node may move, and some of the cells under the target have no kept facet to cap them.
 TYPED_TEST(PaperStops, WithoutFurtherGain)
 {
   constexpr int D = TypeParam::dimension;

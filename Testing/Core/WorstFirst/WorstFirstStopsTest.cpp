@@ -107,7 +107,7 @@ TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
 
 // ---- why it stops --------------------------------------------------------------------------------
 
-/// One cell whose fourth node is the best there is for its first facet: it has what that facet allows.
+/// One cell whose fourth node is the best there is for its first facet: it has all that is allowed.
 TEST(WorstFirstStops3D, StopsWhereTheSurfaceCaps)
 {
   const MeshInput<3> in = cellAtItsCap();
@@ -127,8 +127,8 @@ TEST(WorstFirstStops3D, StopsWhereTheSurfaceCaps)
   }
 }
 
-/// The same among many cells that reach the target: a point of a cube's surface lies close to an edge
-/// of it, which leaves a facet like (0, 0), (.3, 0), (1, 1) with a cap of .347. All others allow more.
+/// The same among many cells that reach the target: a point of a cube's surface lies close to an
+/// edge, which leaves a facet like (0, 0), (.3, 0), (1, 1). Its cap is .347; all others allow more.
 TEST(WorstFirstStops3D, StopsOnceAllButTheCappedAreGood)
 {
   constexpr double goal = 0.4;
@@ -161,7 +161,7 @@ TEST(WorstFirstStops3D, SaysWhereTheGrowthBudgetIsUsedUp)
   EXPECT_GT(much.worstAfter, little.worstAfter + 0.1);
 }
 
-/// Nothing may change, and some of the cells under the target have no kept facet that could cap them.
+/// Nothing may change, and some of the cells under the target have no kept facet to cap them.
 TYPED_TEST(WorstFirstStops, StopsWithoutFurtherGain)
 {
   constexpr int D = TypeParam::dimension;
