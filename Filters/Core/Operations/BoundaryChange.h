@@ -120,7 +120,7 @@ private:
     const auto& local = Local<D>::edgeFirst[e];
     const Index a = mesh.nodes(t)[local[0]], b = mesh.nodes(t)[local[1]];
     const auto span = mesh.isEdgeKept(t, e) ? judge.surface()->span(mesh, a, b) : std::nullopt;
-    if (!span || judge.growth.left < comes)
+    if (!span || !judge.growth.allows(comes))
     {
       return false;
     }

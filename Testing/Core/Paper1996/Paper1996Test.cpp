@@ -172,19 +172,6 @@ TYPED_TEST(Paper, HeapGivesTheSequenceOfTheRescan)
   EXPECT_EQ(bitsOf(a), bitsOf(b));
 }
 
-TYPED_TEST(Paper, IterationsAreLimitedByM)
-{
-  constexpr int D = TypeParam::dimension;
-  Options options = target(1.0);
-  options.reconnect = options.insertNodes = options.removeNodes = false;
-  options.maximumNumberOfIterations = 3;
-  options.maximumNumberOfAlternations = 1;
-  SimplexMesh<D> mesh = buildMesh(testMesh<D>(0.35));
-  const Report report = run<D>(mesh, options);
-  EXPECT_EQ(report.stopReason, StopReason::IterationLimit);
-  EXPECT_EQ(report.history.back().tried[0], 3);
-}
-
 TYPED_TEST(Paper, SameBitsOnEveryRun)
 {
   constexpr int D = TypeParam::dimension;
@@ -334,40 +321,6 @@ TYPED_TEST(Paper, SizeFieldAndMetricAreSampledAgain)
   computeQualities<D>(editor, metric, Measure::Shape, 0.5);
   EXPECT_EQ(sortedQualities(mesh), stored); // the qualities it worked with are the real ones
   expectSound(mesh);
-}
-
-TYPED_TEST(Paper, AbortLeavesAValidMesh)
-{
-  constexpr int D = TypeParam::dimension;
-  SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(D == 3 ? 8 : 40, 0.35));
-  double last = 0.0;
-  int calls = 0;
-  Control control;
-  control.progress = [&](double fraction, const std::string& text)
-  {
-    EXPECT_GE(fraction, last);
-    EXPECT_LE(fraction, 1.0);
-    EXPECT_FALSE(text.empty());
-    last = fraction;
-    return ++calls < 2;
-  };
-  const Report report = run<D>(mesh, target(1.0), control);
-  if (calls >= 2)
-  {
-    EXPECT_EQ(report.stopReason, StopReason::Aborted);
-  }
-  EXPECT_GE(report.worstAfter, report.worstBefore);
-  expectSound(mesh);
-}
-
-TEST(PaperOnce, NothingToDoAndTargetReached)
-{
-  SimplexMesh<3> empty;
-  EXPECT_EQ(run<3>(empty).stopReason, StopReason::NothingToDo);
-  SimplexMesh<3> good = buildMesh(jitteredGrid<3>(3, 0.0));
-  const auto bits = bitsOf(good);
-  EXPECT_EQ(run<3>(good, target(0.3)).stopReason, StopReason::TargetReached);
-  EXPECT_EQ(bitsOf(good), bits);
 }
 
 TEST(PaperOnce, OptionsAreChecked)

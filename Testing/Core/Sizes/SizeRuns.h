@@ -7,6 +7,8 @@
 #include "Optimize/Optimizer.h"
 #include "PlaneMeshes.h"
 
+#include <numeric>
+
 namespace meshopt
 {
 inline constexpr double Wanted = 0.6;
@@ -29,6 +31,17 @@ inline Options options(double beta = 0.0, double target = Wanted)
   result.beta = beta;
   result.targetQuality = target;
   return result;
+}
+
+/// All changes that were tried: how much work a run was, on any machine.
+inline long tries(const Report& report)
+{
+  long sum = 0;
+  for (const PassRecord& row : report.history)
+  {
+    sum = std::accumulate(row.tried.begin(), row.tried.end(), sum);
+  }
+  return sum;
 }
 
 /// What holds for every run.

@@ -116,7 +116,7 @@ class ThermoelasticConvergence : public ::testing::Test
 };
 TYPED_TEST_SUITE(ThermoelasticConvergence, TestDimensions);
 
-TYPED_TEST(ThermoelasticConvergence, slopes)
+TYPED_TEST(ThermoelasticConvergence, Slopes)
 {
   constexpr int D = TypeParam::dimension;
   // Displaced at random by more, patches lose their superconvergence: the noise is of the size of
@@ -168,7 +168,7 @@ SimplexMesh<3> optimizedBox(int n)
 }
 }
 
-TEST(ThermoelasticConvergenceOptimized, slopes)
+TEST(ThermoelasticConvergenceOptimized, Slopes)
 {
   const Errors<3> coarse = goodierErrors(optimizedBox(10)), fine = goodierErrors(optimizedBox(20));
   std::printf("slopes: displacement %.2f, patch recovery %.2f\n",
@@ -240,7 +240,7 @@ std::array<double, 2> cylinderErrors(int n)
 }
 
 // Section 9 of the method: the pellet under its parabolic temperature.
-TYPED_TEST(ThermoelasticConvergence, hotCylinder)
+TYPED_TEST(ThermoelasticConvergence, HotCylinder)
 {
   constexpr int D = TypeParam::dimension;
   const int n = D == 3 ? 6 : 16;
@@ -254,7 +254,7 @@ TYPED_TEST(ThermoelasticConvergence, hotCylinder)
 
 // The strain at which the ends carry no force, from the elements alone, is that of the exact solution;
 // and the ends carry none then.
-TEST(ThermoelasticConvergenceCylinder, freeAxialStrain)
+TEST(ThermoelasticConvergenceCylinder, FreeAxialStrain)
 {
   const HotCylinder exact;
   const SimplexMesh<3> mesh = buildMesh(cylinder(16, 4, exact.radius, exact.height));

@@ -48,7 +48,7 @@ Problem<D> held(const SimplexMesh<D>& mesh)
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 }
 
-TYPED_TEST(ThermoelasticError, material)
+TYPED_TEST(ThermoelasticError, Material)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(3, 0.1);
@@ -74,7 +74,7 @@ TYPED_TEST(ThermoelasticError, material)
   expectWords(errorOf(mesh, p), { "0 values" });
 }
 
-TYPED_TEST(ThermoelasticError, fields)
+TYPED_TEST(ThermoelasticError, Fields)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(3, 0.1);
@@ -114,7 +114,7 @@ TYPED_TEST(ThermoelasticError, fields)
   expectWords(errorOf(SimplexMesh<D>(), Problem<D>()), { "no elements" });
 }
 
-TYPED_TEST(ThermoelasticError, invertedAndFlatCells)
+TYPED_TEST(ThermoelasticError, InvertedAndFlatCells)
 {
   constexpr int D = TypeParam::dimension;
   MeshInput<D> in = jitteredGrid<D>(3, 0.0);
@@ -139,7 +139,7 @@ TYPED_TEST(ThermoelasticError, invertedAndFlatCells)
 }
 
 // The motion that is left is named, and pinned by as many constraints as needed.
-TEST(ThermoelasticRigid, namedInSpace)
+TEST(ThermoelasticRigid, NamedInSpace)
 {
   const SimplexMesh<3> mesh = box<3>(2, 0.1);
   Problem<3> p;
@@ -174,7 +174,7 @@ TEST(ThermoelasticRigid, namedInSpace)
       "rotate about the axis through (0.5, 0.5, 0.5) along (0, 0, 1)." });
 }
 
-TEST(ThermoelasticRigid, namedInThePlane)
+TEST(ThermoelasticRigid, NamedInThePlane)
 {
   const SimplexMesh<2> mesh = box<2>(2, 0.1);
   Problem<2> p;
@@ -186,7 +186,7 @@ TEST(ThermoelasticRigid, namedInThePlane)
 }
 
 // Whatever is held, pins leave nothing free and take no more than needed.
-TEST(ThermoelasticRigid, pinsAreEnough)
+TEST(ThermoelasticRigid, PinsAreEnough)
 {
   const SimplexMesh<3> mesh = box<3>(2, 0.1);
   TestRandom random(3);
@@ -243,7 +243,7 @@ SimplexMesh<D> twins(const std::function<bool(const Vec<D>&)>& share)
 }
 
 // Bodies that touch at points or edges only are hinged, and the hinge is free.
-TEST(ThermoelasticRigid, hinges)
+TEST(ThermoelasticRigid, Hinges)
 {
   const auto free = [](const SimplexMesh<3>& mesh) { return findRigidModes(mesh, {}).count(); };
   EXPECT_EQ(free(twins<3>([](const Vec<3>&) { return true; })), 6);
@@ -272,7 +272,7 @@ TEST(ThermoelasticRigid, hinges)
 }
 
 // Any number of parts, each by itself.
-TEST(ThermoelasticRigid, manyParts)
+TEST(ThermoelasticRigid, ManyParts)
 {
   MeshInput<2> in;
   const Index n = 2000;
@@ -294,7 +294,7 @@ TEST(ThermoelasticRigid, manyParts)
 }
 
 // A chain of triangles with more links than are looked at one by one: held or not, as one body.
-TEST(ThermoelasticRigid, longChain)
+TEST(ThermoelasticRigid, LongChain)
 {
   MeshInput<2> in;
   in.points.push_back(Vec<2>::Zero());
@@ -310,7 +310,7 @@ TEST(ThermoelasticRigid, longChain)
 }
 
 // Loads that nothing holds against.
-TYPED_TEST(ThermoelasticError, loadsOutOfEquilibrium)
+TYPED_TEST(ThermoelasticError, LoadsOutOfEquilibrium)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(3, 0.1);

@@ -47,7 +47,7 @@ std::vector<Stress<D>> atCentroids(
 }
 
 // Also where only one point is inside (n = 2).
-TYPED_TEST(ThermoelasticRecovery, patchesReproduceLinearStress)
+TYPED_TEST(ThermoelasticRecovery, PatchesReproduceLinearStress)
 {
   constexpr int D = TypeParam::dimension;
   for (const int n : { 2, 3, 6 })
@@ -70,7 +70,7 @@ TYPED_TEST(ThermoelasticRecovery, patchesReproduceLinearStress)
 }
 
 // One element: nothing to fit, its own stress.
-TYPED_TEST(ThermoelasticRecovery, oneElement)
+TYPED_TEST(ThermoelasticRecovery, OneElement)
 {
   constexpr int D = TypeParam::dimension;
   MeshInput<D> in;
@@ -103,7 +103,7 @@ TYPED_TEST(ThermoelasticRecovery, oneElement)
 }
 
 // Two linear fields that jump at the border of the regions: exact on both sides, the mean on it.
-TYPED_TEST(ThermoelasticRecovery, doesNotLookAcrossRegions)
+TYPED_TEST(ThermoelasticRecovery, DoesNotLookAcrossRegions)
 {
   constexpr int D = TypeParam::dimension;
   MeshInput<D> in = jitteredGrid<D>(6, 0.0);
@@ -140,7 +140,7 @@ TYPED_TEST(ThermoelasticRecovery, doesNotLookAcrossRegions)
 }
 
 // By hand: volume averages, and the estimate of a stress whose error is one constant.
-TYPED_TEST(ThermoelasticRecovery, averageAndEstimateByHand)
+TYPED_TEST(ThermoelasticRecovery, AverageAndEstimateByHand)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(3, 0.2);

@@ -51,7 +51,7 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
 }
 
 // Entry by entry against elements added up as B' C B, in the textbook's way.
-TYPED_TEST(ThermoelasticSolver, matrixAgainstTextbook)
+TYPED_TEST(ThermoelasticSolver, MatrixAgainstTextbook)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(2, 0.2);
@@ -96,7 +96,7 @@ TYPED_TEST(ThermoelasticSolver, matrixAgainstTextbook)
 }
 
 // Step for step Eigen's conjugate gradients. Eigen does not count the step that converges.
-TYPED_TEST(ThermoelasticSolver, sameStepsAsEigen)
+TYPED_TEST(ThermoelasticSolver, SameStepsAsEigen)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(D == 3 ? 6 : 20, 0.2);
@@ -125,7 +125,7 @@ TYPED_TEST(ThermoelasticSolver, sameStepsAsEigen)
   }
 }
 
-TYPED_TEST(ThermoelasticSolver, allSolversAgree)
+TYPED_TEST(ThermoelasticSolver, AllSolversAgree)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(D == 3 ? 5 : 12, 0.2);
@@ -148,7 +148,7 @@ TYPED_TEST(ThermoelasticSolver, allSolversAgree)
 }
 
 // Pinned or projected: the same stresses; pins take no load.
-TYPED_TEST(ThermoelasticSolver, rigidMotionChangesNoStress)
+TYPED_TEST(ThermoelasticSolver, RigidMotionChangesNoStress)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(5, 0.2);
@@ -172,7 +172,7 @@ TYPED_TEST(ThermoelasticSolver, rigidMotionChangesNoStress)
   EXPECT_LT(mean.norm(), 1e-14);
 }
 
-TYPED_TEST(ThermoelasticSolver, sameBitsForAnyNumberOfThreads)
+TYPED_TEST(ThermoelasticSolver, SameBitsForAnyNumberOfThreads)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(D == 3 ? 12 : 40, 0.2);
@@ -197,7 +197,7 @@ TYPED_TEST(ThermoelasticSolver, sameBitsForAnyNumberOfThreads)
   }
 }
 
-TYPED_TEST(ThermoelasticSolver, endsWithoutConvergence)
+TYPED_TEST(ThermoelasticSolver, EndsWithoutConvergence)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(5, 0.2);
@@ -228,7 +228,7 @@ TYPED_TEST(ThermoelasticSolver, endsWithoutConvergence)
 }
 
 // Nothing to solve: zero load.
-TYPED_TEST(ThermoelasticSolver, zeroLoad)
+TYPED_TEST(ThermoelasticSolver, ZeroLoad)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(3, 0.2);

@@ -63,7 +63,7 @@ Stress<D> hooke(const Tensor<D>& g, const Material& m, PlaneState state, double 
 
 // A linear displacement on the surface and a uniform temperature: the same linear displacement and
 // one stress everywhere.
-TYPED_TEST(Thermoelastic, patchTestIsExact)
+TYPED_TEST(Thermoelastic, PatchTestIsExact)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(D == 3 ? 4 : 8, 0.15);
@@ -98,7 +98,7 @@ TYPED_TEST(Thermoelastic, patchTestIsExact)
   }
 }
 
-TYPED_TEST(Thermoelastic, freeExpansionGivesNoStress)
+TYPED_TEST(Thermoelastic, FreeExpansionGivesNoStress)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(4, 0.15);
@@ -137,7 +137,7 @@ TYPED_TEST(Thermoelastic, freeExpansionGivesNoStress)
 }
 
 // Pressure all around: sigma = -p I, from the consistent forces alone.
-TYPED_TEST(Thermoelastic, pressureAllAround)
+TYPED_TEST(Thermoelastic, PressureAllAround)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(4, 0.15);
@@ -162,7 +162,7 @@ TYPED_TEST(Thermoelastic, pressureAllAround)
 }
 
 // Two materials in a row, pulled: each has its own strain, both have one stress; statics and energy.
-TYPED_TEST(Thermoelastic, twoMaterialsInARow)
+TYPED_TEST(Thermoelastic, TwoMaterialsInARow)
 {
   constexpr int D = TypeParam::dimension;
   MeshInput<D> in = jitteredGrid<D>(4, 0.0);
@@ -216,7 +216,7 @@ TYPED_TEST(Thermoelastic, twoMaterialsInARow)
 
 // All displacement prevented, temperature linear: sigma = -beta dT(x), which the recovered stress
 // has exactly, and which the estimate must not take for an error.
-TYPED_TEST(Thermoelastic, preventedExpansionUnderLinearTemperature)
+TYPED_TEST(Thermoelastic, PreventedExpansionUnderLinearTemperature)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(4, 0.15);
@@ -244,7 +244,7 @@ TYPED_TEST(Thermoelastic, preventedExpansionUnderLinearTemperature)
 }
 
 // Ends held and pulled along an axis, uniform temperature: u_z = eps z, sides free.
-TYPED_TEST(Thermoelastic, endsAlongAnAxis)
+TYPED_TEST(Thermoelastic, EndsAlongAnAxis)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = box<D>(4, 0.15);
@@ -268,7 +268,7 @@ TYPED_TEST(Thermoelastic, endsAlongAnAxis)
   }
 }
 
-TEST(ThermoelasticPlane, strainOutOfThePlane)
+TEST(ThermoelasticPlane, StrainOutOfThePlane)
 {
   const SimplexMesh<2> mesh = box<2>(4, 0.15);
   Problem<2> problem;
@@ -283,7 +283,7 @@ TEST(ThermoelasticPlane, strainOutOfThePlane)
   }
 }
 
-TEST(ThermoelasticStress, vonMisesAndPrincipalStresses)
+TEST(ThermoelasticStress, VonMisesAndPrincipalStresses)
 {
   Stress<3> s;
   s << 3.0, 1.0, -2.0, 0.5, -1.5, 2.5;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fast engine as a whole: what it may do, and why it stops.
+#include "CappedCell.h"
 #include "WorstFirstRuns.h"
 
 using namespace meshopt;
@@ -19,7 +20,6 @@ TYPED_TEST(WorstFirstStops, KindsOfOperationsCanBeSwitchedOff)
   for (int off = 0; off < 5; ++off) // 4: nothing is off
   {
     Options options = target(0.9); // beyond reach: all is tried
-    options.timeLimit = 0.0;
     options.effort = off == 4 ? Effort::Quick : Effort::Default;
     options.moveNodes = off != 0;
     options.reconnect = off != 1;
@@ -107,28 +107,44 @@ TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
 
 // ---- why it stops --------------------------------------------------------------------------------
 
+/// One cell whose fourth node is the best there is for its first facet: it has all that is allowed.
 TEST(WorstFirstStops3D, StopsWhereTheSurfaceCaps)
 {
-  // a cube with one flat corner facet: a point of the surface close to an edge of it
+  const MeshInput<3> in = cellAtItsCap();
+  const double cap = facetCap(in.points[0], in.points[1], in.points[2]);
+  for (Effort effort : { Effort::Quick, Effort::Default, Effort::Best })
+  {
+    SimplexMesh<3> mesh = buildMesh(in);
+    const MeshBits<3> before = bitsOf(mesh);
+    Options options = target(cap + 0.1);
+    options.effort = effort;
+    const Report report = run<3>(mesh, options);
+    EXPECT_EQ(report.stopReason, StopReason::CappedBySurface);
+    EXPECT_EQ(report.cappedCells, 1);
+    EXPECT_NEAR(report.bound, cap, 1e-6);
+    EXPECT_NEAR(report.worstAfter, cap, 1e-12);
+    EXPECT_EQ(bitsOf(mesh), before);
+  }
+}
+
+/// The same among many cells that reach the target: a point of a cube's surface lies close to an
+/// edge, which leaves a facet like (0, 0), (.3, 0), (1, 1). Its cap is .347; all others allow more.
+TEST(WorstFirstStops3D, StopsOnceAllButTheCappedAreGood)
+{
+  constexpr double goal = 0.4;
   MeshInput<3> in = jitteredGrid<3>(4, 0.2);
-  for (Vec<3>& x : in.points)
-  {
-    if (x == Vec<3>(0.25, 0.5, 0.0))
-    {
-      x = Vec<3>(0.02, 0.5, 0.0);
-    }
-  }
+  *std::find(in.points.begin(), in.points.end(), Vec<3>(0.25, 0.5, 0.0)) = { 0.075, 0.5, 0.0 };
   SimplexMesh<3> mesh = buildMesh(in);
-  const Report report = run<3>(mesh, target(0.45));
-  EXPECT_LT(report.bound, 0.45);
-  EXPECT_LT(report.worstAfter, 0.45);
-  if (report.stopReason == StopReason::CappedBySurface)
-  {
-    EXPECT_GT(report.cappedCells, 0);
-    EXPECT_EQ(report.cappedCells, report.history.back().belowTarget);
-  }
-  EXPECT_NE(report.stopReason, StopReason::TargetReached);
-  EXPECT_GT(report.worstAfter, 0.9 * report.bound);
+  const double cap = facetCap({ 0, 0, 0 }, { 0.3, 0, 0 }, { 1, 1, 0 });
+  const Report report = run<3>(mesh, target(goal));
+  EXPECT_EQ(report.stopReason, StopReason::CappedBySurface);
+  EXPECT_NEAR(report.bound, cap, 1e-6);
+  EXPECT_GT(report.worstAfter, 0.99 * cap);
+  const std::vector<double> qualities = sortedQualities(mesh);
+  const long below = std::lower_bound(qualities.begin(), qualities.end(), goal) - qualities.begin();
+  EXPECT_EQ(below, 1);
+  EXPECT_EQ(report.cappedCells, below);
+  EXPECT_EQ(report.history.back().belowTarget, below);
 }
 
 TEST(WorstFirstStops3D, SaysWhereTheGrowthBudgetIsUsedUp)
@@ -145,10 +161,11 @@ TEST(WorstFirstStops3D, SaysWhereTheGrowthBudgetIsUsedUp)
   EXPECT_GT(much.worstAfter, little.worstAfter + 0.1);
 }
 
+/// Nothing may change, and some of the cells under the target have no kept facet to cap them.
 TYPED_TEST(WorstFirstStops, StopsWithoutFurtherGain)
 {
   constexpr int D = TypeParam::dimension;
-  MeshInput<D> in = jitteredGrid<D>(3, 0.2);
+  MeshInput<D> in = jitteredGrid<D>(4, 0.2);
   in.fixedPoints.assign(in.points.size(), 1);
   Options options = target(0.99);
   options.reconnect = options.insertNodes = options.removeNodes = false;
@@ -156,8 +173,37 @@ TYPED_TEST(WorstFirstStops, StopsWithoutFurtherGain)
   const MeshBits<D> before = bitsOf(mesh);
   const Report report = run<D>(mesh, options);
   EXPECT_EQ(bitsOf(mesh), before);
-  EXPECT_TRUE(report.stopReason == StopReason::NoFurtherGain ||
-    report.stopReason == StopReason::CappedBySurface);
+  EXPECT_EQ(report.stopReason, StopReason::NoFurtherGain);
+  EXPECT_LT(report.cappedCells, report.history.back().belowTarget);
+}
+
+TYPED_TEST(WorstFirstStops, StopsAtTheTarget)
+{
+  constexpr int D = TypeParam::dimension;
+  SimplexMesh<D> mesh = buildMesh(testMesh<D>());
+  const double goal = D == 3 ? 0.4 : 0.6;
+  const Report report = run<D>(mesh, target(goal));
+  EXPECT_EQ(report.stopReason, StopReason::TargetReached);
+  EXPECT_LT(report.worstBefore, goal);
+  EXPECT_GE(report.worstAfter, goal);
+  SimplexMesh<D> good = buildMesh(jitteredGrid<D>(3, 0.0)); // it has been there before
+  const MeshBits<D> before = bitsOf(good);
+  const Report none = run<D>(good, target(0.3));
+  EXPECT_EQ(none.stopReason, StopReason::TargetReached);
+  EXPECT_EQ(bitsOf(good), before);
+}
+
+TYPED_TEST(WorstFirstStops, WithoutCellsThereIsNothingToDo)
+{
+  constexpr int D = TypeParam::dimension;
+  MeshInput<D> in;
+  in.points.push_back(Vec<D>::Zero()); // points alone are no mesh
+  SimplexMesh<D> empty, points = buildMesh(in);
+  for (SimplexMesh<D>* mesh : { &empty, &points })
+  {
+    NodalMetric<D> metric;
+    EXPECT_EQ(optimize<D>(*mesh, metric, target(0.6), {}).stopReason, StopReason::NothingToDo);
+  }
 }
 
 TYPED_TEST(WorstFirstStops, CanBeAborted)
@@ -180,12 +226,18 @@ TYPED_TEST(WorstFirstStops, CanBeAborted)
   EXPECT_EQ(calls, 1); // not asked again
 }
 
-TEST(WorstFirstStops3D, KeepsItsTimeLimit)
+/// A limit that is over before the first change: none is made. Sound is what every run() checks.
+TYPED_TEST(WorstFirstStops, KeepsItsTimeLimit)
 {
-  SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(12, 0.25));
-  Options options = target(0.95);
-  options.timeLimit = 0.2;
-  const Report report = run<3>(mesh, options);
-  EXPECT_EQ(report.stopReason, StopReason::TimeLimit);
-  EXPECT_LT(report.seconds, 10.0); // the machine may be busy
+  constexpr int D = TypeParam::dimension;
+  for (double jitter : { 0.25, 0.8 }) // the latter is tangled: time is over in the untangling
+  {
+    SimplexMesh<D> mesh = buildMesh(testMesh<D>(jitter));
+    const MeshBits<D> before = bitsOf(mesh);
+    Options options = target(0.95);
+    options.timeLimit = std::numeric_limits<double>::denorm_min();
+    const Report report = run<D>(mesh, options);
+    EXPECT_EQ(report.stopReason, StopReason::TimeLimit);
+    EXPECT_EQ(bitsOf(mesh), before);
+  }
 }
