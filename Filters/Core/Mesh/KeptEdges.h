@@ -8,9 +8,9 @@
 
 namespace meshopt
 {
-/// True if all cells around a kept edge of cell c are in a set that c joins: inside the set the edge
-/// would vanish. `contains(cell)` is asked about the others. Always false in the plane, where edges
-/// are facets.
+/// True if all cells around a kept edge of cell c are in a set that c joins: inside the set the
+/// edge would vanish. `contains(cell)` is asked about the others. Always false in the plane, where
+/// edges are facets.
 template <int D, class Contains>
 bool enclosesKeptEdge(const SimplexMesh<D>& mesh, Index c, const Contains& contains)
 {

@@ -185,9 +185,9 @@ std::string recoverByLeastSquares(const SimplexMesh<D>& mesh, const std::vector<
       std::ostringstream text;
       text
         << "The Hessian at point " << p << " cannot be recovered: "
-        << Unknowns<
-             D> << " points that do not lie on one curve or surface of second degree are needed, and "
-        << "the part of the mesh it belongs to has no such points.";
+        << Unknowns<D>
+        << " points that do not lie on one curve or surface of second degree are needed, and the "
+           "part of the mesh it belongs to has no such points.";
       return text.str();
     }
   }

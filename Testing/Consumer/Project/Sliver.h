@@ -29,7 +29,8 @@ inline vtkSmartPointer<vtkUnstructuredGrid> makeSliver()
     const vtkIdType x = octant & 1;
     const vtkIdType y = 2 + ((octant >> 1) & 1);
     const vtkIdType z = 4 + ((octant >> 2) & 1);
-    // Three corners seen from outside in clockwise order, so that the volume with the centre inside is positive.
+    // Three corners seen from outside in clockwise order, so that the volume with the centre inside
+    // is positive.
     const bool odd = ((x + y + z) & 1) != 0;
     const vtkIdType tetra[4] = { x, odd ? y : z, odd ? z : y, centre };
     mesh->InsertNextCell(VTK_TETRA, 4, tetra);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The battery that every shape measure has to pass, in 2D and 3D. A new measure is one more line in Measures.
+// The battery that every shape measure has to pass, in 2D and 3D. A new measure is one more line in
+// Measures.
 #include "Quality/ElementQuality.h"
 #include "Quality/Measures.h"
 
