@@ -1,6 +1,6 @@
 // The adaptive loop: a plate with a hole under tension, its mesh made for the solution on it.
-//   mesh -> vtkThermoelasticFilter -> vtkSolutionMetricFilter -> vtkMeshOptimizeFilter -> and again,
-//   until two successive meshes are close enough.
+//   mesh -> vtkThermoelasticFilter -> vtkSolutionMetricFilter -> vtkMeshOptimizeFilter -> and
+//   again, until two successive meshes are close enough.
 // The plate is a quarter, and so large a piece of the infinite plane: its outer sides are displaced
 // as G. Kirsch (1898) has it, so that the stress at the top of the hole is 3 times the tension.
 #include <vtkCellType.h>
