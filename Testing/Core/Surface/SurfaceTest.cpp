@@ -220,7 +220,7 @@ TEST(Surface, ANodeSlidesBetweenItsNeighbours)
 /// length, which may be a tenth at most: from 16 points on.
 TEST(Surface, ANodeMayVanishWhereTheCurveStaysNear)
 {
-  for (int n : { 10, 12, 14, 16, 20, 40 })
+  for (int n : { 10, 12, 15, 16, 20, 40 })
   {
     const Made made(disc(n));
     ASSERT_EQ(made.curves.numberOfPieces(), 1u);
