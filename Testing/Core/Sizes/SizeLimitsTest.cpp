@@ -8,9 +8,9 @@ using namespace meshopt;
 namespace
 {
 /// How many regular triangles fill the cells of `in` where edges of the boundary stay and `wanted`
-/// is wanted: 4 / sqrt(3) int dA / s^2. The size s is what edges of length l leave to the distance d
-/// from them, the greatest l - .7 d (SizeFloor), or what is wanted if that is more. Midpoint rule on
-/// n^2 parts of each cell.
+/// is wanted: 4 / sqrt(3) int dA / s^2. The size s is what edges of length l leave to the distance
+/// d from them, the greatest l - .7 d (SizeFloor), or what is wanted if that is more. Midpoint rule
+/// on n^2 parts of each cell.
 double trianglesBeside(const MeshInput<2>& in, double wanted)
 {
   constexpr int n = 60;
