@@ -127,7 +127,7 @@ TEST(CavityFit3D, FlipsOfABipyramid)
   EXPECT_FALSE(fillsCavity<3>(ring, { 0, 1, 2 }, {}));
 }
 
-/// A node that is joined to both rims of a ring of triangles makes no ring: Euler's number tells.
+/// A node that is joined to both rims of a ring of triangles: two cones that meet in a point only.
 TEST(CavityFit2D, ANodeInARingIsNoFilling)
 {
   MeshInput<2> in;
@@ -150,6 +150,43 @@ TEST(CavityFit2D, ANodeInARingIsNoFilling)
   const SimplexMesh<2> mesh = buildMesh(in);
   EXPECT_TRUE(fillsCavity<2>(mesh, allCells(mesh), cellsOf(mesh)));
   EXPECT_FALSE(fillsCavity<2>(mesh, allCells(mesh), cone));
+}
+
+/// A node joined to all of a ring of tetrahedra makes no ring, though all hangs together: Euler's
+/// number is 1, that of the ring 0.
+TEST(CavityFit3D, ANodeInARingIsNoFilling)
+{
+  constexpr Index sections =
+    4; // triangles across the ring, with a prism of three cells to the next
+  MeshInput<3> in;
+  for (Index k = 0; k < sections; ++k)
+  {
+    const double angle = 2.0 * M_PI * k / sections, c = std::cos(angle), s = std::sin(angle);
+    in.points.emplace_back(2.0 * c, 2.0 * s, 0.0);
+    in.points.emplace_back(3.0 * c, 3.0 * s, 0.0);
+    in.points.emplace_back(2.5 * c, 2.5 * s, 1.0);
+    const Index a = 3 * k, b = 3 * ((k + 1) % sections);
+    in.cells.push_back({ a, a + 1, a + 2, b + 2 });
+    in.cells.push_back({ a, a + 1, b + 2, b + 1 });
+    in.cells.push_back({ a, b + 1, b + 2, b });
+  }
+  const SimplexMesh<3> mesh = buildMesh(in);
+  std::vector<Simplex<3>> same, cone;
+  for (Index c : allCells(mesh))
+  {
+    same.push_back(mesh.nodes(c));
+    for (int i = 0; i < 4; ++i)
+    {
+      const Facet<3> f = mesh.facet(c, i);
+      if (mesh.isConstrained(c, i))
+      {
+        cone.push_back({ f[0], f[1], f[2], 3 * sections });
+      }
+    }
+  }
+  ASSERT_EQ(cone.size(), 6u * sections);
+  EXPECT_TRUE(fillsCavity<3>(mesh, allCells(mesh), same));
+  EXPECT_FALSE(fillsCavity<3>(mesh, allCells(mesh), cone));
 }
 
 /// Two parts that are each a filling of a part of the boundary do not hang together: a bubble.
