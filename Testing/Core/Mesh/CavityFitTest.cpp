@@ -201,6 +201,33 @@ TEST(CavityFit2D, WhatDoesNotHangTogetherIsNoFilling)
   EXPECT_TRUE(fillsCavity<2>(mesh, { 0, 1 }, { { 1, 2, 3 }, { 3, 0, 1 } }));
 }
 
+/// The like with a torus of seven points, which leaves Euler's number as it is.
+TEST(CavityFit2D, ATorusBesideTheCavityIsNoPartOfIt)
+{
+  const SimplexMesh<2> mesh = buildMesh(polygon(4));
+  std::vector<Simplex<2>> cells = cellsOf(mesh);
+  for (Index k = 0; k < 7; ++k)
+  {
+    const auto id = [&](Index by) { return 4 + (k + by) % 7; };
+    cells.push_back({ id(0), id(1), id(3) });
+    cells.push_back({ id(0), id(2), id(3) });
+  }
+  EXPECT_FALSE(fillsCavity<2>(mesh, { 0, 1 }, cells));
+}
+
+/// Between two triangles that share corner 0, one within the other. At that corner other sides hang
+/// together after than before; all else fits.
+TEST(CavityFit2D, WhatHangsTogetherAtAPointHasToStayTogether)
+{
+  MeshInput<2> in;
+  in.points = { { 0, 0 }, { 4, -3 }, { 4, 3 }, { 2.5, 0.8 }, { 2.5, -0.8 } };
+  in.cells = { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 2, 0, 3 } };
+  const SimplexMesh<2> mesh = buildMesh(in);
+  EXPECT_TRUE(fillsCavity<2>(mesh, allCells(mesh), in.cells));
+  EXPECT_FALSE(
+    fillsCavity<2>(mesh, allCells(mesh), { { 0, 1, 3 }, { 0, 2, 4 }, { 1, 2, 4 }, { 1, 4, 3 } }));
+}
+
 /// What the change lets go and come at the surface need not be there: a node in a side of a square.
 TEST(CavityFit2D, KeptFacetsGoAndComeByTheChange)
 {
