@@ -40,7 +40,7 @@ choose_release() {
     "debian trixie") packages+=(qt6-base-dev) ;;
     *)
       echo "bootstrap.sh knows the packages of Debian 12 (bookworm) and 13 (trixie), and this is: $release" >&2
-      echo "See \"Build it yourself\" in README.md: it says what to install." >&2
+      echo "See \"Build\" in CONTRIBUTING.md: it says what to install." >&2
       exit 1
       ;;
   esac

@@ -18,36 +18,36 @@ namespace vtkMeshBridge
 {
 
 /**
- * What an array is for, and what it must look like.
+ * The role of an array, and the form that it must have.
  */
 struct ArrayRole
 {
   const char* Noun;              ///< "size array"
-  const char* DefaultName;       ///< looked for if none is chosen; nullptr: none then
-  bool OnCells;                  ///< else on points
-  bool IsInteger;                ///< else any number
-  std::array<int, 2> Components; ///< one or the other; 0: no other; { 0, 0 }: any
+  const char* DefaultName;       ///< used if none is chosen; nullptr: no default
+  bool OnCells;                  ///< otherwise on points
+  bool IsInteger;                ///< otherwise any number
+  std::array<int, 2> Components; ///< either number; second 0: only the first; { 0, 0 }: any
 };
 
 /**
- * Did the caller of `filter` ask for the array of this index? ParaView's "None" counts as no.
+ * Whether the caller of `filter` asked for the array of this index. ParaView's "None" means no.
  */
 bool IsWanted(vtkAlgorithm* filter, int index);
 
 /**
- * The array of this index that the caller of `filter` wants, or the default one; nullptr if it is
- * not there.
+ * The array of this index that the caller of `filter` chose, or the default one; nullptr if there
+ * is no such array.
  */
 vtkAbstractArray* FindArray(
   vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index, const ArrayRole& role);
 
 /**
- * A sentence if `array` cannot be used as what it is for.
+ * A sentence if `array` cannot be used in this role; otherwise empty.
  */
 std::string CheckArray(vtkAbstractArray* array, const ArrayRole& role);
 
 /**
- * The sentence about an array that is wanted and not there. `name` may be nullptr.
+ * The sentence about a chosen array that does not exist. `name` may be nullptr.
  */
 std::string DescribeMissing(const char* name, const ArrayRole& role);
 

@@ -21,12 +21,13 @@ namespace vtkMeshBridge
 namespace
 {
 
-// The core counts points and cells in 32 bits, facets in the same with 2 bits of its own.
+// The core numbers points and cells with 32 bits, and facets with 32 bits of which 2 are the local
+// number.
 constexpr vtkIdType MaximumNumberOfPoints = vtkIdType(1) << 30;
 constexpr vtkIdType MaximumNumberOfCells = vtkIdType(1) << 29;
 
 /**
- * Dimension of cells of one VTK type, asked for once per type.
+ * Dimension of cells by VTK type. Each type is asked for only once.
  */
 class CellDimensions
 {
@@ -82,8 +83,8 @@ std::string CellName(vtkUnstructuredGrid* grid, vtkIdType cell)
 }
 
 /**
- * A point that is not there would be read by whatever comes later. A polyhedron names its points
- * twice; both must be right.
+ * Later steps would read a point that does not exist. A polyhedron lists its points twice; both
+ * lists must be correct.
  */
 std::string CheckPointIds(
   vtkUnstructuredGrid* grid, vtkIdType cell, vtkIdType n, const vtkIdType* ids)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What the cells of a grid are to a filter that needs a mesh: the simplices that it works on, and
- * the others. Checks everything that later steps rely on, so that they need not look again.
+ * Classifies the cells of a grid for a filter that needs a mesh: the simplices that it works on,
+ * and the others. Checks everything that later steps rely on, so that they need not check again.
  */
 #ifndef vtkMeshBridgeCells_h
 #define vtkMeshBridgeCells_h
@@ -29,12 +29,12 @@ enum PointUseBits : std::uint8_t
 };
 
 /**
- * The cells of a grid, sorted by what happens to them.
+ * The cells of a grid, classified.
  */
 struct Cells
 {
   /// 3: the tetrahedra are the mesh; 2: the triangles; 0: there is none. Triangles beside cells of
-  /// dimension three are the surface of something.
+  /// dimension three are a surface, not a mesh.
   int Dimension = 0;
 
   /// All cells of the grid.
@@ -49,13 +49,13 @@ struct Cells
   /// Ghost cells that would be simplices of the mesh.
   vtkIdType NumberOfGhostSimplices = 0;
 
-  /// Triangles where the dimension is 0.
+  /// Number of triangles if Dimension is 0.
   vtkIdType NumberOfSurfaceTriangles = 0;
 
   /// Quadratic triangles or tetrahedra that would be simplices of the mesh if they were linear.
   vtkIdType NumberOfQuadraticSimplices = 0;
 
-  /// True if cell ids of the grid and of the core are the same.
+  /// True if the grid and the core have the same cell ids.
   bool IsIdentity() const
   {
     return static_cast<vtkIdType>(this->Simplices.size()) == this->NumberOfCells;
@@ -63,14 +63,14 @@ struct Cells
 };
 
 /**
- * Sorts the cells of `grid`. Returns a sentence about the first thing that is wrong (a point id out
- * of range, a simplex that uses a point twice, a coordinate of a simplex that is not finite, an
- * array of the wrong length, more cells than the core can count), or an empty string.
+ * Classifies the cells of `grid`. Returns an empty string, or a sentence about the first error: a
+ * point id out of range, a simplex that uses a point twice, a coordinate of a simplex that is not
+ * finite, an array of the wrong length, or more cells than the core can number.
  */
 std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells);
 
 /**
- * A message of the core, and which cell of the grid its `cell` is, if that is another one there.
+ * A message of the core. If `cell` has another id in the grid, this id is added.
  */
 std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells);
 

@@ -19,8 +19,7 @@ int ResolveNumberOfThreads(int wanted)
   return wanted > 0 ? wanted : std::max(available, 1);
 }
 
-meshopt::Control MakeControl(
-  vtkAlgorithm* filter, int numberOfThreads, double first, double last)
+meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last)
 {
   meshopt::Control control;
   control.progress = [=](double fraction, const std::string& text)

@@ -13,18 +13,16 @@ namespace vtkMeshBridge
 {
 
 /**
- * How many threads `wanted` (0: all) means in this process.
+ * The number of threads that `wanted` (0: all) means in this process.
  */
 int ResolveNumberOfThreads(int wanted);
 
 /**
  * Reports progress of the core as the part [first, last] of the filter's progress, and stops the
- * core when the user aborts. Loops run on so many threads of
- * vtkSMPTools, in a scope of their own: the backend that the application has chosen is not touched
- * (Debian's is Sequential).
+ * core when the user aborts. Loops run on `numberOfThreads` threads of vtkSMPTools in a scope of
+ * their own. The application's choice of backend (Debian's is Sequential) is not changed.
  */
-meshopt::Control MakeControl(
-  vtkAlgorithm* filter, int numberOfThreads, double first, double last);
+meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last);
 
 } // namespace vtkMeshBridge
 

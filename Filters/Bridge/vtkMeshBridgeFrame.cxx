@@ -76,11 +76,11 @@ std::string CheckExtent(const Box& box)
     return {};
   }
   std::ostringstream text;
-  text
-    << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
-    << (isLarge ? magnitude : extent)
-    << "): lengths squared and cubed leave the range of double precision. Scale the mesh; between "
-       "1e-100 and 1e100 all is well.";
+  text << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
+       << (isLarge ? magnitude : extent)
+       << "): squared and cubed lengths leave the range of double precision. Scale the mesh to "
+          "lengths "
+          "between 1e-100 and 1e100.";
   return text.str();
 }
 
@@ -117,8 +117,8 @@ Vec<3> AreaVector(const GridView& grid, vtkIdType triangle)
 }
 
 /**
- * Sum of all area vectors, those that look backwards turned round; its sign such that what was
- * turned round is the smaller part. Zero only if no triangle has an area.
+ * The sum of all area vectors, after those that point backwards are reversed. Its sign is such that
+ * the reversed part is the smaller one. Zero only if no triangle has an area.
  */
 Vec<3> FindNormal(const GridView& grid, const std::vector<vtkIdType>& triangles)
 {
@@ -142,7 +142,7 @@ Vec<3> FindNormal(const GridView& grid, const std::vector<vtkIdType>& triangles)
 }
 
 /**
- * The coordinate that all points have in common, or -1; z is preferred.
+ * The coordinate that is the same for all points, or -1; z is preferred.
  */
 int FindConstantCoordinate(const Box& box)
 {
@@ -169,7 +169,7 @@ Frame<2> MakeDirect(const Box& box, int constant, bool positive)
 }
 
 /**
- * `x` is a point of the plane, `middle` one near it.
+ * `x` is a point of the plane, `middle` a point near it.
  */
 Frame<2> MakeTilted(const Vec<3>& middle, const Vec<3>& x, const Vec<3>& normal)
 {
@@ -188,7 +188,7 @@ double DistanceOf(const Frame<2>& frame, const Vec<3>& x)
 }
 
 /**
- * Of points that are equally far away the one with the lowest id.
+ * Finds the farthest point; among equally far points the one with the lowest id.
  */
 void FindFarthest(
   const GridView& grid, const std::vector<vtkIdType>& triangles, const Vec<3>& normal, Plane& plane)
@@ -220,7 +220,7 @@ Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, c
     plane.Frame = MakeDirect(box, constant, !(normal[constant] < 0.0));
     return plane;
   }
-  if (normal.squaredNorm() == 0.0) // all on one line
+  if (normal.squaredNorm() == 0.0) // all points are collinear
   {
     normal = Vec<3>(box.High - box.Low).unitOrthogonal();
   }

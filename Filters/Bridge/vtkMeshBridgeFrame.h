@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * From the coordinates of a grid to those of the core, and back. In space they are the same; a
+ * Maps coordinates of a grid to those of the core, and back. In 3D they are the same; in 2D the
  * plane gets two axes.
  */
 #ifndef vtkMeshBridgeFrame_h
@@ -39,8 +39,8 @@ struct Frame<2>
   meshopt::Vec<3> Origin = meshopt::Vec<3>::Zero();
   meshopt::Vec<3> Axes[2] = { meshopt::Vec<3>::UnitX(), meshopt::Vec<3>::UnitY() };
 
-  /// Coordinates that serve as they are where the plane is parallel to two axes: no rounding at all
-  /// then. Else -1.
+  /// If the plane is parallel to two axes, these two coordinates are used unchanged, without
+  /// rounding. Otherwise -1.
   int Direct[2] = { 0, 1 };
 
   meshopt::Vec<2> ToCore(const double x[3]) const
@@ -54,12 +54,12 @@ struct Frame<2>
   }
   void ToGrid(const meshopt::Vec<2>& u, double x[3]) const;
 
-  /// The part in the plane.
+  /// The part of the tensor in the plane.
   meshopt::Tensor<2> ToCore(const meshopt::Tensor<3>& m) const;
 };
 
 /**
- * Points of some cells: where they are. NaN changes nothing.
+ * The bounding box of the points of some cells. NaN changes nothing.
  */
 struct Box
 {
@@ -73,38 +73,38 @@ struct Box
 
 /**
  * A sentence if the box is so large or so small that cubed lengths leave the range of double
- * precision; else, and where it has no points or a bound is not finite, an empty string.
+ * precision. An empty string otherwise, and also if it has no points or a bound is not finite.
  */
 std::string CheckExtent(const Box& box);
 
 /**
- * The plane that triangles lie in.
+ * The plane of a set of triangles.
  */
 struct Plane
 {
   vtkMeshBridge::Frame<2> Frame;
   double Extent = 0.0;    ///< diagonal of the triangles' box
-  double Tolerance = 0.0; ///< 1e-6 of it, and what the type of the coordinates cannot express
-  double Farthest = 0.0;  ///< distance of the point that is farthest away from the plane
+  double Tolerance = 0.0; ///< 1e-6 of Extent, plus the rounding error of the coordinate type
+  double Farthest = 0.0;  ///< greatest distance of a point from the plane
   vtkIdType FarthestPoint = -1;
 
   bool HasAll() const { return this->Farthest <= this->Tolerance; }
 
-  /// Is this point in the plane, to the tolerance?
+  /// Whether this point is in the plane, up to the tolerance.
   bool Has(const meshopt::Vec<3>& x) const;
 };
 
 /**
- * Finds the plane of `triangles`. All their corners must be there and finite; there must be one.
+ * Finds the plane of `triangles`: at least one, with existing, finite corners.
  *
- * The side up is that for which most of the area is positive. So a mesh that is numbered clockwise
- * about z stays so, and no mesh is inverted as a whole. Where the plane is parallel to two axes
- * coordinates serve as they are; z is left out first.
+ * The upper side is the one for which most of the area is positive. So a mesh that is numbered
+ * clockwise about z stays so, and no mesh is inverted as a whole. If the plane is parallel to two
+ * axes, their coordinates are used unchanged; z is the first candidate to be left out.
  */
 Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles);
 
 /**
- * Nothing to find in space; the extent is checked.
+ * In 3D there is nothing to find; only the extent is checked.
  */
 std::string FindFrame(vtkUnstructuredGrid* grid, const Cells& cells, Frame<3>& frame);
 

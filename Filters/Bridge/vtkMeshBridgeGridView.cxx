@@ -35,7 +35,7 @@ std::array<Kind, 256> MakeKinds()
 }
 
 /**
- * Do the values of `array` lie in memory one after the other, as T?
+ * Whether the values of `array` are stored contiguously as T.
  */
 template <class T>
 bool IsOf(vtkDataArray* array)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A vtkUnstructuredGrid by plain pointers: coordinates, kinds and corners of cells, ghosts. It
- * takes any grid, also one that no solver would, and never reads out of its arrays.
+ * A vtkUnstructuredGrid accessed by plain pointers: coordinates, kinds and corners of cells,
+ * ghosts. It accepts any grid, even one that no solver would, and never reads beyond its arrays.
  */
 #ifndef vtkMeshBridgeGridView_h
 #define vtkMeshBridgeGridView_h
@@ -23,7 +23,7 @@ namespace vtkMeshBridge
 {
 
 /**
- * What a cell is to a measure. Quadratic and higher-order simplices count as their corners.
+ * The kind of a cell for a measure. Quadratic and higher-order simplices count by their corners.
  */
 enum class Kind : std::uint8_t
 {
@@ -33,9 +33,10 @@ enum class Kind : std::uint8_t
 };
 
 /**
- * Which cells do not count, by their flags in vtkGhostType: copies of another process' cells, cells
- * that finer ones replace, and hidden ones. These are the flags that vtkCellData documents as those
- * to skip. The others say how a cell lies (many or few neighbours, at the outside); it is there.
+ * Tells the cells that do not count, by their flags in vtkGhostType: copies of another process'
+ * cells, cells replaced by finer ones, and hidden cells. These are the flags that vtkCellData
+ * documents as to be skipped. The other flags only describe the position of a cell (many or few
+ * neighbours, at the outside): such cells count.
  */
 class GhostCells
 {
@@ -44,7 +45,7 @@ public:
     vtkDataSetAttributes::REFINEDCELL | vtkDataSetAttributes::HIDDENCELL;
 
   /**
-   * `grid` must live as long as this. An array of the wrong length says nothing.
+   * `grid` must outlive this object. An array of the wrong length is ignored.
    */
   explicit GhostCells(vtkUnstructuredGrid* grid);
 
@@ -58,7 +59,7 @@ class GridView
 {
 public:
   /**
-   * `grid` must live as long as this. What has another type than most grids have is copied.
+   * `grid` must outlive this object. Arrays of unusual types are copied.
    */
   explicit GridView(vtkUnstructuredGrid* grid);
   GridView(const GridView&) = delete;
@@ -70,8 +71,8 @@ public:
   bool IsGhost(vtkIdType cell) const { return this->Ghosts.Has(cell); }
 
   /**
-   * Point ids of the n corners of a cell. False if the cell has fewer points, or one that is not
-   * there.
+   * Point ids of the n corners of a cell. False if the cell has fewer points, or a point that does
+   * not exist.
    */
   bool GetCorners(vtkIdType cell, int n, vtkIdType* ids) const
   {
@@ -126,11 +127,11 @@ private:
   Connectivity<vtkTypeInt64> Wide;
   Connectivity<vtkTypeInt32> Narrow;
 
-  // copies, where the grid has other types
+  // copies, if the grid uses other types
   std::vector<double> PointCopy;
   std::vector<unsigned char> TypeCopy;
   std::vector<vtkTypeInt64> IdCopy, OffsetCopy;
-  vtkSmartPointer<vtkObjectBase> Kept; ///< an array that the grid may have made for this
+  vtkSmartPointer<vtkObjectBase> Kept; ///< keeps an array alive that the grid made for this
 };
 
 } // namespace vtkMeshBridge

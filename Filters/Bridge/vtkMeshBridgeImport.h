@@ -17,8 +17,8 @@ namespace vtkMeshBridge
 {
 
 /**
- * Point ids of the core are those of the grid (points that no simplex uses are there as well); its
- * cell k is simplices[k].
+ * Points of the core have the ids of the grid (including points that no simplex uses). Cell k of
+ * the core is simplices[k].
  */
 template <int D>
 meshopt::MeshInput<D> ImportGeometry(

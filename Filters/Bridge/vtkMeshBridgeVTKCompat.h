@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The one place that knows VTK versions (9.1 and later): every VTK_VERSION_CHECK of the project
- * stands here.
+ * The only place that depends on VTK versions (9.1 and later): it contains every VTK_VERSION_CHECK
+ * of the project.
  */
 #ifndef vtkMeshBridgeVTKCompat_h
 #define vtkMeshBridgeVTKCompat_h
@@ -13,8 +13,8 @@ namespace vtkMeshBridge
 {
 
 /**
- * Did the user ask `self` to stop? CheckAbort() walks up the pipeline; VTK 9.1 has the flag only.
- * ParaView 5.11's VTK reports 9.2.20230111 and has CheckAbort().
+ * Whether the user asked `self` to stop. CheckAbort() walks up the pipeline; VTK 9.1 has only the
+ * flag. ParaView 5.11's VTK reports 9.2.20230111 and has CheckAbort().
  */
 inline bool CheckAbort(vtkAlgorithm* self)
 {
@@ -26,8 +26,8 @@ inline bool CheckAbort(vtkAlgorithm* self)
 }
 
 /**
- * VTK empties the output of a filter that has seen an abort. Says that the output of `self` is fit
- * for use all the same.
+ * VTK empties the output of a filter that has seen an abort. This tells it that the output of
+ * `self` is usable nevertheless.
  */
 inline void KeepOutputAfterAbort(vtkAlgorithm* self)
 {

@@ -18,7 +18,7 @@ using meshopt::Tensor;
 namespace
 {
 
-/// Components that should be equal may differ by this part of the largest one.
+/// Components that should be equal may differ by this fraction of the largest component.
 constexpr double Skew = 1e-6;
 
 bool FitsIntoIndex(const std::vector<long long>& values)
@@ -37,7 +37,7 @@ std::vector<long long> ReadIntegers(vtkDataArray* array)
   const vtkIdType n = array->GetNumberOfTuples();
   std::vector<long long> values(static_cast<std::size_t>(n));
   auto wide = vtkAOSDataArrayTemplate<vtkTypeInt64>::SafeDownCast(array);
-  // Doubles hold every value of the smaller types.
+  // A double represents all values of the smaller types exactly.
   const bool isSmall = array->GetDataTypeSize() < 8;
   for (vtkIdType i = 0; i < n; ++i)
   {
@@ -51,7 +51,7 @@ std::vector<long long> ReadIntegers(vtkDataArray* array)
 std::vector<long long> FindDistinct(std::vector<long long> values)
 {
   values.erase(
-    std::unique(values.begin(), values.end()), values.end()); // cells of one lie together
+    std::unique(values.begin(), values.end()), values.end()); // equal values often lie together
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
@@ -114,7 +114,7 @@ Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame
   if (array->GetNumberOfComponents() == 6)
   {
     m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
-    return frame.ToCore(m); // NaN and infinity anywhere make NaN
+    return frame.ToCore(m); // any NaN or infinity results in NaN
   }
   m << t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8];
   const Tensor<3> difference = m - m.transpose();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What the values of input arrays mean: regions, sizes, tensors.
+ * The meaning of values in input arrays: regions, sizes, tensors.
  */
 #ifndef vtkMeshBridgeValues_h
 #define vtkMeshBridgeValues_h
@@ -18,23 +18,23 @@ namespace vtkMeshBridge
 {
 
 /**
- * All values of an array of integers, exactly: a double would not tell large ones apart.
+ * All values of an array of integers, exactly: as doubles, large ones could not be told apart.
  */
 std::vector<long long> ReadIntegers(vtkDataArray* array);
 
 /**
- * The values that occur, ascending.
+ * The distinct values, ascending.
  */
 std::vector<long long> FindDistinct(std::vector<long long> values);
 
 /**
- * Place of `value` among those of FindDistinct(), which has it.
+ * The position of `value` in the result of FindDistinct(), which must contain it.
  */
 int FindRank(const std::vector<long long>& distinct, long long value);
 
 /**
- * Region of each simplex; empty without an array. Numbers that do not fit into the core's 32 bits
- * are replaced by their ranks.
+ * Region of each simplex; empty without an array. If some numbers do not fit into the core's 32
+ * bits, all are replaced by their ranks.
  */
 std::vector<meshopt::Index> ReadRegions(vtkDataArray* array, const Cells& cells);
 
@@ -44,15 +44,15 @@ std::vector<meshopt::Index> ReadRegions(vtkDataArray* array, const Cells& cells)
 std::vector<double> ReadSizes(vtkDataArray* array);
 
 /**
- * ln h*; NaN if h* is no size: not positive, or not finite.
+ * ln h*; NaN if h* is not positive or not finite.
  */
 double LogOfSize(double size);
 
 /**
- * The tensor at a point, in the frame: of triangles its part in their plane. Of 9 components the
- * symmetric part counts: single precision, and whatever computed them, leave them symmetric to 1e-6
- * only. What is less symmetric than that, or not finite, is no metric: it has NaN in it, so that
- * the check of the values names its point.
+ * The tensor at a point, in the frame; for triangles its part in their plane. Of 9 components the
+ * symmetric part is used, since single precision and previous computations leave tensors symmetric
+ * only to 1e-6. A tensor that is less symmetric, or not finite, is no metric: the result then has
+ * NaN in it, so that the check of the values reports its point.
  */
 template <int D>
 meshopt::Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame);

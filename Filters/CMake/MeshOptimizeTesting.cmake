@@ -1,6 +1,6 @@
 # One function per kind of test. Each test stands on a line of its own in the CMakeLists.txt of its folder:
 #   meshopt_core_test(Mesh/SimplexMeshTest)     Testing/Core/Mesh/SimplexMeshTest.cpp, GoogleTest, no VTK
-#   meshopt_cxx_test(TestMeshOptimizeFilter)    Testing/Cxx/TestMeshOptimizeFilter.cxx, a main(argc, argv), VTK
+#   meshopt_cxx_test(TestMeshOptimizeFilter)    Testing/Cxx/TestMeshOptimizeFilter.cxx, GoogleTest, VTK
 #   meshopt_python_test(TestMeasures)           Testing/Python/TestMeasures.py, by python3 and by pvpython if there is one
 #   meshopt_pvpython_test(TestProxies [PVBATCH] [MPI n] [RENDERS] [LOADS_PLUGIN])   Testing/ParaView/TestProxies.py
 # Extra arguments: TIMEOUT seconds; ARGS for the program; SCRIPT where it is not in the folder; PYTHON_ONLY for a Python test without pvpython.
@@ -51,7 +51,7 @@ endfunction ()
 function (meshopt_cxx_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "ARGS" ${ARGN})
   add_executable(${name} "${name}.cxx")
-  target_link_libraries(${name} PRIVATE ${meshoptimize_modules} MeshOptimizeWarnings)
+  target_link_libraries(${name} PRIVATE ${meshoptimize_modules} MeshOptimizeWarnings GTest::gtest GTest::gtest_main)
   foreach (module IN LISTS _meshoptimize_vtk_required _meshoptimize_vtk_optional)
     if (TARGET VTK::${module} AND NOT module MATCHES "Python|TestingCore")
       target_link_libraries(${name} PRIVATE VTK::${module})

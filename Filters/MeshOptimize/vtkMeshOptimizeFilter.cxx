@@ -154,14 +154,15 @@ int vtkMeshOptimizeFilter::FillOutputPortInformation(int port, vtkInformation* i
 }
 
 /**
- * The mesh is of the type of the input, be it a grid or a tree of grids.
+ * The mesh has the type of the input: a grid, or a tree of grids.
  */
 int vtkMeshOptimizeFilter::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector, 0);
-  // Without an input the executive says so later, in one error; a 0 from here would make it two.
+  // Without an input the executive reports one error later; returning 0 here would add a second
+  // one.
   const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
   if (!output || !output->IsA(type))
   {
@@ -183,7 +184,7 @@ namespace
 {
 
 /**
- * What goes in and comes out.
+ * The data on all ports.
  */
 struct Ports
 {
@@ -194,7 +195,7 @@ struct Ports
 };
 
 /**
- * A grid to optimize, with its arrays, and where to put it.
+ * A grid to optimize, with its arrays and its output.
  */
 struct Task
 {
@@ -238,8 +239,7 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
 }
 
 /**
- * The grids in `input`, with an output for each. Other leaves of a tree are handed over as they
- * are.
+ * The grids in `input`, with an output for each. Other leaves of a tree are passed on unchanged.
  */
 std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
 {
@@ -273,7 +273,7 @@ std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
 }
 
 /**
- * Finds the arrays of all tasks. Returns a sentence about what of the request cannot be used.
+ * Finds the arrays of all tasks. Returns a sentence about the first unusable part of the request.
  */
 std::string CheckRequest(const bridge::Request& request, std::vector<Task>& tasks)
 {
@@ -308,7 +308,7 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
 }
 
 /**
- * The border of a piece is no boundary.
+ * The border of a piece is not a boundary of the mesh, so it cannot slide.
  */
 std::string CheckPieces(vtkMeshOptimizeFilter* filter, vtkInformation* info)
 {
@@ -321,8 +321,7 @@ std::string CheckPieces(vtkMeshOptimizeFilter* filter, vtkInformation* info)
 }
 
 /**
- * Optimizes all grids. Returns a sentence about the first thing that cannot be used, or an empty
- * string.
+ * Optimizes all grids. Returns an empty string, or a sentence about the first unusable thing.
  */
 std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridge::Outcome& outcome)
 {
@@ -339,8 +338,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
-    request.Control =
-      vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
+    request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
     const Task& task = tasks[i];
     const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;
@@ -385,7 +383,7 @@ void Warn(vtkMeshOptimizeFilter* filter, const bridge::Outcome& outcome)
 }
 
 /**
- * Why nothing was optimized.
+ * The reason why nothing was optimized.
  */
 std::string DescribeNothing(vtkDataObject* input, const bridge::Outcome& outcome)
 {
@@ -409,7 +407,7 @@ std::string DescribeNothing(vtkDataObject* input, const bridge::Outcome& outcome
 }
 
 /**
- * Settings and input that have no effect: a newcomer wonders why nothing happens.
+ * Warns about settings and input that have no effect: a newcomer would wonder why nothing happens.
  */
 void WarnOfNoEffect(
   vtkMeshOptimizeFilter* filter, const Ports& ports, const bridge::Outcome& outcome)
@@ -438,7 +436,7 @@ void WarnOfNoEffect(
 } // namespace
 
 //------------------------------------------------------------------------------
-// The header need not know what a run tells.
+// Keeps the bridge's types out of the public header.
 struct vtkMeshOptimizeFilter::Results
 {
   bridge::Outcome Outcome;

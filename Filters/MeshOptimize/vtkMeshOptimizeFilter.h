@@ -4,77 +4,74 @@
  * @brief   raise the worst element quality of a tetrahedral or triangle mesh
  *
  * vtkMeshOptimizeFilter moves nodes and changes the connectivity of a mesh to make its worst
- * element as good as possible: it maximizes Q(mesh) = min { Q(K) : K in mesh }, equation (2.1) of
- * the paper below. The quality of an element is its shape times, if wanted, a factor for its size
+ * element as good as possible. It maximizes Q(mesh) = min { Q(K) : K in mesh }, equation (2.1) of
+ * the paper below. The quality of an element is its shape, optionally times a factor for its size
  * (2.2). A few very bad elements spoil a finite element computation; the mean hardly matters.
  *
- * <b>What is optimized.</b> The tetrahedra, if the input has cells of dimension three; else the
- * triangles, which must lie in one plane (any plane). All other cells pass through and keep their
- * points: a triangle between two tetrahedra is kept as a face of the mesh, a line as an edge.
- * Quadratic triangles and tetrahedra pass through, too, with a warning. So do ghost cells: those
+ * <b>What is optimized.</b> The tetrahedra if the input has cells of dimension three, otherwise the
+ * triangles. Triangles must lie in one plane (any plane). All other cells pass through and keep
+ * their points: a triangle between two tetrahedra is kept as a face of the mesh, a line as an edge.
+ * Quadratic triangles and tetrahedra also pass through, with a warning. So do ghost cells: those
  * that vtkGhostType marks as duplicate, refined or hidden.
  *
- * <b>What is kept.</b> The surface, bit for bit (in the plane: the boundary edges); the faces
- * between regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality
- * never falls, so no cell is inverted if none was. Inverted and flat cells of the input are
- * repaired where the surface allows it; a warning names those that are left, and why. (There may be
- * more of them in the end, if the worst is less inverted then.) Cells that are numbered against
- * their neighbours are renumbered (counted in the field data `NumberOfReorientedCells`).
+ * <b>What is kept.</b> The surface, bit for bit (in 2D: the boundary edges); the faces between
+ * regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality never falls,
+ * so no cell becomes inverted if none was. Inverted and flat cells of the input are repaired where
+ * the surface allows it; a warning names those that are left, and the reason. (Their number may
+ * rise if the worst becomes less inverted.) Cells that are numbered against their neighbours are
+ * renumbered (counted in the field data `NumberOfReorientedCells`).
  *
  * <b>Output port 0: the mesh</b>, of the type of the input. If that is a tree of grids GetOutput()
- * is null: call GetOutputDataObject(0). Points: those of the input that are still there, in their
- * old order, then the new ones; cells likewise. Points that have not moved have the same bits. If
- * one was moved or inserted, points are of type double even if the input's are float, since
+ * is null: call GetOutputDataObject(0). First come the remaining points of the input in their old
+ * order, then the new ones; the same holds for cells. Points that have not moved have the same
+ * bits. If a point was moved or inserted, points are of type double even for a float input, since
  * rounding could lower the quality again. Data arrays keep name, type, components and attribute:
- * - point data: a point that has not moved keeps its values. Else floating point arrays are
- *   interpolated in the input cell that holds the point (constants are exact, linear fields to
- *   rounding); all others take the value of the nearest node of that cell.
- * - cell data: a new cell takes the values of the input cell in whose place it stands.
- * - global ids: points and cells of the input keep them, new ones have -1, and the array is no
- *   longer the active global id array (ids that are unique over blocks and processes cannot be made
- *   up here). Pedigree ids: as other arrays that are not interpolated, but a moved point keeps its
- *   own.
+ * - point data: a point that has not moved keeps its values. For other points, floating point
+ *   arrays are interpolated in the input cell that contains the point (constants are exact, linear
+ *   fields up to rounding); all other arrays take the value of the nearest node of that cell.
+ * - cell data: a new cell takes the values of the input cell whose place it takes.
+ * - global ids: points and cells of the input keep them; new ones have -1. The array is no longer
+ *   the active global id array, since ids that are unique over blocks and processes cannot be made
+ *   here. Pedigree ids are not interpolated either, but a moved point keeps its own.
  * - field data: kept; added are `WorstQualityBefore`, `WorstQualityAfter`, `MeanQualityBefore`,
  *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfInvertedCellsBefore`,
  *   `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`, `NumberOfOperations`, `StopReason`.
  * - the cell array `MeshQuality` (double): quality by the chosen measure, also of ghost cells; NaN
  *   for other cells.
  *
- * <b>Output port 1: the history</b>, a vtkTable, one row per pass, the first one being the input:
- * Pass, Stage, for each kind of operation how often it was tried and done, then Worst, Mean,
+ * <b>Output port 1: the history</b>, a vtkTable with one row per pass; the first row is the input.
+ * Columns: Pass, Stage, how often each kind of operation was tried and done, then Worst, Mean,
  * BelowTarget (cells under the target), Cells and Points. For composite input the first column is
  * Block (the flat index).
  *
- * <b>Composite data</b>: each vtkUnstructuredGrid in it is optimized by itself, other leaves pass
- * through. Surfaces are kept, so neighbouring blocks still fit together. Results are those of all.
+ * <b>Composite data</b>: each vtkUnstructuredGrid is optimized separately; other leaves pass
+ * through. Surfaces are kept, so neighbouring blocks still fit together. Results cover all blocks.
  *
- * <b>Distributed data</b>: each process optimizes its own piece with the piece's surface kept, so
- * pieces still fit together. Ghost cells are left as they are, but the cells they are copies of may
- * have changed: generate ghost cells afterwards, not before. The results below are of the piece.
+ * <b>Distributed data</b>: each process optimizes its own piece and keeps the piece's surface, so
+ * pieces still fit together. Ghost cells stay as they are, but their originals may have changed:
+ * generate ghost cells afterwards, not before. The results below are those of the piece.
  *
- * <b>Errors.</b> An input that is not a mesh (a point id out of range, a point twice in a cell,
- * coordinates that are not finite, a face with three cells, a cell that is there twice, triangles
- * that are not in one plane) or an unusable array or option gives one error message that names what
- * and where; the outputs are then empty and GetErrorCode() is not 0.
+ * <b>Errors.</b> An unusable input, array or option gives one error message that says what is wrong
+ * and where; the outputs are then empty and GetErrorCode() is not 0. Unusable are a point id out of
+ * range, a point twice in a cell, coordinates that are not finite, a face with three cells, a cell
+ * given twice, triangles that are not in one plane.
  *
- * <b>Abort.</b> Progress is reported and AbortExecute looked at all the time. After an abort the
- * output is a valid mesh, as good as it was by then, and GetStopReason() is Aborted. (Filters of
- * VTK usually leave an empty output.) VTK from 9.2 on leaves AbortExecute set: call
- * SetAbortExecute(0) before the next run, which else stops at once.
+ * <b>Abort.</b> Progress is reported and AbortExecute is checked all the time. After an abort the
+ * output is a valid mesh with all improvements so far, and GetStopReason() is Aborted. (Filters of
+ * VTK usually leave an empty output.) From VTK 9.2 on AbortExecute stays set: call
+ * SetAbortExecute(0) before the next run, which otherwise stops at once.
  *
- * <b>Warnings about sizes</b> say if they were given up (the worst quality would have become lower
- * than it was, and than TargetQuality), if splitting was stopped at many times the number of
- * elements that they stand for, if kept edges are more than twice as long as wanted (in the plane),
- * and if splines changed the area by more than a tenth. In a metric, angles are those of the
- * metric: a right-angled corner can be very acute in it, and the cell in it then has no high
- * quality in any mesh.
+ * <b>Warnings about sizes.</b> Sizes were given up (the worst quality would have become lower than
+ * before, and lower than TargetQuality); splitting was stopped at several times the predicted
+ * number of elements; kept edges are more than twice as long as wanted (in 2D); splines changed the
+ * area by more than a tenth. Angles are those of the metric: in it a right-angled corner can be
+ * very acute, and the cell there has no high quality in any mesh.
  *
- * The same input gives the same output, bit for bit, for any number of threads, unless TimeLimit or
- * abort is used.
+ * The output is the same, bit for bit, for any number of threads, if no TimeLimit or abort ends it.
  *
  * @par Thanks:
  * G. C. Buscaglia, E. A. Dari, P. D. Zavattieri: Mesh optimization: some results in 3D elasticity
- * (1996). Equation numbers here are its numbers.
+ * (1996). Equation numbers here are those of the paper.
  *
  * @sa
  * vtkMeshQualityMinMax vtkMeshQuality vtkConstrainedSmoothingFilter
@@ -104,10 +101,11 @@ public:
   /**
    * How to optimize. WorstFirst takes the worst cells from a queue and makes the cheapest change
    * that helps; it uses Effort, NumberOfThreads and GrowthBudget. A cell that its facet on the
-   * surface caps under 0.2 is raised to half of its cap before its neighbours suffer for it; only
-   * the very worst cells go on towards the cap. Paper1996 alternates the reconnection and the node
+   * surface caps under 0.2 is raised only to half of its cap, to spare its neighbours; only the
+   * very worst cells are raised further. Paper1996 alternates the reconnection and the node
    * repositioning of the paper; it uses NeighborhoodLevel, MaximumNumberOfIterations, Epsilon,
-   * ArmijoFactor and MaximumNumberOfAlternations. Both use all else. Default: WorstFirst.
+   * ArmijoFactor and MaximumNumberOfAlternations. Both use all other properties. Default:
+   * WorstFirst.
    */
   vtkSetClampMacro(Algorithm, int, Paper1996, WorstFirst);
   vtkGetMacro(Algorithm, int);
@@ -117,9 +115,9 @@ public:
 
   ///@{
   /**
-   * Stop once the worst quality is at least this (WorstFirst with the effort Best goes on). Range
-   * ]0, 1], default 0.6; 1: go on as long as something gets better. Cells under it are counted as
-   * BelowTarget in the history.
+   * Stop once the worst quality is at least this (WorstFirst with the effort Best continues). Range
+   * ]0, 1], default 0.6; 1: continue as long as something improves. Cells under the target are
+   * counted as BelowTarget in the history.
    */
   vtkSetClampMacro(TargetQuality, double, 0.0, 1.0);
   vtkGetMacro(TargetQuality, double);
@@ -136,10 +134,10 @@ public:
   };
   ///@{
   /**
-   * The shape measure S that is optimized. All are 0 for a flat simplex, negative for an inverted
-   * one and greatest for the regular one (1 but for the sines); size does not matter. Shape leads
-   * to good overall shapes, MinimumSine to good smallest dihedral angles. Any other number is an
-   * error when the filter runs. Default: Shape.
+   * The shape measure S to be optimized. All are 0 for a flat simplex, negative for an inverted
+   * one, and greatest for the regular one (1, except for the sines). They do not depend on size.
+   * Shape gives good overall shapes, MinimumSine good smallest dihedral angles. Any other number is
+   * an error when the filter runs. Default: Shape.
    */
   vtkSetMacro(QualityMeasure, int);
   vtkGetMacro(QualityMeasure, int);
@@ -153,13 +151,13 @@ public:
 
   ///@{
   /**
-   * Weight of size in the quality (2.2): Q = S exp(-beta^2 ln^2(h / h*)), h the longest edge of the
-   * element, h* the size wanted. Range >= 0, default 0: shape only. If it is greater than 0, give
-   * the size by DesiredSize or SetSizeArray(). WorstFirst then first splits and contracts edges
-   * until they have about the wanted length and the mesh has the number of elements of (5.3), as
-   * far as the boundary lets it; GrowthBudget counts from there on, at most 0.05. With the boundary
-   * mode Slide it does so even if Beta is 0. Where sizes are followed the worst quality may fall,
-   * but not under TargetQuality.
+   * Weight of size in the quality (2.2): Q = S exp(-beta^2 ln^2(h / h*)), with h the longest edge
+   * of the element and h* the wanted size. Range >= 0, default 0: shape only. If it is greater than
+   * 0, give the size by DesiredSize or SetSizeArray(). WorstFirst then first splits and contracts
+   * edges until they have about the wanted length and the mesh has the number of elements of (5.3),
+   * as far as the boundary allows; GrowthBudget, at most 0.05, counts from then on. In the boundary
+   * mode Slide this also happens with Beta 0. The worst quality may then fall, but not under
+   * TargetQuality.
    */
   vtkSetClampMacro(Beta, double, 0.0, 1e6);
   vtkGetMacro(Beta, double);
@@ -167,7 +165,7 @@ public:
 
   ///@{
   /**
-   * h* of (2.2), the longest edge that an element should have, the same everywhere, in units of the
+   * h* of (2.2): the longest edge that an element should have, the same everywhere, in units of the
    * coordinates (of the metric, if there is one). Range >= 0, default 0: not set. Used only if Beta
    * > 0 or the boundary slides; a size array takes precedence.
    */
@@ -181,15 +179,15 @@ public:
    * - NeighborhoodLevel, NL of the paper: how far from the worst element nodes are moved together.
    *   0: the nodes of the element; 1: also all that share an edge with them; and so on. Range 0 to
    *   3, default 1.
-   * - MaximumNumberOfIterations, M of the paper: the greatest number of steps of its global
-   *   algorithm in each repositioning. Range >= 0, default 0: no limit.
-   * - Epsilon of (2.8): elements of a cluster whose quality is within it of the worst one take part
-   *   in the search for a direction. A solve ends when it gains less than a tenth of it. Range 1e-6
-   *   to 1, default 0.02.
-   * - ArmijoFactor, alpha of Armijo's rule (2.7): the part of the predicted gain that a step must
-   *   bring. Range 1e-6 to 0.99, default 0.01.
-   * - MaximumNumberOfAlternations: how often, at most, a reconnection and then a repositioning is
-   *   done. Range >= 1, default 20.
+   * - MaximumNumberOfIterations, M of the paper: most steps of its global algorithm in each
+   *   repositioning. Range >= 0, default 0: no limit.
+   * - Epsilon of (2.8): elements of a cluster whose quality is at most this above the worst one
+   *   determine the direction of a step. A solve ends when it gains less than a tenth of it. Range
+   *   1e-6 to 1, default 0.02.
+   * - ArmijoFactor, alpha of Armijo's rule (2.7): the fraction of the predicted gain that a step
+   *   must reach. Range 1e-6 to 0.99, default 0.01.
+   * - MaximumNumberOfAlternations: most rounds of reconnection and repositioning. Range >= 1,
+   *   default 20.
    */
   vtkSetClampMacro(NeighborhoodLevel, int, 0, 3);
   vtkGetMacro(NeighborhoodLevel, int);
@@ -205,9 +203,9 @@ public:
 
   ///@{
   /**
-   * Which kinds of change are allowed, all by default. MoveNodes: move nodes (the paper's section
-   * 2.2). Reconnect: change the connectivity, the nodes staying (2.3). InsertNodes, RemoveNodes:
-   * change the connectivity such that nodes come, or go. With all off the mesh is measured only.
+   * The allowed kinds of change; all by default. MoveNodes: move nodes (the paper's section 2.2).
+   * Reconnect: change the connectivity, keep the nodes (2.3). InsertNodes, RemoveNodes: change the
+   * connectivity and add, or remove, nodes. With all off the mesh is only measured.
    */
   vtkSetMacro(MoveNodes, bool);
   vtkGetMacro(MoveNodes, bool);
@@ -225,8 +223,8 @@ public:
 
   ///@{
   /**
-   * Whether, when nothing else gains, changes are tried that pay only together or after nodes have
-   * moved. On by default. The paper has no such thing: with it off, Paper1996 is the algorithm as
+   * Whether to try, when nothing else gains, changes that gain only together or after nodes have
+   * moved. On by default. This is not in the paper: with it off, Paper1996 is the algorithm as
    * printed, which stops at a lower quality where the surface leaves little freedom.
    */
   vtkSetMacro(LookAhead, bool);
@@ -242,11 +240,11 @@ public:
   };
   ///@{
   /**
-   * How long WorstFirst insists. Quick makes single changes, tries more only for the few worst
-   * cells, and stops at TargetQuality. Default also tries changes that pay only together; it, too,
-   * stops at TargetQuality. Best looks further ahead and goes on past TargetQuality, up to .76 or
-   * what the surface allows, until nothing lifts the worst cell any more; this costs many times
-   * what Default does. Default: Default.
+   * How much WorstFirst tries. Quick makes single changes, tries more only for the few worst cells,
+   * and stops at TargetQuality. Default also tries changes that gain only together, and stops at
+   * TargetQuality, too. Best looks further ahead and continues past TargetQuality, up to .76 or
+   * what the surface allows, until nothing improves the worst cell any more. It takes many times as
+   * long as Default. Default: Default.
    */
   vtkSetClampMacro(Effort, int, Quick, Best);
   vtkGetMacro(Effort, int);
@@ -257,7 +255,7 @@ public:
 
   ///@{
   /**
-   * Threads that WorstFirst uses. Range >= 0, default 0: all (VTK_SMP_MAX_THREADS limits them, as
+   * Threads that WorstFirst uses. Range >= 0, default 0: all (limited by VTK_SMP_MAX_THREADS, as
    * everywhere in VTK). The output does not depend on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
@@ -266,10 +264,11 @@ public:
 
   ///@{
   /**
-   * How much WorstFirst may let the number of cells grow, as a fraction of the input's. Unless it
-   * is 0, at least 30 tetrahedra or 10 triangles may come. Range >= 0, default 0.15. A mesh with
-   * hardly any interior nodes may need 1: where the budget stops it the stop reason is GrowthLimit.
-   * Once 12 % of the cells are gone, no more nodes are removed (unless sizes are wanted).
+   * How much WorstFirst may increase the number of cells, as a fraction of the input's. Unless it
+   * is 0, at least 30 tetrahedra or 10 triangles may be added. Range >= 0, default 0.15. A mesh
+   * with hardly any interior nodes may need 1: if the budget stops it, the stop reason is
+   * GrowthLimit. No more nodes are removed once 12 % of the cells are gone (unless sizes are
+   * followed).
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);
@@ -277,13 +276,13 @@ public:
 
   ///@{
   /**
-   * Change only cells whose quality is under this, and NumberOfLayers layers around them, to touch
-   * up a mesh that is good nearly everywhere. All other cells, and all their points, stay bit for
-   * bit. Range 0 to 1, default 0: all cells may change.
+   * Change only cells whose quality is under this, and NumberOfLayers layers around them, to repair
+   * a mesh that is good nearly everywhere. All other cells and their points stay bit for bit. Range
+   * 0 to 1, default 0: all cells may change.
    *
-   * Qualities, counts and history are still about all cells; QualityBound then holds while the
-   * other cells are kept, too. TargetQuality, GrowthBudget, NumberOfCappedCells and StopReason are
-   * about those that may change; if there is none, the stop reason is NothingToDo. Cells that are
+   * Qualities, counts and history still cover all cells; QualityBound then holds while the other
+   * cells are kept, too. TargetQuality, GrowthBudget, NumberOfCappedCells and StopReason refer to
+   * the cells that may change; if there are none, the stop reason is NothingToDo. Cells that are
    * numbered against their neighbours count as inverted, and so may change.
    */
   vtkSetClampMacro(OptimizeBelow, double, 0.0, 1.0);
@@ -292,8 +291,8 @@ public:
 
   ///@{
   /**
-   * How many layers of cells around those under OptimizeBelow may change: a layer are the cells
-   * that share a node with those inside it. Range >= 0, default 2. Not used if OptimizeBelow is 0.
+   * Number of layers around the cells under OptimizeBelow that may change, too. A layer shares
+   * nodes with the one before. Range >= 0, default 2. Not used if OptimizeBelow is 0.
    */
   vtkSetClampMacro(NumberOfLayers, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfLayers, int);
@@ -302,16 +301,16 @@ public:
   enum BoundaryModeType
   {
     Fixed = 0, ///< the boundary is kept, bit for bit
-    Slide = 1  ///< its nodes slide, come and go along the geometry
+    Slide = 1  ///< its nodes slide along the geometry, and may be added or removed
   };
   ///@{
   /**
-   * What may happen to the boundary of triangles, their interfaces between regions and the sides of
-   * cracks included. Slide: nodes slide along the curves that it follows, edges on them are split
-   * and contracted, and new nodes lie on the curve. Corners stay. The curves come from the mesh's
-   * own boundary, or from input port 1 if that is connected. Points of FixedPointArray, and of
-   * lines and other cells that pass through, are corners. Slide needs WorstFirst and the whole mesh
-   * in one piece; for tetrahedra it is an error. Default: Fixed.
+   * The treatment of the boundary of triangles, including interfaces between regions and the sides
+   * of cracks. Slide: nodes slide along the curves that the boundary follows, edges on them are
+   * split and contracted, and new nodes lie on the curve. Corners stay. The curves come from the
+   * mesh's own boundary, or from input port 1 if that is connected. Points of FixedPointArray, and
+   * of lines and other cells that pass through, are corners. Slide needs WorstFirst and the whole
+   * mesh in one piece; for tetrahedra it is an error. Default: Fixed.
    */
   vtkSetClampMacro(BoundaryMode, int, Fixed, Slide);
   vtkGetMacro(BoundaryMode, int);
@@ -326,8 +325,8 @@ public:
   };
   ///@{
   /**
-   * What the boundary is between the points that are given. Lines that go straight on stay straight
-   * with either. Default: BSpline.
+   * The shape of the boundary between the given points. Lines that continue straight stay straight
+   * with both. Default: BSpline.
    */
   vtkSetClampMacro(BoundaryCurve, int, Straight, BSpline);
   vtkGetMacro(BoundaryCurve, int);
@@ -337,8 +336,8 @@ public:
 
   ///@{
   /**
-   * Where the boundary (or the geometry of port 1) turns by more than this there is a corner, in
-   * degrees. Range 0 to 180, default 45. SetCornerArray() adds others.
+   * A corner is where the boundary (or the geometry of port 1) turns by more than this, in degrees.
+   * Range 0 to 180, default 45. SetCornerArray() adds others.
    */
   vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
   vtkGetMacro(CornerAngle, double);
@@ -346,9 +345,9 @@ public:
 
   ///@{
   /**
-   * Input port 1, optional: the geometry of the boundary, a vtkPolyData whose lines the boundary
-   * follows; for BoundaryMode Slide. The boundary points of the mesh must lie on it (to 1e-3 of the
-   * diagonal), and there must be one at each of its corners: else there is one error that says
+   * Input port 1, optional, for BoundaryMode Slide: the geometry of the boundary, a vtkPolyData
+   * whose lines the boundary follows. The boundary points of the mesh must lie on it (to 1e-3 of
+   * the diagonal), one of them at each of its corners. Otherwise there is one error that says
    * where. Both sides of a crack may be given as one line.
    */
   void SetGeometryConnection(vtkAlgorithmOutput* output);
@@ -357,7 +356,8 @@ public:
 
   ///@{
   /**
-   * Stop after this many seconds. Range >= 0, default 0: no limit. With one, two runs can differ.
+   * Stop after this many seconds. Range >= 0, default 0: no limit. With a limit, two runs can
+   * differ.
    */
   vtkSetClampMacro(TimeLimit, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(TimeLimit, double);
@@ -391,21 +391,21 @@ public:
   {
     NotRun = 0,          ///< not run yet, or stopped by an error
     TargetReached = 1,   ///< the worst quality is at least TargetQuality
-    CappedBySurface = 2, ///< what is under the target cannot get better while the surface is kept
+    CappedBySurface = 2, ///< no cell under the target can get better while the surface is kept
     NoFurtherGain = 3,   ///< no operation improves the worst cells any more
     IterationLimit = 4,
     TimeLimitReached = 5,
     Aborted = 6,
     NothingToDo = 7, ///< no triangles or tetrahedra, or none under OptimizeBelow
-    GrowthLimit = 8  ///< what would help needs more cells than GrowthBudget allows
+    GrowthLimit = 8  ///< changes that would help need more cells than GrowthBudget allows
   };
 
   ///@{
   /**
    * Results of the last run: quality of the worst cell and mean quality, before and after; the
-   * certified upper bound on the worst quality while the surface is kept (1 where unknown); the
-   * number of cells under the target that their own cap keeps there. 0 before a run, and if there
-   * was nothing to optimize.
+   * certified upper bound on the worst quality while the surface is kept (1 if unknown); the number
+   * of cells that their own cap keeps under the target. 0 before a run, and if there was nothing to
+   * optimize.
    */
   vtkGetMacro(WorstQualityBefore, double);
   vtkGetMacro(WorstQualityAfter, double);
@@ -418,8 +418,8 @@ public:
   ///@{
   /**
    * Cells without a positive quality, inverted or flat, before and after the last run. A warning
-   * names those that are left and says why; in the output their MeshQuality is 0 or negative. Cells
-   * that only were numbered the wrong way round are not among them.
+   * names those that are left and the reason; in the output their MeshQuality is 0 or negative.
+   * Cells that were only numbered in reverse are not counted.
    */
   vtkGetMacro(NumberOfInvertedCellsBefore, vtkIdType);
   vtkGetMacro(NumberOfInvertedCellsAfter, vtkIdType);
@@ -427,8 +427,8 @@ public:
 
   ///@{
   /**
-   * Why the last run stopped, as StopReasonType and as a sentence. Of several blocks: the one that
-   * says most (aborted, a limit, no further gain, capped, target reached).
+   * Why the last run stopped, as StopReasonType and as a sentence. For several blocks it is the
+   * reason that says most (aborted, a limit, no further gain, capped, target reached).
    */
   vtkGetMacro(StopReason, int);
   const char* GetStopReasonAsString();
@@ -436,12 +436,12 @@ public:
 
   ///@{
   /**
-   * More about the last run. EdgeLengthShare: the share of the edges that in the end are 1/sqrt(2)
-   * to sqrt(2) times as long as wanted at their place, in the metric if there is one; 0 if neither
-   * a size nor a metric was given. The field data of the output have it, too, and the histogram
-   * `EdgeLengthHistogram`. NumberOfOperations: of all kinds together. OptimizeSeconds: spent inside
-   * the optimizer, without import and export; in no output array, so that outputs can be reproduced
-   * bit for bit.
+   * More about the last run. EdgeLengthShare: the fraction of edges in the output that are
+   * 1/sqrt(2) to sqrt(2) times as long as wanted at their place, in the metric if there is one; 0
+   * if neither a size nor a metric was given. It is also in the field data of the output, as is the
+   * histogram `EdgeLengthHistogram`. NumberOfOperations: of all kinds together. OptimizeSeconds:
+   * time in the optimizer, without import and export. It is in no output array: outputs are the
+   * same bit for bit.
    */
   vtkGetMacro(EdgeLengthShare, double);
   vtkGetMacro(NumberOfOperations, vtkIdType);

@@ -117,7 +117,8 @@ int vtkMeshQualityMinMax::RequestDataObject(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  // Without an input the executive says so later, in one error; a 0 from here would make it two.
+  // Without an input the executive reports one error later; returning 0 here would add a second
+  // one.
   const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
   if (!output || !output->IsA(type))
   {
@@ -130,7 +131,7 @@ int vtkMeshQualityMinMax::RequestDataObject(
 }
 
 //------------------------------------------------------------------------------
-// What one update works with: the grids on this rank, input and output side by side.
+// The data of one update: the grids on this rank, input and output side by side.
 struct vtkMeshQualityMinMax::Run
 {
   explicit Run(vtkMeshQualityMinMax* self)
@@ -141,13 +142,13 @@ struct vtkMeshQualityMinMax::Run
     this->Options.Measure = static_cast<meshopt::Measure>(self->QualityMeasure);
     this->Options.Beta = self->Beta;
     this->Options.DesiredSize = self->DesiredSize;
-    // the worst one is wanted in any case
+    // the worst one is needed in any case, for the figures
     this->Options.NumberOfWorstCells = std::max(1, self->NumberOfWorstCells);
     this->Options.ComputeBound = self->ComputeBound;
     this->Options.TargetQuality = self->TargetQuality;
   }
 
-  // Rank and block in one number; ranks come first in ties.
+  // Rank and block in one number; in ties the rank comes first.
   std::int64_t PartOf(unsigned int block) const
   {
     return (static_cast<std::int64_t>(this->Rank) << 32) + block;
@@ -365,7 +366,7 @@ int vtkMeshQualityMinMax::RequestData(
   Run run(this);
   run.Pass(vtkDataObject::GetData(inputVector[0]), vtkDataObject::GetData(outputVector, 0));
   const std::string error = run.Measure();
-  // All ranks meet here, those with an error as well.
+  // All ranks meet here, including those with an error: otherwise the others would wait forever.
   const bool usable = quality::Reduce(
     this->Controller, !error.empty(), run.Options.NumberOfWorstCells, run.Figures);
   if (!usable)

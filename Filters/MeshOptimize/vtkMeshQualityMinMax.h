@@ -4,38 +4,37 @@
  * @brief   quality of every element, its minimum, maximum and distribution, and the worst elements
  *
  * Measures the triangles and tetrahedra of an unstructured grid, or of all unstructured grids in a
- * composite data set. Quadratic and higher-order ones are judged by their corners. All figures are
- * over all blocks and all ranks. Ghost cells, those that `vtkGhostType` marks as duplicate, refined
- * or hidden, are measured but not counted; its other flags make no difference.
+ * composite data set. Quadratic and higher-order ones are judged by their corners. All figures
+ * cover all blocks and all ranks. Ghost cells (those that `vtkGhostType` marks as duplicate,
+ * refined or hidden) are measured but not counted; its other flags make no difference.
  *
  * Outputs:
- *  - 0: the input with the cell array `MeshQuality`. Cells that are neither triangles nor
- *    tetrahedra pass through and have NaN there, and so have cells with a coordinate that is not
- *    finite. Elements without volume have 0, inverted ones a negative value. Triangles have a sign
- *    only where a grid consists of triangles in one plane (any plane, to 1e-6 of their extent); up
- *    is the side for which most of the area is positive. Elsewhere there is no telling which side
- *    is up.
+ *  - 0: the input with the cell array `MeshQuality`. It is NaN for cells that are neither triangles
+ *    nor tetrahedra (these pass through), and for cells with a coordinate that is not finite. It is
+ *    0 for elements without volume, negative for inverted ones. Triangles have a sign only in a
+ *    grid of nothing but triangles in one plane (any plane, to 1e-6 of their extent): the upper
+ *    side is the one for which most of the area is positive. Elsewhere there is no upper side.
  *  - 1: summary (vtkTable), a row for each region and a last one, `all`: Region, Count, Minimum,
  *    Mean, Maximum, StandardDeviation (divided by Count), Inverted, NotMeasurable, OtherCells,
  *    Bound, CappedCells.
  *  - 2: histogram (vtkTable): BinCenter, BinLow, BinHigh, Count; bins of equal width from 0, or the
  *    minimum if that is less, to the value of the regular element, so that histograms before and
  *    after can be compared.
- *  - 3: the worst cells (vtkUnstructuredGrid), worst first: MeshQuality, OriginalCellIds (in its
- *    grid), Rank, Block (flat index; composite input only), Center (mean of its points). On several
- *    ranks each has its own ones.
+ *  - 3: the worst cells (vtkUnstructuredGrid), worst first: MeshQuality, OriginalCellIds (in their
+ *    grid), Rank, Block (flat index; composite input only), Center (mean of the points). Each rank
+ *    has only its own ones.
  *
  * Tables are filled on rank 0 and empty elsewhere; the figures that Get...() returns are the same
  * on all ranks.
  *
- * Bound and CappedCells say how much of this is the surface's fault: no mesh with this surface (and
- * these facets between regions) can have a worst element above Bound, and CappedCells elements
- * belong to facets which keep them below TargetQuality whatever is done inside. Blocks and ranks
- * are taken one by one: facets between them count as surface, unless ghost cells tell better.
+ * Bound and CappedCells say how much of the result is due to the surface. No mesh with this surface
+ * (and these facets between regions) can have a worst element above Bound. CappedCells elements
+ * belong to facets that keep them below TargetQuality, whatever is done inside. Blocks and ranks
+ * are treated separately: facets between them count as surface, unless ghost cells show otherwise.
  * (vtkMeshOptimizeFilter keeps the facets to ghost cells, so its own bound can be lower.) The bound
- * is for plane triangles and tetrahedra: with the measure Shape it is from facets and dihedral
- * angles, with Mean Ratio and Volume Length from facets; otherwise, and with a metric array, it is
- * the value of the regular element.
+ * is known for triangles in a plane and for tetrahedra. With the measure Shape it follows from
+ * facets and dihedral angles, with Mean Ratio and Volume Length from facets. Otherwise, and with a
+ * metric array, it is the value of the regular element.
  *
  * Input arrays, by SetInputArrayToProcess() or the setters below:
  *  - 0, cells: region, integers, one component;
@@ -43,11 +42,11 @@
  *  - 3, points: metric tensor, symmetric positive definite, 6 components (XX YY ZZ XY YZ XZ) or 9
  *    (symmetric to 1e-6). For triangles in a plane only its part in that plane counts.
  *
- * An array that is asked for and missing or not usable is an error (one message, empty outputs,
+ * An array that was chosen but is missing or unusable is an error (one message, empty outputs,
  * error code vtkErrorCode::UserError), and so is Beta > 0 without a size. Values that only ghost
  * cells need may be anything. A broken mesh is no error: it is measured as it is.
  *
- * The result is the same, to the last bit, for any number of threads.
+ * The result has the same bits for any number of threads.
  *
  * @par Reference
  * G. C. Buscaglia, E. A. Dari, P. D. Zavattieri, "Mesh optimization: some results in 3D elasticity"
@@ -83,8 +82,8 @@ public:
 
   ///@{
   /**
-   * What is called good. All are 0 for a flat element and keep the sign of the volume; the regular
-   * element has the greatest value, 1 unless said otherwise.
+   * The measure of quality. All are 0 for a flat element and keep the sign of the volume; the
+   * regular element has the greatest value, 1 unless stated otherwise.
    *  - Shape (default): c V / P^3, with P the sum of the edges, c = 1296 sqrt(2);
    *    triangles: 36 / sqrt(3) A / P^2;
    *  - RadiusRatio: 3 r / R (triangles: 2 r / R) of inscribed and circumscribed sphere;
@@ -118,8 +117,8 @@ public:
 
   ///@{
   /**
-   * Desired size h* where Beta > 0 and no size array is chosen, in units of length. >= 0; default
-   * 0: not given.
+   * Desired size h*, in units of length, used if Beta > 0 and no size array is chosen. >= 0;
+   * default 0: not given.
    */
   vtkSetClampMacro(DesiredSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(DesiredSize, double);
@@ -143,8 +142,8 @@ public:
 
   ///@{
   /**
-   * Whether the surface is found and its bound computed. Default on. Off, Bound is the value of the
-   * regular element and CappedCells is 0; that saves about two thirds of the time.
+   * Whether to find the surface and compute its bound. Default on. If off, Bound is the value of
+   * the regular element and CappedCells is 0; this saves about two thirds of the time.
    */
   vtkSetMacro(ComputeBound, bool);
   vtkGetMacro(ComputeBound, bool);
@@ -172,8 +171,8 @@ public:
 
   ///@{
   /**
-   * The controller over whose ranks the figures are. Default: the global controller. Null: this
-   * rank only. All its ranks have to update the filter together.
+   * The controller whose ranks the figures cover. Default: the global controller. Null: this rank
+   * only. All its ranks must update the filter together.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -193,8 +192,8 @@ public:
   ///@}
 
   /**
-   * Cells with a coordinate that is not finite, or a point that is not there. They are in no other
-   * figure.
+   * Cells with a coordinate that is not finite, or with a point that does not exist. They are in no
+   * other figure.
    */
   vtkGetMacro(NumberOfNotMeasurableCells, vtkIdType);
 
@@ -204,18 +203,18 @@ public:
   vtkGetMacro(NumberOfOtherCells, vtkIdType);
 
   /**
-   * What the worst quality cannot exceed while the surface is kept; see the class documentation.
+   * Upper bound on the worst quality while the surface is kept; see the class documentation.
    */
   vtkGetMacro(QualityBound, double);
 
   /**
-   * Elements that their facets on the surface keep below TargetQuality.
+   * Number of elements that their facets on the surface keep below TargetQuality.
    */
   vtkGetMacro(NumberOfCappedCells, vtkIdType);
 
   ///@{
   /**
-   * The worst cell: its id in its grid, the flat index of its block (0 for a grid that is no
+   * The worst cell: its id in its grid, the flat index of its block (0 for a grid that is not in a
    * composite data set), and its rank. -1 if there is none. Ties go to the lowest rank, block, id.
    */
   vtkGetMacro(WorstCellId, vtkIdType);

@@ -135,8 +135,8 @@ void Warn(vtkSolutionMetricFilter* filter, const bridge::Outcome& outcome)
   if (!outcome.IsCountReached)
   {
     vtkWarningWithObjectMacro(
-      filter, << "The limits on the size do not allow the wanted number of elements: about "
-              << std::round(outcome.PredictedCount) << " it will be.");
+      filter, << "The limits on the size do not allow the wanted number of elements. There will "
+              << "be about " << std::round(outcome.PredictedCount) << ".");
   }
 }
 
@@ -148,10 +148,10 @@ int vtkSolutionMetricFilter::RequestData(
 {
   vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  if (!input) // a block of a composite data set: the executive does not look at its type
+  if (!input) // a block of another type in a composite data set: the executive does not check it
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " has been left out: it is no vtkUnstructuredGrid.");
+                    << " was skipped: it is not a vtkUnstructuredGrid.");
     output->Initialize();
     return 1;
   }

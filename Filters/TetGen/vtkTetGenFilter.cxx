@@ -172,7 +172,7 @@ namespace
 {
 
 /**
- * TetGen 1.5 warns about a region point outside the convex hull, and crashes on it.
+ * TetGen 1.5 warns about a region point outside of the convex hull, and then crashes.
  */
 std::string FindRegionOutside(const std::string& text, const std::vector<double>& regions)
 {
@@ -207,7 +207,7 @@ std::string LastLine(const std::string& text)
 } // namespace
 
 /**
- * TetGen has failed: why? It is asked for facets that intersect, which it finds reliably.
+ * Finds out why TetGen failed: asks it for facets that intersect, which it finds reliably.
  */
 std::string vtkTetGenFilter::ExplainFailure(const bridge::Surface& surface, bridge::Job job,
   const std::string& text, const std::string& reason)
@@ -240,7 +240,7 @@ std::string vtkTetGenFilter::ExplainFailure(const bridge::Surface& surface, brid
 }
 
 /**
- * An empty mesh and no error: aborted.
+ * An empty mesh without error: aborted.
  */
 std::string vtkTetGenFilter::Run(
   const bridge::Surface& surface, const bridge::Job& job, bridge::Mesh& mesh)
@@ -310,16 +310,16 @@ int vtkTetGenFilter::RequestData(
   vtkPointSet* interior = vtkPointSet::GetData(inputVector[1]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!input) // a block of a composite data set: the executive does not look at its type
+  if (!input) // a block of another type: the executive does not check it
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " has been left out: it is no vtkPolyData.");
+                    << " was skipped: it is not a vtkPolyData.");
     output->Initialize();
     return 1;
   }
   if (input->GetNumberOfPoints() == 0 && input->GetNumberOfCells() == 0)
   {
-    return 1; // an empty piece of distributed data, for one
+    return 1; // for example an empty piece of distributed data
   }
   std::string error;
   try

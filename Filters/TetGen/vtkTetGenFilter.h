@@ -3,45 +3,46 @@
  * @class   vtkTetGenFilter
  * @brief   fill a closed surface with tetrahedra, by TetGen
  *
- * vtkTetGenFilter hands a closed surface to TetGen (Hang Si, version 1.5) and returns its mesh: a
+ * vtkTetGenFilter passes a closed surface to TetGen (Hang Si, version 1.5) and returns its mesh: a
  * constrained Delaunay tetrahedralization, refined as wanted.
  *
- * <b>Licence.</b> TetGen is under the AGPL, version 3 or later. That is why this module stands
- * apart and can be left out when building: see Filters/TetGen/README.md.
+ * <b>Licence.</b> TetGen is under the AGPL, version 3 or later. Therefore this module is separate
+ * and can be left out of a build: see Filters/TetGen/README.md.
  *
  * <b>Input port 0: the surface</b>, a vtkPolyData of triangles. Polygons and strips are cut into
  * triangles (vtkTriangleFilter); vertices and lines are ignored. It must be closed: every edge has
- * two triangles, or more where inner walls meet. Points nearer to each other than 1e-8 of its size
- * are one point to TetGen, so that triangles between them are errors. Each compartment that walls
- * enclose is filled, also a cavity, unless AddHole() says otherwise. Orientation does not matter.
+ * two triangles, or more where inner walls meet. TetGen treats points nearer to each other than
+ * 1e-8 of its size as one point, so triangles between them are errors. Each compartment that walls
+ * enclose is filled, including cavities, unless AddHole() says otherwise. Orientation does not
+ * matter.
  *
- * <b>Input port 1: interior points</b>, any vtkPointSet, optional. Those strictly inside become
+ * <b>Input port 1: interior points</b>, any vtkPointSet, optional. Points strictly inside become
  * nodes; those outside or on the surface (within 1e-8 of its size) are left out. TetGen may add
- * more nodes, and at an OptimizationLevel above 0 may move them.
+ * more nodes, and may move them at an OptimizationLevel above 0.
  *
- * <b>Output: the mesh</b>, a vtkUnstructuredGrid of tetrahedra with points of type double. The
- * points of the surface come first, with the same ids and, bit for bit, the same coordinates, also
- * those that no triangle uses; then the new ones. Arrays:
+ * <b>Output: the mesh</b>, a vtkUnstructuredGrid of tetrahedra with points of type double. All
+ * points of the surface come first, even unused ones, with the same ids and bit for bit the same
+ * coordinates; then the new ones. Arrays:
  * - cell array `Region` (int): the attribute that AddRegion() gives the compartment. Compartments
- *   without one are numbered on from the highest attribute; without any, from 1.
+ *   without one get the numbers after the highest attribute; without any attribute, from 1.
  * - point data of the surface. A new point has NaN in floating point arrays and 0 in others. Global
  *   ids are left out.
- * - field data of the surface. Cell data are left out: triangles are no cells of the mesh.
+ * - field data of the surface. Cell data are left out: triangles are not cells of the mesh.
  *
  * <b>Where TetGen runs.</b> In a child process (fork): TetGen ends the process on failed
- * assertions, frees memory twice after errors, prints, and keeps its state in statics. None of that
+ * assertions, frees memory twice after errors, prints, and keeps its state in statics. None of this
  * reaches the application, and nothing is printed. Progress follows the phases that TetGen reports.
  * After an abort the output is empty. POSIX only.
  *
- * <b>Errors</b> give one message that says what and where, in ids and coordinates of the input; the
- * output is then empty and GetErrorCode() is not 0: a surface that is not closed, intersects
- * itself, has points that lie on each other or are not finite, facets without area or there twice,
- * polygons that cannot be cut; no facets at all; an unusable option; and whatever else TetGen fails
- * on, with the last line it printed. An input without any point and cell gives an empty output and
- * no message.
+ * <b>Errors</b> give one message that says what is wrong and where, in ids and coordinates of the
+ * input; the output is then empty and GetErrorCode() is not 0. Errors are: a surface that is not
+ * closed or intersects itself, points that coincide or are not finite, facets without area or given
+ * twice, polygons that cannot be cut, no facets at all, an unusable option, and every other failure
+ * of TetGen, with the last line it printed. An input without points and cells gives an empty output
+ * and no message.
  *
- * <b>Distributed data</b>: each process fills its own piece of the surface, which must be closed by
- * itself.
+ * <b>Distributed data</b>: each process fills its own piece of the surface; each piece must be
+ * closed.
  *
  * The same input gives the same output, bit for bit.
  *
@@ -80,8 +81,8 @@ public:
 
   ///@{
   /**
-   * No tetrahedron shall be larger than this (TetGen's -a), in units of the coordinates cubed.
-   * Range >= 0, default 0: no limit. While the surface is kept, tetrahedra at a coarse surface stay
+   * No tetrahedron may be larger than this (TetGen's -a), in units of the coordinates cubed. Range
+   * >= 0, default 0: no limit. While the surface is kept, tetrahedra at a coarse surface stay
    * larger.
    */
   vtkSetClampMacro(MaximumVolume, double, 0.0, VTK_DOUBLE_MAX);
@@ -91,9 +92,9 @@ public:
   ///@{
   /**
    * Nodes are added until no tetrahedron has a larger ratio of its circumradius to its shortest
-   * edge (TetGen's -q), except where the surface stands in the way: where it is kept, or has small
-   * angles. Slivers have a small ratio and stay. 0.612 is the regular tetrahedron. Range 0 or >= 1,
-   * default 2; 0: no limit. Below about 1.2 TetGen may take very long.
+   * edge (TetGen's -q), except where a kept surface or its small angles prevent it. Slivers have a
+   * small ratio and stay. The regular tetrahedron has 0.612. Range 0 or >= 1, default 2; 0: no
+   * limit. Below about 1.2 TetGen may take very long.
    */
   vtkSetClampMacro(MaximumRadiusEdgeRatio, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumRadiusEdgeRatio, double);
@@ -101,7 +102,7 @@ public:
 
   ///@{
   /**
-   * Nodes are added also where a dihedral angle is smaller than this, in degrees (TetGen's -q/).
+   * Nodes are also added where a dihedral angle is smaller than this, in degrees (TetGen's -q/).
    * Range 0 to 70, default 0: no limit. Above about 18 TetGen may take very long.
    */
   vtkSetClampMacro(MinimumDihedralAngle, double, 0.0, 70.0);
@@ -111,8 +112,8 @@ public:
   ///@{
   /**
    * Whether each triangle of the surface must be a face of a tetrahedron (TetGen's -Y). On by
-   * default. Off: TetGen may cut triangles by points on the surface, and coplanar triangles count
-   * as one facet; the points of the surface are kept all the same.
+   * default. If off, TetGen may cut triangles by points on the surface, and coplanar triangles
+   * count as one facet; the points of the surface are still kept.
    */
   vtkSetMacro(KeepSurface, bool);
   vtkGetMacro(KeepSurface, bool);
@@ -121,9 +122,9 @@ public:
 
   ///@{
   /**
-   * How much TetGen improves the mesh in the end by flips, smoothing and splitting (TetGen's -O).
-   * Range 0 to 10, default 2. 0: not at all, the mesh as generated; where triangles of the surface
-   * are nearly coplanar it has tetrahedra that are flat to rounding.
+   * How much TetGen finally improves the mesh by flips, smoothing and splitting (TetGen's -O).
+   * Range 0 to 10, default 2. 0: not at all; where triangles of the surface are nearly coplanar,
+   * the generated mesh then has tetrahedra that are flat up to rounding.
    */
   vtkSetClampMacro(OptimizationLevel, int, 0, 10);
   vtkGetMacro(OptimizationLevel, int);
@@ -131,10 +132,10 @@ public:
 
   ///@{
   /**
-   * Marks the compartment around the point (x, y, z): its tetrahedra have `attribute`, a whole
-   * number, in the array `Region`, and are no larger than `maximumVolume` (0: no limit; where
-   * MaximumVolume is set, too, both hold). A point that lies outside gives a warning or, outside
-   * the convex hull, an error.
+   * Marks the compartment around the point (x, y, z). Its tetrahedra have `attribute`, a whole
+   * number, in the array `Region`, and are no larger than `maximumVolume` (0: no limit; if
+   * MaximumVolume is set, too, both limits hold). A point outside of the mesh gives a warning or,
+   * outside of the convex hull, an error.
    */
   void AddRegion(double x, double y, double z, double attribute, double maximumVolume);
   void RemoveAllRegions();

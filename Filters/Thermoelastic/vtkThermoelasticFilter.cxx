@@ -186,7 +186,7 @@ bridge::Request MakeRequest(vtkThermoelasticFilter* filter)
 }
 
 /**
- * All processes of the controller must come here.
+ * All processes of the controller must call this.
  */
 std::string CheckDistribution(vtkMultiProcessController* controller, bool hasCells)
 {
@@ -205,7 +205,7 @@ std::string CheckDistribution(vtkMultiProcessController* controller, bool hasCel
 
 } // namespace
 
-// The header need not know what a run tells.
+// Keeps the bridge's types out of the public header.
 struct vtkThermoelasticFilter::Results
 {
   bridge::Outcome Outcome;
@@ -233,10 +233,10 @@ int vtkThermoelasticFilter::RequestData(
   vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
   vtkTable* history = vtkTable::GetData(outputVector, 1);
-  if (!input) // a block of a composite data set: the executive does not look at its type
+  if (!input) // a block of another type: the executive does not check it
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " has been left out: it is no vtkUnstructuredGrid.");
+                    << " was skipped: it is not a vtkUnstructuredGrid.");
     output->Initialize();
     history->Initialize();
     return 1;

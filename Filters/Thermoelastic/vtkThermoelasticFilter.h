@@ -3,46 +3,44 @@
  * @class   vtkThermoelasticFilter
  * @brief   linear thermoelastic finite element analysis on tetrahedra or triangles
  *
- * vtkThermoelasticFilter computes how a body deforms under a temperature field, under loads on its
- * surface and under prescribed displacements, and which stresses that takes: small strains,
- * isotropic linear material, linear (P1) elements.
+ * vtkThermoelasticFilter computes the deformation and the stress of a body. Loads are a temperature
+ * field, forces on the surface, and prescribed displacements. Strains are small, the material is
+ * isotropic and linear, elements are linear (P1).
  *
- * <b>What is solved on.</b> If the input has tetrahedra, on these; triangles and lines in it then
- * are marks on the body, and pass through. Else on its triangles, which must lie in one plane (any
- * plane), in plane strain or plane stress, per unit of thickness. Quadratic cells and other cells
- * of the same dimension are an error, since to leave one out would be to solve for another body.
+ * <b>What is solved on.</b> The tetrahedra of the input, if there are any; triangles and lines are
+ * then marks on the body, and pass through. Otherwise the triangles, which must lie in one plane
+ * (any plane), in plane strain or plane stress, per unit of thickness. Quadratic cells and other
+ * cells of the same dimension are an error, since without them it would be another body.
  *
- * <b>Units</b> are the caller's, as long as they fit together: with metres and Pa, forces are in N
- * and energies in J. Stress is positive in tension.
+ * <b>Units</b> are the caller's, and must be consistent: with metres and Pa, forces are in N and
+ * energies in J. Stress is positive in tension.
  *
- * <b>Arrays that are read.</b> Each has a default name, under which it is looked for unless another
- * one is chosen (see SetTemperatureArray() and those below it); one that is chosen must be there.
+ * <b>Arrays that are read.</b> Each has a default name, which is used unless another one is chosen
+ * (see SetTemperatureArray() and those below it). A chosen array must exist.
  * - point `Temperature`: see TemperatureMode.
- * - cell `YoungsModulus`, `PoissonsRatio`, `ThermalExpansion`: where they are, they take the place
- *   of the properties of the same names.
+ * - cell `YoungsModulus`, `PoissonsRatio`, `ThermalExpansion`: if present, they replace the
+ *   properties of the same names.
  * - point `Constraint`: a component of the displacement is prescribed where this is not 0; three
- *   components, or one for all three. Its value is 0, or that of point `PrescribedDisplacement`.
- *   (In a plane, what is across it is not looked at.)
- * - point `Traction`: force per area in the directions of the axes (3 components), or a pressure (1
- *   component, positive when it pushes). It acts on those facets of the surface whose points all
- *   have one that is not 0, and is linear on them. If there are tractions but no such facet, that
- *   is an error.
+ *   components, or one for all three. The prescribed value is 0, or that of point
+ *   `PrescribedDisplacement`. (In 2D the component across the plane is ignored.)
+ * - point `Traction`: force per area along the axes (3 components), or a pressure (1 component,
+ *   positive when it pushes). It acts on facets of the surface all of whose points have one that is
+ *   not 0, and is linear on them. Tractions without any such facet are an error.
  * - cell `FacetTraction`: the same, constant on a facet. It is read at cells of the input that are
  *   facets of the surface: triangles on tetrahedra, lines on triangles.
+ * <b>Constraints</b> come from the arrays and from GeneralizedPlaneStrain; if both prescribe the
+ * same component, the array counts. For motions that they leave free see RigidMotion.
  *
- * <b>Constraints</b> come from the arrays and from GeneralizedPlaneStrain; where both prescribe the
- * same component, the array counts. What they leave free is the matter of RigidMotion.
- *
- * <b>Output port 0</b>: the input with these arrays added (double; in the place of any of the same
- * name). Z is the normal of a plane. What is not part of the mesh has NaN, but 0 in the vectors.
+ * <b>Output port 0</b>: the input with these arrays added (double; they replace arrays of the same
+ * name). Z is the normal of a plane. Outside of the mesh values are NaN, but 0 in the vectors.
  * - point `Displacement` (3), to warp by.
  * - point `Stress` (6: XX YY ZZ XY YZ XZ), see StressRecovery; `VonMises`; `PrincipalStress` (3,
  *   the greatest first). Not with StressRecovery None.
- * - point `Reaction` (3): the force that holds the point in its prescribed components.
- * - cell `ElementStress` (6): at the centroid. The element's own, and the less accurate one.
+ * - point `Reaction` (3): the force that holds the prescribed components of the point.
+ * - cell `ElementStress` (6): at the centroid; the element's own stress, which is less accurate.
  * - cell `StrainEnergyDensity`.
- * - cell `ErrorEstimate`: Zienkiewicz and Zhu's, in the energy norm (the root of an energy). Its
- *   squares add up to that of GetErrorEstimate(). Not with StressRecovery None.
+ * - cell `ErrorEstimate`: Zienkiewicz and Zhu's, in the energy norm (the root of an energy). The
+ *   sum of its squares is the square of GetErrorEstimate(). Not with StressRecovery None.
  * - point `Temperature`, if it was not an array of the input.
  * - field data `NumberOfUnknowns`, `NumberOfSolverIterations`, `RelativeResidual`, `StrainEnergy`,
  *   `TotalErrorEstimate`, `RelativeErrorEstimate`.
@@ -50,11 +48,11 @@
  * <b>Output port 1</b>: a vtkTable with `Iteration` and `RelativeResidual`, from 0 (before the
  * first step) to the last.
  *
- * <b>Errors.</b> Anything that cannot be solved (no temperature, too few constraints, a Poisson's
- * ratio of 0.5, an inverted element, loads that nothing holds against, ...) gives one error message
- * that names what and where; outputs are then empty and GetErrorCode() is not 0. A solver that does
- * not reach its tolerance is a warning, and GetStopReason() says so. After an abort outputs are
- * empty and GetStopReason() is Aborted.
+ * <b>Errors.</b> A problem that cannot be solved (no temperature, too few constraints, a Poisson's
+ * ratio of 0.5, an inverted element, loads without equilibrium, ...) gives one error message that
+ * says what is wrong and where; outputs are then empty and GetErrorCode() is not 0. A solver that
+ * does not reach its tolerance gives a warning, and GetStopReason() says so. After an abort outputs
+ * are empty and GetStopReason() is Aborted.
  *
  * <b>Distributed data</b>: the body must be on one process; other processes may have empty pieces.
  *
@@ -91,8 +89,8 @@ public:
   };
   ///@{
   /**
-   * Where the temperature comes from. It is linear in each element, from its values at the points.
-   * For an analysis without temperature choose Uniform with UniformTemperature equal to
+   * Source of the temperature. It is linear in each element, from its values at the points. For an
+   * analysis without temperature choose Uniform with UniformTemperature equal to
    * ReferenceTemperature, as the defaults are. Default: PointArray.
    */
   vtkSetClampMacro(TemperatureMode, int, PointArray, Uniform);
@@ -131,9 +129,9 @@ public:
 
   ///@{
   /**
-   * Material, where there are no cell arrays for it. YoungsModulus > 0, default 2e11; PoissonsRatio
-   * in ]-1, 0.5[, default 0.316; ThermalExpansion per unit of temperature, default 1e-5: uranium
-   * dioxide in SI.
+   * Material where there are no cell arrays for it. YoungsModulus > 0, default 2e11; PoissonsRatio
+   * in ]-1, 0.5[, default 0.316; ThermalExpansion per unit of temperature, default 1e-5. The
+   * defaults are uranium dioxide in SI.
    */
   vtkSetMacro(YoungsModulus, double);
   vtkGetMacro(YoungsModulus, double);
@@ -150,7 +148,7 @@ public:
   };
   ///@{
   /**
-   * For triangles: what holds across the plane. Default: PlaneStrain.
+   * The state across the plane, for triangles. Default: PlaneStrain.
    */
   vtkSetClampMacro(PlaneState, int, PlaneStrain, PlaneStress);
   vtkGetMacro(PlaneState, int);
@@ -160,10 +158,10 @@ public:
 
   ///@{
   /**
-   * Constrain the two ends of the body along Axis, as if it were a piece of a long one: all points
-   * of the lowest plane (within 1e-6 of the height) stay in it, all of the highest move by the same
-   * amount, AxialStrain times the height; sideways they are free. On triangles with Axis the normal
-   * of their plane, the strain along it is AxialStrain. Off by default.
+   * Constrain the two ends of the body along Axis, as if it were a piece of a long body. All points
+   * of the lowest plane (within 1e-6 of the height) stay in it; all of the highest plane move by
+   * the same amount, AxialStrain times the height; sideways they are free. On triangles with Axis
+   * the normal of their plane, the strain along it is AxialStrain. Off by default.
    */
   vtkSetMacro(GeneralizedPlaneStrain, bool);
   vtkGetMacro(GeneralizedPlaneStrain, bool);
@@ -189,14 +187,14 @@ public:
 
   enum AxialStrainModeType
   {
-    Free = 0, ///< such that the ends carry no force on the whole
+    Free = 0, ///< such that the ends carry no resultant force
     Given = 1 ///< AxialStrain
   };
   ///@{
   /**
    * The strain of GeneralizedPlaneStrain. Free: the mean of thermal expansion times temperature,
-   * weighted with Young's modulus and volume; that leaves no resultant force on the ends of a prism
-   * with free sides where Poisson's ratio is the same everywhere. Default: Free; AxialStrain 0.
+   * weighted with Young's modulus and volume. This leaves no resultant force on the ends of a prism
+   * with free sides and the same Poisson's ratio everywhere. Default: Free; AxialStrain 0.
    */
   vtkSetClampMacro(AxialStrainMode, int, Free, Given);
   vtkGetMacro(AxialStrainMode, int);
@@ -214,11 +212,11 @@ public:
   };
   ///@{
   /**
-   * What to do about rigid motions that the constraints leave free: without constraints all six (in
-   * a plane three). They do not matter to stress, but loads must be in equilibrium along them. Pin
-   * holds as many components of points far apart as there are motions (the 3-2-1 rule). Project
-   * takes the motions out of the displacement instead, which needs fewer steps of the conjugate
-   * gradients. Default: Forbid.
+   * How to handle rigid motions that the constraints leave free: without constraints all six (2D:
+   * three). They do not change stress, but loads must be in equilibrium along them. Pin holds as
+   * many components of points far apart as there are motions (the 3-2-1 rule). Project removes the
+   * motions from the displacement instead, which needs fewer steps of the conjugate gradients.
+   * Default: Forbid.
    */
   vtkSetClampMacro(RigidMotion, int, Forbid, Project);
   vtkGetMacro(RigidMotion, int);
@@ -238,13 +236,13 @@ public:
   ///@{
   /**
    * The input arrays by name; nullptr or "" for the default name, under which the array may be
-   * absent (but for the temperature). The same as SetInputArrayToProcess() with the index given
-   * here. What they mean is said above.
+   * absent (except for the temperature). The same as SetInputArrayToProcess() with the index given
+   * here. For their meaning see above.
    * - 0, temperature: points, 1 component, `Temperature`.
    * - 1 to 3, Young's modulus, Poisson's ratio, thermal expansion: cells, 1 component,
    *   `YoungsModulus`, `PoissonsRatio`, `ThermalExpansion`.
-   * - 4, region: cells, 1 integer component, no default name. Recovery of stress does not look
-   *   across the border of a region: choose it where materials differ by much.
+   * - 4, region: cells, 1 integer component, no default name. Recovery of stress does not cross the
+   *   border of a region: choose it where materials differ much.
    * - 5, constraint: points, 1 or 3 components, `Constraint`.
    * - 6, prescribed displacement: points, 3 components, `PrescribedDisplacement`. Needs a
    *   constraint array.
@@ -264,18 +262,18 @@ public:
 
   enum StressRecoveryType
   {
-    Patch = 0,         ///< superconvergent patch recovery; points of the surface from those inside
-    LocalPatch = 1,    ///< the same, each point from the cells around itself
+    Patch = 0,         ///< superconvergent patch recovery; on the surface from interior points
+    LocalPatch = 1,    ///< the same, each point from its own cells
     VolumeAverage = 2, ///< mean of the cells around the point, weighted by volume
     None = 3           ///< no point stress, no error estimate
   };
   ///@{
   /**
-   * How the stress at points comes from that of the elements. Patch fits linear polynomials to the
-   * elements around each interior point, and points of the surface take what the polynomials of
-   * their interior neighbours say: accurate, and it hides bad elements at the surface. LocalPatch
-   * fits at each point, on the surface too, and shows them. VolumeAverage is smooth and of low
-   * accuracy at the surface. Default: Patch.
+   * How the stress at points is computed from that of the elements. Patch fits linear polynomials
+   * to the elements around each interior point; points of the surface take the values of the
+   * polynomials of their interior neighbours. This is accurate, and hides bad elements at the
+   * surface. LocalPatch fits at each point, also on the surface, and shows them. VolumeAverage is
+   * smooth, with low accuracy at the surface. Default: Patch.
    */
   vtkSetClampMacro(StressRecovery, int, Patch, None);
   vtkGetMacro(StressRecovery, int);
@@ -306,7 +304,7 @@ public:
 
   ///@{
   /**
-   * The solver is done when the residual has fallen to this part of the right-hand side. Range
+   * The solver stops when the residual has fallen to this fraction of the right-hand side. Range
    * 1e-15 to 0.1, default 1e-8.
    */
   vtkSetClampMacro(Tolerance, double, 1e-15, 0.1);
@@ -315,7 +313,7 @@ public:
 
   ///@{
   /**
-   * Steps of the conjugate gradients at most. Range >= 1, default 10000.
+   * Most steps of the conjugate gradients. Range >= 1, default 10000.
    */
   vtkSetClampMacro(MaximumNumberOfIterations, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumNumberOfIterations, int);
@@ -323,7 +321,7 @@ public:
 
   ///@{
   /**
-   * Threads to use. Range >= 0, default 0: all (VTK_SMP_MAX_THREADS limits them, as everywhere in
+   * Threads to use. Range >= 0, default 0: all (limited by VTK_SMP_MAX_THREADS, as everywhere in
    * VTK). The output does not depend on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
@@ -335,7 +333,7 @@ public:
     NotRun = 0,         ///< not run yet, or stopped by an error
     Converged = 1,      ///< solved to the tolerance
     IterationLimit = 2, ///< the tolerance was not reached
-    Breakdown = 3,      ///< the solver can make no further step: singular to rounding
+    Breakdown = 3,      ///< no further step is possible: singular up to rounding
     Aborted = 4,
     NothingToDo = 5 ///< no cells
   };
@@ -350,10 +348,10 @@ public:
 
   ///@{
   /**
-   * Results of the last run: unknowns; steps of the conjugate gradients (0 for Direct); residual
-   * over right-hand side at the end; the strain energy; the error estimate in the energy norm and
-   * relative to the norm of the solution, 0 to 1; the strain that GeneralizedPlaneStrain has
-   * prescribed. 0 before a run and after an error.
+   * Results of the last run: unknowns; steps of the conjugate gradients (0 for Direct); final
+   * residual over right-hand side; the strain energy; the error estimate in the energy norm and
+   * relative to the norm of the solution, 0 to 1; the strain prescribed by GeneralizedPlaneStrain.
+   * 0 before a run and after an error.
    */
   vtkGetMacro(NumberOfUnknowns, vtkIdType);
   vtkGetMacro(NumberOfSolverIterations, int);
@@ -366,8 +364,8 @@ public:
 
   ///@{
   /**
-   * Seconds that the last run spent on assembling, on solving, and on stresses and their recovery.
-   * Not part of any output array.
+   * Seconds of the last run for assembly, for solving, and for stresses and their recovery. Not
+   * part of any output array.
    */
   vtkGetMacro(AssemblySeconds, double);
   vtkGetMacro(SolveSeconds, double);
@@ -377,7 +375,7 @@ public:
   ///@{
   /**
    * The controller that tells whether the body is spread over several processes. Default: the
-   * global controller. Null: this process only. All its processes must update.
+   * global controller. Null: this process only. All its processes must update together.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);

@@ -17,8 +17,8 @@ struct BarePass
   double Minimum = std::numeric_limits<double>::infinity(); ///< worst S
 };
 
-/// Loads the four corners of each cell, computes S and stores it, `repeats` times. Coordinates x y z
-/// of each point, four point ids of each cell.
+/// Loads the four corners of each cell, computes S and stores it, `repeats` times. Coordinates x y
+/// z of each point, four point ids of each cell.
 inline BarePass measureBarePass(
   const std::vector<double>& x, const std::vector<std::int64_t>& ids, int repeats)
 {

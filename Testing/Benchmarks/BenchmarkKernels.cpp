@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nanoseconds of what the optimizer does again and again, one call each, and how many tetrahedra of a bare pass that
-// is. Google Benchmark.
+// Nanoseconds of what the optimizer does again and again, one call each, and how many tetrahedra of
+// a bare pass that is. Google Benchmark.
 //
 //   BenchmarkKernels [options of Google Benchmark]
 //
-// The mesh is a cube of 105 456 tetrahedra with displaced nodes. The bare pass, the unit of the counter `tets`, loads
-// the corners of every cell, computes S and stores it: nothing that looks at each cell once can be faster, the
-// one-pass limit. It is measured first, in the same run, the best of several. The kernels work on 1024 places drawn
-// at random, which stay in the cache, as the surroundings of the worst element do.
+// The mesh is a cube of 105 456 tetrahedra with displaced nodes. The bare pass, the unit of the
+// counter `tets`, loads the corners of every cell, computes S and stores it: nothing that looks at
+// each cell once can be faster, the one-pass limit. It is measured first, in the same run, the best
+// of several. The kernels work on 1024 places drawn at random, which stay in the cache, as the
+// surroundings of the worst element do.
 #include "../Core/TestMeshes.h"
 #include "BarePass.h"
 
-#include "Run/Summary.h"
 #include "Operations/Cavity.h"
 #include "Operations/EdgeRemoval.h"
 #include "Operations/FaceRemoval.h"
 #include "Reposition/StarProblem.h"
+#include "Run/Summary.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One run of vtkMeshOptimizeFilter in a process of its own: what it cost and what came out, as one line of JSON. growth.py
-// calls it.
+// One run of vtkMeshOptimizeFilter in a process of its own: what it cost and what came out, as one
+// line of JSON. growth.py calls it.
 //
 //   BenchmarkOptimizeFilter MESH.vtu [quick|default|best] [threads]
 //
-// MESH.vtu holds tetrahedra. Memory is the peak of the process during Update() above what it held just before (the
-// input, VTK and the program), so that the output is counted; it is known on Linux only, elsewhere 0. The bare pass is
-// measured afterwards, so that its arrays are not taken for the filter's.
+// MESH.vtu holds tetrahedra. Memory is the peak of the process during Update() above what it held
+// just before (the input, VTK and the program), so that the output is counted; it is known on Linux
+// only, elsewhere 0. The bare pass is measured afterwards, so that its arrays are not taken for the
+// filter's.
 #include "vtkMeshOptimizeFilter.h"
 
 #include "BarePassOfGrid.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Nanoseconds per element of each measure: value and gradient, in 2D and 3D. Google Benchmark.
-#include "Quality/ElementQuality.h"
 #include "Mesh/Predicates.h"
+#include "Quality/ElementQuality.h"
 
 #include <benchmark/benchmark.h>
 
@@ -75,10 +76,10 @@ void orientations(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(elements.size()));
 }
 
-#define MESHOPT_BENCHMARK(SHAPE)                                                                   \
-  BENCHMARK_TEMPLATE(value, 3, SHAPE<3>);                                                          \
-  BENCHMARK_TEMPLATE(gradient, 3, SHAPE<3>);                                                       \
-  BENCHMARK_TEMPLATE(value, 2, SHAPE<2>);                                                          \
+#define MESHOPT_BENCHMARK(SHAPE)             \
+  BENCHMARK_TEMPLATE(value, 3, SHAPE<3>);    \
+  BENCHMARK_TEMPLATE(gradient, 3, SHAPE<3>); \
+  BENCHMARK_TEMPLATE(value, 2, SHAPE<2>);    \
   BENCHMARK_TEMPLATE(gradient, 2, SHAPE<2>)
 
 MESHOPT_BENCHMARK(MeanEdgeShape);

@@ -1,5 +1,7 @@
-// How much vtkMeshQualityMinMax costs on top of the arithmetic: seconds of a whole update divided by those of one bare
-// pass (load the corners, S of each tetrahedron, store it) over the same grid in the same run, on one thread.
+// SPDX-License-Identifier: BSD-3-Clause
+// How much vtkMeshQualityMinMax costs on top of the arithmetic: seconds of a whole update divided
+// by those of one bare pass (load the corners, S of each tetrahedron, store it) over the same grid
+// in the same run, on one thread.
 //
 //   BenchmarkQualityFilter [millions of tetrahedra] [greatest ratio allowed]
 //

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes in the plane with corners, holes, slits and interfaces, for tests of what the boundary may do.
+// Meshes in the plane with corners, holes, slits and interfaces, for tests of what the boundary may
+// do.
 #ifndef meshopt_Testing_PlaneMeshes_h
 #define meshopt_Testing_PlaneMeshes_h
 

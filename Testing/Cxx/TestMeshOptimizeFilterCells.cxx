@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // vtkMeshOptimizeFilter and what is not a plain mesh of tetrahedra: planes, mixed cells, blocks,
 // precision.
 #include "MeshOptimizeFilterTesting.h"
@@ -13,6 +14,11 @@ using namespace Testing;
 namespace
 {
 
+class MeshOptimizeFilterCells : public BothAlgorithms
+{
+};
+TEST_BOTH_ALGORITHMS(MeshOptimizeFilterCells);
+
 double SignedArea(vtkUnstructuredGrid* grid, vtkIdType cell, int axis)
 {
   const std::vector<vtkIdType> ids = CellPoints(grid, cell);
@@ -22,46 +28,51 @@ double SignedArea(vtkUnstructuredGrid* grid, vtkIdType cell, int axis)
 }
 
 /**
+ * Maps of the unit square into planes.
+ */
+const std::vector<std::function<Point(double, double)>> Planes = {
+  [](double u, double v) {
+    return Point{ { u, v, 0.3 } };
+  },
+  [](double u, double v) {
+    return Point{ { v, u, -1e3 } };
+  }, // clockwise
+  [](double u, double v) {
+    return Point{ { 0.1, u, v } };
+  },
+  [](double u, double v) {
+    return Point{ { u, 2.0, v } };
+  },
+  [](double u, double v) {
+    return Point{ { u, v, 0.5 * u - 0.7 * v + 3.0 } };
+  },
+  [](double u, double v) {
+    return Point{ { u + v, u - v, 1e4 + u } };
+  },
+};
+
+/**
  * Triangles in any plane; the sense of rotation of the input is kept.
  */
-void TestPlanes()
+TEST_P(MeshOptimizeFilterCells, TrianglesInAnyPlaneGetBetterAndTurnAsBefore)
 {
-  using Map = std::function<Point(double, double)>;
-  const std::vector<Map> maps = {
-    [](double u, double v) {
-      return Point{ { u, v, 0.3 } };
-    },
-    [](double u, double v) {
-      return Point{ { v, u, -1e3 } };
-    }, // clockwise
-    [](double u, double v) {
-      return Point{ { 0.1, u, v } };
-    },
-    [](double u, double v) {
-      return Point{ { u, 2.0, v } };
-    },
-    [](double u, double v) {
-      return Point{ { u, v, 0.5 * u - 0.7 * v + 3.0 } };
-    },
-    [](double u, double v) {
-      return Point{ { u + v, u - v, 1e4 + u } };
-    },
-  };
   std::vector<double> reached;
-  for (const Map& map : maps)
+  for (std::size_t k = 0; k < Planes.size(); ++k)
   {
-    Grid input = MakeSquare(8, 0.35, map);
-    OptimizeFilter filter;
+    SCOPED_TRACE("plane " + std::to_string(k));
+    Grid input = MakeSquare(8, 0.35, Planes[k]);
+    OptimizeFilter filter(GetParam());
     Messages messages(filter);
     filter->SetInputData(input);
     filter->Update();
     vtkUnstructuredGrid* output = filter->GetOutput();
-    CHECK(messages.Errors.empty() && messages.Warnings.empty());
-    CHECK(filter->GetNumberOfOperations() > 0);
-    CHECK(filter->GetWorstQualityAfter() > filter->GetWorstQualityBefore() + 0.05);
-    CHECK(
-      MinimumOf(output->GetCellData()->GetArray("MeshQuality")) == filter->GetWorstQualityAfter());
-    CHECK(KeptFacets(input) == KeptFacets(output));
+    EXPECT_EQ(messages.Errors, NoMessages);
+    EXPECT_EQ(messages.Warnings, NoMessages);
+    EXPECT_GT(filter->GetNumberOfOperations(), 0);
+    EXPECT_GT(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore() + 0.05);
+    EXPECT_EQ(
+      MinimumOf(output->GetCellData()->GetArray("MeshQuality")), filter->GetWorstQualityAfter());
+    EXPECT_TRUE(SameFacets(KeptFacets(input), KeptFacets(output)));
     reached.push_back(filter->GetWorstQualityAfter());
 
     // In the plane, and turning as before. (Every plane here has an area seen along one axis.)
@@ -77,63 +88,70 @@ void TestPlanes()
     }
     for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
     {
-      CHECK(SignedArea(output, c, axis) * before > 0.0);
+      EXPECT_GT(SignedArea(output, c, axis) * before, 0.0);
       after += SignedArea(output, c, axis);
     }
-    CHECK(std::abs(after - before) < 1e-11 * std::abs(before));
+    EXPECT_NEAR(after, before, 1e-11 * std::abs(before));
   }
   // The first four are the same square, seen the same way or from behind.
   for (int i = 1; i < 4; ++i)
   {
-    CHECK(std::abs(reached[i] - reached[0]) < 0.02);
+    EXPECT_NEAR(reached[i], reached[0], 0.02) << "plane " << i;
   }
 }
 
 /**
  * The out of plane coordinate of moved points is exact where the plane is parallel to two axes.
  */
-void TestFlatPlaneIsExact()
+TEST_P(MeshOptimizeFilterCells, PlaneParallelToTwoAxesIsExact)
 {
   Grid input = MakeSquare(6, 0.35, [](double u, double v) { return Point{ { u, 0.1, v } }; });
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   filter->SetInputData(input);
   filter->Update();
   for (vtkIdType p = 0; p < filter->GetOutput()->GetNumberOfPoints(); ++p)
   {
-    CHECK(GetPoint(filter->GetOutput(), p)[1] == 0.1);
+    EXPECT_EQ(GetPoint(filter->GetOutput(), p)[1], 0.1);
   }
+}
+
+/**
+ * A square of small triangles and a larger one beside it.
+ */
+Grid MakeSquareWithLargeTriangle(bool isReversed)
+{
+  Grid grid = MakeSquare(8, 0.2, [](double u, double v) { return Point{ { u, v, u + v } }; });
+  const vtkIdType p = grid->GetPoints()->InsertNextPoint(-3, 0, -3);
+  AddCell(grid, VTK_TRIANGLE, { isReversed ? 9 : 0, isReversed ? 0 : 9, p });
+  return grid;
 }
 
 /**
  * One large triangle that is numbered against all others is the one that is renumbered.
  */
-void TestLargeReversedTriangle()
+TEST_P(MeshOptimizeFilterCells, LargeReversedTriangleIsRenumberedWithAWarning)
 {
-  Grid input = MakeSquare(8, 0.2, [](double u, double v) { return Point{ { u, v, u + v } }; });
-  const vtkIdType p = input->GetPoints()->InsertNextPoint(-3, 0, -3);
-  AddCell(input, VTK_TRIANGLE, { 0, 9, p });
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   Messages messages(filter);
-  filter->SetInputData(input);
+  const auto countReoriented = [&]()
+  {
+    vtkFieldData* fields = filter->GetOutput()->GetFieldData();
+    return fields->GetArray("NumberOfReorientedCells")->GetComponent(0, 0);
+  };
+  filter->SetInputData(MakeSquareWithLargeTriangle(false));
   filter->Update();
-  CHECK(
-    filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) ==
-    0);
-  Grid reversed = MakeSquare(8, 0.2, [](double u, double v) { return Point{ { u, v, u + v } }; });
-  reversed->GetPoints()->InsertNextPoint(-3, 0, -3);
-  AddCell(reversed, VTK_TRIANGLE, { 9, 0, p });
-  filter->SetInputData(reversed);
+  EXPECT_EQ(countReoriented(), 0);
+  filter->SetInputData(MakeSquareWithLargeTriangle(true));
   filter->Update();
-  CHECK(
-    filter->GetOutput()->GetFieldData()->GetArray("NumberOfReorientedCells")->GetComponent(0, 0) ==
-    1);
-  CHECK(messages.Errors.empty() && messages.Warnings.size() == 1);
+  EXPECT_EQ(countReoriented(), 1);
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(messages.Warnings.size(), 1u);
 }
 
 /**
  * In the plane, lines are kept as edges and quads stay.
  */
-void TestLinesInPlane()
+TEST_P(MeshOptimizeFilterCells, LinesInThePlaneAreKeptAsEdges)
 {
   Grid input = MakeSquare(8, 0.0,
     [](double u, double v) {
@@ -145,7 +163,7 @@ void TestLinesInPlane()
     AddCell(input, VTK_LINE, { 10 * j, 10 * j + 10 });
     wanted.insert({ GetPoint(input, 10 * j), GetPoint(input, 10 * j + 10) });
   }
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   filter->SetInputData(input);
   filter->SetTargetQuality(1.0);
   const auto countEdges = [&]()
@@ -168,17 +186,17 @@ void TestLinesInPlane()
     return found.size();
   };
   filter->Update();
-  CHECK(filter->GetNumberOfOperations() > 0);
-  CHECK(countEdges() == wanted.size());
-  CHECK(filter->GetOutput()->GetCellType(filter->GetOutput()->GetNumberOfCells() - 1) !=
-    VTK_EMPTY_CELL);
+  EXPECT_GT(filter->GetNumberOfOperations(), 0);
+  EXPECT_EQ(countEdges(), wanted.size());
+  EXPECT_NE(
+    filter->GetOutput()->GetCellType(filter->GetOutput()->GetNumberOfCells() - 1), VTK_EMPTY_CELL);
   // Without the lines they go: the check above can fail.
   filter->SetInputData(MakeSquare(8, 0.0,
     [](double u, double v) {
       return Point{ { u, v + 0.3 * u, 0 } };
     }));
   filter->Update();
-  CHECK(countEdges() < wanted.size());
+  EXPECT_LT(countEdges(), wanted.size());
 }
 
 /**
@@ -270,10 +288,11 @@ bool HasInTetrahedra(vtkUnstructuredGrid* grid, const std::vector<Point>& simple
   return false;
 }
 
-void TestMixedCells()
+TEST_P(MeshOptimizeFilterCells, OtherCellsAreKeptAmongTetrahedra)
 {
   Grid input = MixedBox();
-  CHECK(HasInTetrahedra(input, Corners(input, 1)) && HasInTetrahedra(input, Corners(input, 2)));
+  EXPECT_TRUE(HasInTetrahedra(input, Corners(input, 1)));
+  EXPECT_TRUE(HasInTetrahedra(input, Corners(input, 2)));
   vtkNew<vtkIntArray> id;
   id->SetName("id");
   for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
@@ -281,17 +300,18 @@ void TestMixedCells()
     id->InsertNextValue(static_cast<int>(c));
   }
   input->GetCellData()->AddArray(id);
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   Messages messages(filter);
   filter->SetInputData(input);
   filter->SetTargetQuality(1.0);
   filter->Update();
   vtkUnstructuredGrid* output = filter->GetOutput();
-  CHECK(messages.Errors.empty() && messages.Warnings.empty());
-  CHECK(filter->GetNumberOfOperations() > 0);
-  CHECK(Others(input) == Others(output));
-  CHECK(HasInTetrahedra(output, Corners(input, 1))); // the edge
-  CHECK(HasInTetrahedra(output, Corners(input, 2))); // the face
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(messages.Warnings, NoMessages);
+  EXPECT_GT(filter->GetNumberOfOperations(), 0);
+  EXPECT_EQ(Others(input), Others(output));
+  EXPECT_TRUE(HasInTetrahedra(output, Corners(input, 1))); // the edge
+  EXPECT_TRUE(HasInTetrahedra(output, Corners(input, 2))); // the face
 
   vtkNew<vtkIdList> before, after;
   for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
@@ -299,22 +319,23 @@ void TestMixedCells()
     const bool isOther = output->GetCellType(c) != VTK_TETRA;
     const vtkIdType source = static_cast<vtkIdType>(
       output->GetCellData()->GetArray("id")->GetComponent(c, 0));
-    CHECK(output->GetCellType(c) == input->GetCellType(source));
-    CHECK(
-      isOther == std::isnan(output->GetCellData()->GetArray("MeshQuality")->GetComponent(c, 0)));
+    EXPECT_EQ(output->GetCellType(c), input->GetCellType(source));
+    EXPECT_EQ(
+      isOther, std::isnan(output->GetCellData()->GetArray("MeshQuality")->GetComponent(c, 0)));
     if (output->GetCellType(c) == VTK_POLYHEDRON)
     {
       output->GetFaceStream(c, after);
       input->GetFaceStream(source, before);
     }
   }
-  CHECK(before->GetNumberOfIds() == 17 && after->GetNumberOfIds() == 17);
+  ASSERT_EQ(before->GetNumberOfIds(), 17); // four faces: 4 * (1 + 3), and their number
+  ASSERT_EQ(after->GetNumberOfIds(), 17);
   for (vtkIdType face = 0; face < 4; ++face)
   {
-    for (vtkIdType k = 2; k < 5 && after->GetNumberOfIds() == 17; ++k)
+    for (vtkIdType k = 2; k < 5; ++k)
     {
-      CHECK(GetPoint(output, after->GetId(4 * face + k)) ==
-        GetPoint(input, before->GetId(4 * face + k)));
+      EXPECT_EQ(
+        GetPoint(output, after->GetId(4 * face + k)), GetPoint(input, before->GetId(4 * face + k)));
     }
   }
 
@@ -322,153 +343,157 @@ void TestMixedCells()
   Grid bare = MakeBox(4, 0.28);
   filter->SetInputData(bare);
   filter->Update();
-  CHECK(!HasInTetrahedra(filter->GetOutput(), Corners(input, 1)) ||
+  EXPECT_TRUE(!HasInTetrahedra(filter->GetOutput(), Corners(input, 1)) ||
     !HasInTetrahedra(filter->GetOutput(), Corners(input, 2)));
 }
 
 /**
- * Hexahedra with triangles on them: nothing to optimize, nothing changes, a warning says so.
- * Quadratic tetrahedra: the same.
+ * Hexahedra with triangles on them: nothing changes, and a warning says so.
  */
-void TestNothingToOptimize()
+TEST_P(MeshOptimizeFilterCells, HexahedraAreLeftWithAWarning)
 {
-  Grid hexahedra = MakeGrid({});
-  hexahedra->GetPoints()->DeepCopy(MakeBox(1, 0)->GetPoints());
-  AddCell(hexahedra, VTK_HEXAHEDRON, { 0, 1, 3, 2, 4, 5, 7, 6 });
-  AddCell(hexahedra, VTK_TRIANGLE, { 0, 1, 3 });
-  AddCell(hexahedra, VTK_TRIANGLE, { 0, 4, 5 }); // not in one plane: no matter
-  OptimizeFilter filter;
+  Grid input = MakeGrid({});
+  input->GetPoints()->DeepCopy(MakeBox(1, 0)->GetPoints());
+  AddCell(input, VTK_HEXAHEDRON, { 0, 1, 3, 2, 4, 5, 7, 6 });
+  AddCell(input, VTK_TRIANGLE, { 0, 1, 3 });
+  AddCell(input, VTK_TRIANGLE, { 0, 4, 5 }); // not in one plane: no matter
+  OptimizeFilter filter(GetParam());
   Messages messages(filter);
-  filter->SetInputData(hexahedra);
+  filter->SetInputData(input);
   filter->Update();
-  CHECK(messages.Errors.empty() && messages.Warnings.size() == 1);
-  CHECK(messages.Warnings[0].find("of the 3 cells 2 are triangles") != std::string::npos);
-  CHECK(filter->GetStopReason() == vtkMeshOptimizeFilter::NothingToDo);
-  CHECK(Others(hexahedra) == Others(filter->GetOutput()));
-  CHECK(
+  EXPECT_EQ(messages.Errors, NoMessages);
+  ASSERT_EQ(messages.Warnings.size(), 1u);
+  EXPECT_TRUE(Says(messages.Warnings[0], "of the 3 cells 2 are triangles"));
+  EXPECT_EQ(filter->GetStopReason(), vtkMeshOptimizeFilter::NothingToDo);
+  EXPECT_EQ(Others(input), Others(filter->GetOutput()));
+  EXPECT_TRUE(
     std::isnan(filter->GetOutput()->GetCellData()->GetArray("MeshQuality")->GetComponent(0, 0)));
+}
 
-  Grid quadratic = MakeBox(3, 0.28);
+TEST_P(MeshOptimizeFilterCells, QuadraticTetrahedraAreLeftWithAWarning)
+{
+  Grid input = MakeBox(3, 0.28);
   for (int k = 0; k < 10; ++k)
   {
-    quadratic->GetPoints()->InsertNextPoint(2 + (k == 1), 2 + (k == 2), 2 + (k == 3));
+    input->GetPoints()->InsertNextPoint(2 + (k == 1), 2 + (k == 2), 2 + (k == 3));
   }
   const vtkIdType p = 64;
-  AddCell(quadratic, VTK_QUADRATIC_TETRA,
+  AddCell(input, VTK_QUADRATIC_TETRA,
     { p, p + 1, p + 2, p + 3, p + 4, p + 5, p + 6, p + 7, p + 8, p + 9 });
-  filter->SetInputData(quadratic);
+  OptimizeFilter filter(GetParam());
+  Messages messages(filter);
+  filter->SetInputData(input);
   filter->Update();
-  CHECK(messages.Errors.empty());
-  CHECK(
-    messages.Warnings.size() == 2 && messages.Warnings[1].find("1 quadratic") != std::string::npos);
-  CHECK(Others(quadratic) == Others(filter->GetOutput()));
-  CHECK(filter->GetNumberOfOperations() > 0); // the linear ones were optimized
+  EXPECT_EQ(messages.Errors, NoMessages);
+  ASSERT_EQ(messages.Warnings.size(), 1u);
+  EXPECT_TRUE(Says(messages.Warnings[0], "1 quadratic"));
+  EXPECT_EQ(Others(input), Others(filter->GetOutput()));
+  EXPECT_GT(filter->GetNumberOfOperations(), 0); // the linear ones were optimized
 }
 
 /**
  * Single precision: double where something moved, with the surface at the very same places.
  */
-void TestPrecision()
+TEST_P(MeshOptimizeFilterCells, SinglePrecisionBecomesDoubleWhereSomethingMoved)
 {
   Grid input = MakeBox(4, 0.28, VTK_FLOAT);
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   filter->SetInputData(input);
   filter->Update();
-  CHECK(filter->GetNumberOfOperations() > 0);
-  CHECK(filter->GetOutput()->GetPoints()->GetDataType() == VTK_DOUBLE);
-  CHECK(KeptFacets(input) == KeptFacets(filter->GetOutput()));
+  EXPECT_GT(filter->GetNumberOfOperations(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_TRUE(SameFacets(KeptFacets(input), KeptFacets(filter->GetOutput())));
   Grid good = MakeBox(1, 0, VTK_FLOAT);
   filter->SetInputData(good);
   filter->Update();
-  CHECK(filter->GetOutput()->GetPoints()->GetDataType() == VTK_FLOAT);
+  EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_FLOAT);
 }
 
-void CheckBlocks(
-  vtkDataObject* input, const std::function<vtkDataObject*(vtkDataObject*, int)>& leaf)
+/**
+ * Block 0 is a volume, 1 a plane, 2 is not optimized: each comes out as if it were alone.
+ */
+void CheckBlocks(int algorithm, vtkDataObject* input,
+  const std::function<vtkDataObject*(vtkDataObject*, int)>& leaf)
 {
-  OptimizeFilter filter;
+  OptimizeFilter filter(algorithm);
   Messages messages(filter);
   filter->SetInputDataObject(input);
   filter->SetSizeArray("");
   filter->Update();
-  CHECK(messages.Errors.empty() && messages.Warnings.empty());
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(messages.Warnings, NoMessages);
   vtkDataObject* output = filter->GetOutputDataObject(0);
-  CHECK(std::string(output->GetClassName()) == input->GetClassName());
+  EXPECT_EQ(std::string(output->GetClassName()), input->GetClassName());
   double worstBefore = 1.0, worstAfter = 1.0;
   vtkIdType operations = 0;
   for (const int i : { 0, 1 })
   {
-    OptimizeFilter alone;
+    SCOPED_TRACE("block " + std::to_string(i));
+    OptimizeFilter alone(algorithm);
     alone->SetInputDataObject(leaf(input, i));
     alone->Update();
     auto grid = vtkUnstructuredGrid::SafeDownCast(leaf(output, i));
-    CHECK(grid && SameGrid(grid, alone->GetOutput()));
+    ASSERT_TRUE(grid);
+    EXPECT_TRUE(SameGrid(grid, alone->GetOutput()));
     worstBefore = std::min(worstBefore, alone->GetWorstQualityBefore());
     worstAfter = std::min(worstAfter, alone->GetWorstQualityAfter());
     operations += alone->GetNumberOfOperations();
   }
-  CHECK(filter->GetWorstQualityBefore() == worstBefore);
-  CHECK(filter->GetWorstQualityAfter() == worstAfter);
-  CHECK(filter->GetNumberOfOperations() == operations && operations > 0);
-  CHECK(vtkPolyData::SafeDownCast(leaf(output, 2)) != nullptr); // passed through
+  EXPECT_EQ(filter->GetWorstQualityBefore(), worstBefore);
+  EXPECT_EQ(filter->GetWorstQualityAfter(), worstAfter);
+  EXPECT_EQ(filter->GetNumberOfOperations(), operations);
+  EXPECT_GT(operations, 0);
+  EXPECT_NE(vtkPolyData::SafeDownCast(leaf(output, 2)), nullptr); // passed through
   auto history = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
   std::set<int> blocks;
   for (vtkIdType row = 0; row < history->GetNumberOfRows(); ++row)
   {
     blocks.insert(history->GetValueByName(row, "Block").ToInt());
   }
-  CHECK(blocks.size() == 2);
+  EXPECT_EQ(blocks.size(), 2u);
 
   // And back to a plain grid with the same filter.
   filter->SetInputDataObject(leaf(input, 0));
   filter->Update();
-  CHECK(filter->GetOutput() != nullptr && filter->GetOutput()->GetNumberOfCells() > 0);
+  ASSERT_NE(filter->GetOutput(), nullptr);
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
-void TestBlocks()
+struct Blocks
 {
-  Grid volume = MakeBox(4, 0.28);
-  Grid plane = MakeSquare(6, 0.35, [](double u, double v) { return Point{ { u, v, 0 } }; });
-  auto other = vtkSmartPointer<vtkPolyData>::New();
+  Grid Volume = MakeBox(4, 0.28);
+  Grid Plane = MakeSquare(6, 0.35, [](double u, double v) { return Point{ { u, v, 0 } }; });
+  vtkNew<vtkPolyData> Other;
+};
 
+TEST_P(MeshOptimizeFilterCells, BlocksAreOptimizedOneByOne)
+{
+  Blocks parts;
   vtkNew<vtkMultiBlockDataSet> inner, blocks;
-  inner->SetBlock(0, plane);
-  blocks->SetBlock(0, volume);
+  inner->SetBlock(0, parts.Plane);
+  blocks->SetBlock(0, parts.Volume);
   blocks->SetBlock(1, inner);
-  blocks->SetBlock(2, other);
+  blocks->SetBlock(2, parts.Other);
   blocks->SetBlock(3, nullptr);
-  CheckBlocks(blocks,
+  CheckBlocks(GetParam(), blocks,
     [](vtkDataObject* tree, int i)
     {
       auto multi = vtkMultiBlockDataSet::SafeDownCast(tree);
       return i == 1 ? vtkMultiBlockDataSet::SafeDownCast(multi->GetBlock(1))->GetBlock(0)
                     : multi->GetBlock(i);
     });
+}
 
+TEST_P(MeshOptimizeFilterCells, PartitionsAreOptimizedOneByOne)
+{
+  Blocks parts;
   vtkNew<vtkPartitionedDataSetCollection> collection;
-  collection->SetPartition(0, 0, volume);
-  collection->SetPartition(0, 1, plane);
-  collection->SetPartition(1, 0, other);
-  CheckBlocks(collection,
+  collection->SetPartition(0, 0, parts.Volume);
+  collection->SetPartition(0, 1, parts.Plane);
+  collection->SetPartition(1, 0, parts.Other);
+  CheckBlocks(GetParam(), collection,
     [](vtkDataObject* tree, int i) -> vtkDataObject*
     { return vtkPartitionedDataSetCollection::SafeDownCast(tree)->GetPartition(i / 2, i % 2); });
 }
 
 } // namespace
-
-int main(int, char*[])
-{
-  ForBothAlgorithms(
-    []()
-    {
-      TestPlanes();
-      TestFlatPlaneIsExact();
-      TestLargeReversedTriangle();
-      TestLinesInPlane();
-      TestMixedCells();
-      TestNothingToOptimize();
-      TestPrecision();
-      TestBlocks();
-    });
-  return Testing::Failures;
-}

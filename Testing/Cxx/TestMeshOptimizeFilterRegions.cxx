@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // vtkMeshOptimizeFilter on meshes of several regions and components: interfaces where more than two
 // regions meet, regions inside others, bodies that touch in a point or along an edge.
 #include "MeshOptimizeFilterTesting.h"
@@ -101,7 +102,7 @@ std::map<int, RegionFigures> Measure(vtkUnstructuredGrid* grid)
   { return leader[c] == c ? c : leader[c] = find(leader[c]); };
   for (const auto& facet : FacetToCells(grid))
   {
-    CHECK(facet.second.size() <= 2);
+    EXPECT_LE(facet.second.size(), 2u);
     for (const vtkIdType c : facet.second)
     {
       faces[RegionOf(grid, c)].insert(facet.first);
@@ -124,93 +125,133 @@ std::map<int, RegionFigures> Measure(vtkUnstructuredGrid* grid)
   return figures;
 }
 
-/**
- * Optimizes and checks all that must hold; returns the gain of the worst quality.
- */
-double Check(vtkUnstructuredGrid* input, double target = 0.4)
+class MeshOptimizeFilterRegions : public BothAlgorithms
 {
-  OptimizeFilter filter;
-  Messages messages(filter);
-  filter->SetInputData(input);
-  filter->SetRegionArray(Name);
-  filter->SetTargetQuality(target);
-  filter->Update();
-  vtkUnstructuredGrid* output = filter->GetOutput();
-  CHECK(messages.Errors.empty() && messages.Warnings.empty());
-  CHECK(filter->GetWorstQualityAfter() <= filter->GetQualityBound());
-  CHECK(
-    filter->GetWorstQualityAfter() == MinimumOf(output->GetCellData()->GetArray("MeshQuality")));
-  CHECK(KeptFacets(input, Name) == KeptFacets(output, Name));
-  const std::map<int, RegionFigures> before = Measure(input), after = Measure(output);
-  CHECK(before.size() == after.size());
-  for (const auto& region : before)
+protected:
+  /**
+   * Optimizes and checks all that must hold; returns the gain of the worst quality.
+   */
+  double Gain(vtkUnstructuredGrid* input)
   {
-    const auto found = after.find(region.first);
-    CHECK(found != after.end());
-    if (found != after.end())
+    OptimizeFilter filter(GetParam());
+    Messages messages(filter);
+    filter->SetInputData(input);
+    filter->SetRegionArray(Name);
+    filter->SetTargetQuality(0.4);
+    filter->Update();
+    vtkUnstructuredGrid* output = filter->GetOutput();
+    EXPECT_EQ(messages.Errors, NoMessages);
+    EXPECT_EQ(messages.Warnings, NoMessages);
+    EXPECT_LE(filter->GetWorstQualityAfter(), filter->GetQualityBound());
+    EXPECT_EQ(
+      filter->GetWorstQualityAfter(), MinimumOf(output->GetCellData()->GetArray("MeshQuality")));
+    EXPECT_TRUE(SameFacets(KeptFacets(input, Name), KeptFacets(output, Name)));
+    const std::map<int, RegionFigures> before = Measure(input), after = Measure(output);
+    EXPECT_EQ(before.size(), after.size());
+    for (const auto& region : before)
     {
-      CHECK(std::abs(found->second.Volume - region.second.Volume) < 1e-12);
-      CHECK(found->second.Parts == region.second.Parts);
-      CHECK(found->second.Euler == region.second.Euler);
+      SCOPED_TRACE("region " + std::to_string(region.first));
+      const auto found = after.find(region.first);
+      EXPECT_TRUE(found != after.end());
+      if (found != after.end())
+      {
+        EXPECT_NEAR(found->second.Volume, region.second.Volume, 1e-12);
+        EXPECT_EQ(found->second.Parts, region.second.Parts);
+        EXPECT_EQ(found->second.Euler, region.second.Euler);
+      }
     }
+    for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+    {
+      EXPECT_GT(SignedVolume(output, c), 0.0);
+    }
+    return filter->GetWorstQualityAfter() - filter->GetWorstQualityBefore();
   }
-  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+
+  double Gain(int n, double jitter, const Label& label)
   {
-    CHECK(SignedVolume(output, c) > 0.0);
+    return Gain(MakeRegions(n, jitter, label));
   }
-  return filter->GetWorstQualityAfter() - filter->GetWorstQualityBefore();
-}
+};
+TEST_BOTH_ALGORITHMS(MeshOptimizeFilterRegions);
 
 //------------------------------------------------------------------------------
-void TestManyRegionsAtAnEdge()
+TEST_P(MeshOptimizeFilterRegions, ThreeAtALine)
 {
-  // Three, then four at the line in the middle; eight, two each with one number, at all edges.
-  CHECK(Check(MakeRegions(6, 0.25, [](int i, int j, int) { return j >= 3 ? 2 : i >= 3; })) > 0.05);
-  CHECK(
-    Check(MakeRegions(6, 0.25, [](int i, int j, int) { return 10 * (i >= 3) + (j >= 3); })) > 0.05);
-  CHECK(Check(MakeRegions(6, 0.25,
-          [](int i, int j, int k) { return ((i >= 3) + (j >= 3) + (k >= 3)) % 2; })) > 0.05);
+  EXPECT_GT(Gain(6, 0.25, [](int i, int j, int) { return j >= 3 ? 2 : i >= 3; }), 0.05);
 }
 
-void TestRegionInsideAnother()
+TEST_P(MeshOptimizeFilterRegions, FourAtALine)
 {
-  const auto inside = [](int i) { return i >= 2 && i < 5; };
-  CHECK(
-    Check(MakeRegions(7, 0.25,
-      [&](int i, int j, int k) { return inside(i) && inside(j) && inside(k) ? 5 : 1; })) > 0.05);
-  // A shell round a hole, and a grain that touches the outer surface.
-  CHECK(Check(MakeRegions(7, 0.25,
-          [&](int i, int j, int k)
-          {
-            return i == 3 && j == 3 && k == 3       ? -1
-              : inside(i) && inside(j) && inside(k) ? 5
-              : i < 2 && j < 3 && k < 3             ? 7
-                                                    : 1;
-          })) > 0.02);
+  EXPECT_GT(Gain(6, 0.25, [](int i, int j, int) { return 10 * (i >= 3) + (j >= 3); }), 0.05);
 }
 
-void TestComponents()
+TEST_P(MeshOptimizeFilterRegions, EightPartsOfTwoRegionsAtAPoint)
 {
-  // Two apart; two that touch along an edge; two in a point; two in a point, with a region between.
-  CHECK(Check(MakeRegions(7, 0.25, [](int i, int, int) { return i == 3 ? -1 : 1; })) > 0.05);
-  CHECK(Check(MakeRegions(
-          6, 0.25, [](int i, int j, int) { return (i >= 3) == (j >= 3) ? 1 : -1; })) > 0.05);
-  CHECK(Check(MakeRegions(6, 0.25,
-          [](int i, int j, int k)
-          { return (i >= 3) == (j >= 3) && (j >= 3) == (k >= 3) ? 1 : -1; })) > 0.05);
-  CHECK(Check(MakeRegions(6, 0.25,
-          [](int i, int j, int k) {
-            return (i < 3 && j < 3 && k < 3) || (i >= 3 && j >= 3 && k >= 3) ? 1 : i < 3 ? 2 : -1;
-          })) > 0.05);
+  EXPECT_GT(
+    Gain(6, 0.25, [](int i, int j, int k) { return ((i >= 3) + (j >= 3) + (k >= 3)) % 2; }), 0.05);
+}
+
+bool IsInside(int i) { return i >= 2 && i < 5; }
+
+TEST_P(MeshOptimizeFilterRegions, OneInsideAnother)
+{
+  EXPECT_GT(
+    Gain(7, 0.25,
+      [](int i, int j, int k) { return IsInside(i) && IsInside(j) && IsInside(k) ? 5 : 1; }),
+    0.05);
+}
+
+TEST_P(MeshOptimizeFilterRegions, ShellRoundAHoleAndAGrainAtTheSurface)
+{
+  EXPECT_GT(Gain(7, 0.25,
+              [](int i, int j, int k)
+              {
+                return i == 3 && j == 3 && k == 3             ? -1
+                  : IsInside(i) && IsInside(j) && IsInside(k) ? 5
+                  : i < 2 && j < 3 && k < 3                   ? 7
+                                                              : 1;
+              }),
+    0.02);
+}
+
+TEST_P(MeshOptimizeFilterRegions, TwoPartsApart)
+{
+  EXPECT_GT(Gain(7, 0.25, [](int i, int, int) { return i == 3 ? -1 : 1; }), 0.05);
+}
+
+TEST_P(MeshOptimizeFilterRegions, TwoPartsThatTouchAlongAnEdge)
+{
+  EXPECT_GT(Gain(6, 0.25, [](int i, int j, int) { return (i >= 3) == (j >= 3) ? 1 : -1; }), 0.05);
+}
+
+TEST_P(MeshOptimizeFilterRegions, TwoPartsThatTouchInAPoint)
+{
+  EXPECT_GT(
+    Gain(6, 0.25,
+      [](int i, int j, int k) { return (i >= 3) == (j >= 3) && (j >= 3) == (k >= 3) ? 1 : -1; }),
+    0.05);
+}
+
+TEST_P(MeshOptimizeFilterRegions, TwoPartsThatTouchInAPointWithARegionBetween)
+{
+  EXPECT_GT(
+    Gain(6, 0.25,
+      [](int i, int j, int k) {
+        return (i < 3 && j < 3 && k < 3) || (i >= 3 && j >= 3 && k >= 3) ? 1 : i < 3 ? 2 : -1;
+      }),
+    0.05);
 }
 
 /**
- * Hardly anything may change: every cube, or every cell, is a region of its own or of its
- * neighbours' neighbours.
+ * Hardly anything may change: every cube is a region of its neighbours' neighbours.
  */
-void TestManyRegions()
+TEST_P(MeshOptimizeFilterRegions, EveryCubeDiffersFromItsNeighbours)
 {
-  CHECK(Check(MakeRegions(5, 0.2, [](int i, int j, int k) { return (i + j + k) % 2; })) >= 0.0);
+  EXPECT_GE(Gain(5, 0.2, [](int i, int j, int k) { return (i + j + k) % 2; }), 0.0);
+}
+
+TEST_P(MeshOptimizeFilterRegions, EveryCellIsOfARegionByChance)
+{
   Grid cells = MakeRegions(3, 0.2, [](int, int, int) { return 0; });
   vtkNew<vtkIntArray> region;
   region->SetName(Name);
@@ -219,14 +260,14 @@ void TestManyRegions()
     region->InsertNextValue(static_cast<int>(c * 7919 % 5));
   }
   cells->GetCellData()->AddArray(region);
-  CHECK(Check(cells) >= 0.0);
+  EXPECT_GE(Gain(cells), 0.0);
 }
 
 /**
  * Two regions that overlap in nothing but touch all over with points of their own: a contact, no
  * common facet. Both sides stay where they are.
  */
-void TestContact()
+TEST_P(MeshOptimizeFilterRegions, BothSidesOfAContactStay)
 {
   Grid lower = MakeBox(4, 0.25), upper = MakeBox(4, 0.25);
   Grid grid = MakeGrid({});
@@ -256,13 +297,13 @@ void TestContact()
   }
   grid->GetCellData()->AddArray(region);
   // By coordinates each contact facet is one of two regions: KeptFacets() holds it.
-  CHECK(Check(grid) > 0.05);
+  EXPECT_GT(Gain(grid), 0.05);
 }
 
 /**
  * Three regions of a plane that meet in a point, one of them in two parts.
  */
-void TestPlane()
+TEST_P(MeshOptimizeFilterRegions, InThePlaneTheyKeepTheirAreas)
 {
   Grid input = MakeSquare(12, 0.3, [](double u, double v) { return Point{ { u, v, 0 } }; });
   vtkNew<vtkIntArray> region;
@@ -282,39 +323,25 @@ void TestPlane()
     area[value] += areaOf(input, c);
   }
   input->GetCellData()->AddArray(region);
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   Messages messages(filter);
   filter->SetInputData(input);
   filter->SetRegionArray(Name);
   filter->Update();
-  CHECK(messages.Errors.empty() && messages.Warnings.empty());
-  CHECK(filter->GetWorstQualityAfter() > filter->GetWorstQualityBefore() + 0.05);
-  CHECK(KeptFacets(input, Name) == KeptFacets(filter->GetOutput(), Name));
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(messages.Warnings, NoMessages);
+  EXPECT_GT(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore() + 0.05);
+  EXPECT_TRUE(SameFacets(KeptFacets(input, Name), KeptFacets(filter->GetOutput(), Name)));
   for (vtkIdType c = 0; c < filter->GetOutput()->GetNumberOfCells(); ++c)
   {
     const double a = areaOf(filter->GetOutput(), c);
-    CHECK(a > 0.0);
+    EXPECT_GT(a, 0.0);
     area[RegionOf(filter->GetOutput(), c)] -= a;
   }
   for (const auto& left : area)
   {
-    CHECK(std::abs(left.second) < 1e-13);
+    EXPECT_NEAR(left.second, 0.0, 1e-13) << "region " << left.first;
   }
 }
 
 } // namespace
-
-int main(int, char*[])
-{
-  ForBothAlgorithms(
-    []()
-    {
-      TestManyRegionsAtAnEdge();
-      TestRegionInsideAnother();
-      TestComponents();
-      TestManyRegions();
-      TestContact();
-      TestPlane();
-    });
-  return Testing::Failures;
-}

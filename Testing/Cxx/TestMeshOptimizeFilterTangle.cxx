@@ -1,5 +1,6 @@
-// Inverted and flat cells in vtkMeshOptimizeFilter: repaired where the surface allows it; where not,
-// one warning says which cells and why.
+// SPDX-License-Identifier: BSD-3-Clause
+// Inverted and flat cells in vtkMeshOptimizeFilter: repaired where the surface allows it; where
+// not, one warning says which cells and why.
 #include "MeshOptimizeFilterTesting.h"
 
 #include "vtkIntArray.h"
@@ -10,6 +11,11 @@ using namespace Testing;
 
 namespace
 {
+
+class MeshOptimizeFilterTangle : public BothAlgorithms
+{
+};
+TEST_BOTH_ALGORITHMS(MeshOptimizeFilterTangle);
 
 int CountInverted(vtkUnstructuredGrid* grid)
 {
@@ -38,69 +44,64 @@ void AddCellIds(vtkUnstructuredGrid* grid)
   grid->GetCellData()->AddArray(ids);
 }
 
-double Figure(vtkUnstructuredGrid* grid, const char* name)
-{
-  vtkDataArray* array = grid->GetFieldData()->GetArray(name);
-  return array ? array->GetComponent(0, 0) : -1.0;
-}
-
 /**
  * Runs, and checks what is reported against the volumes of the output. Returns the warning.
  */
-std::string Run(vtkMeshOptimizeFilter* filter, vtkUnstructuredGrid* input)
+std::string WarningOf(vtkMeshOptimizeFilter* filter, vtkUnstructuredGrid* input)
 {
   Messages messages(filter);
   filter->SetInputData(input);
   filter->Update();
   vtkUnstructuredGrid* output = filter->GetOutput();
-  CHECK(messages.Errors.empty());
-  CHECK(filter->GetNumberOfInvertedCellsBefore() == CountInverted(input));
-  CHECK(filter->GetNumberOfInvertedCellsAfter() == CountInverted(output));
-  CHECK(filter->GetWorstQualityAfter() >= filter->GetWorstQualityBefore());
-  CHECK(Figure(output, "NumberOfInvertedCellsBefore") == filter->GetNumberOfInvertedCellsBefore());
-  CHECK(Figure(output, "NumberOfInvertedCellsAfter") == filter->GetNumberOfInvertedCellsAfter());
-  CHECK(KeptFacets(input) == KeptFacets(output));
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(filter->GetNumberOfInvertedCellsBefore(), CountInverted(input));
+  EXPECT_EQ(filter->GetNumberOfInvertedCellsAfter(), CountInverted(output));
+  EXPECT_GE(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore());
+  EXPECT_EQ(
+    Figure(output, "NumberOfInvertedCellsBefore"), filter->GetNumberOfInvertedCellsBefore());
+  EXPECT_EQ(Figure(output, "NumberOfInvertedCellsAfter"), filter->GetNumberOfInvertedCellsAfter());
+  EXPECT_TRUE(SameFacets(KeptFacets(input), KeptFacets(output)));
   const bool left = filter->GetNumberOfInvertedCellsAfter() > 0;
-  CHECK(messages.Warnings.size() == (left ? 1u : 0u));
+  EXPECT_EQ(messages.Warnings.size(), left ? 1u : 0u);
   if (messages.Warnings.empty())
   {
     return {};
   }
   const std::string warning = messages.Warnings[0].substr(messages.Warnings[0].find("): ") + 3);
   std::cout << warning << std::flush;
-  CHECK(warning.find(std::to_string(filter->GetNumberOfInvertedCellsAfter()) + " cell") == 0);
+  EXPECT_EQ(warning.find(std::to_string(filter->GetNumberOfInvertedCellsAfter()) + " cell"), 0u)
+    << warning;
   return warning;
 }
 
-bool Has(const std::string& text, const std::string& part)
+/**
+ * Nothing is left, so nothing is said.
+ */
+TEST_P(MeshOptimizeFilterTangle, OneNodeFarOutOfItsPlaceIsRepaired)
 {
-  return text.find(part) != std::string::npos;
+  Grid input = MakeBox(4, 0.0);
+  Move(input, 62, 0.6, 0.35, 0.2);
+  EXPECT_GT(CountInverted(input), 5);
+  OptimizeFilter filter(GetParam());
+  EXPECT_EQ(WarningOf(filter, input), "");
+  EXPECT_EQ(filter->GetNumberOfInvertedCellsAfter(), 0);
+  EXPECT_GT(filter->GetWorstQualityAfter(), 0.3);
 }
 
-/**
- * A node inside is far out of its place, or all are: nothing is left, nothing is said.
- */
-void TestRepaired()
+TEST_P(MeshOptimizeFilterTangle, AllNodesOutOfTheirPlacesAreRepaired)
 {
-  Grid one = MakeBox(4, 0.0);
-  Move(one, 62, 0.6, 0.35, 0.2);
-  CHECK(CountInverted(one) > 5);
-  OptimizeFilter filter;
-  CHECK(Run(filter, one).empty());
-  CHECK(filter->GetNumberOfInvertedCellsAfter() == 0);
-  CHECK(filter->GetWorstQualityAfter() > 0.3);
-
-  Grid many = MakeBox(5, 0.7);
-  CHECK(CountInverted(many) > 10);
-  CHECK(Run(filter, many).empty());
-  CHECK(filter->GetWorstQualityAfter() > 0.1);
+  Grid input = MakeBox(5, 0.7);
+  EXPECT_GT(CountInverted(input), 10);
+  OptimizeFilter filter(GetParam());
+  EXPECT_EQ(WarningOf(filter, input), "");
+  EXPECT_GT(filter->GetWorstQualityAfter(), 0.1);
 }
 
 /**
  * Nodes thrown about, and the cells that this inverts renumbered: all have a positive volume and
  * lie on each other. The warning says so, nothing is renumbered, and none becomes inverted.
  */
-void TestOverlapIsNamed()
+TEST_P(MeshOptimizeFilterTangle, CellsThatOverlapAreNamed)
 {
   Grid grid = MakeBox(3, 0.9);
   vtkNew<vtkIdList> ids;
@@ -113,18 +114,18 @@ void TestOverlapIsNamed()
       grid->GetCells()->ReplaceCellAtId(c, 4, swapped);
     }
   }
-  CHECK(CountInverted(grid) == 0);
-  OptimizeFilter filter;
+  EXPECT_EQ(CountInverted(grid), 0);
+  OptimizeFilter filter(GetParam());
   Messages messages(filter);
   filter->SetInputData(grid);
   filter->Update();
-  CHECK(messages.Errors.empty());
-  CHECK(messages.Warnings.size() == 1);
-  CHECK(!messages.Warnings.empty() && Has(messages.Warnings[0], "Cells of the input overlap"));
-  CHECK(!messages.Warnings.empty() && Has(messages.Warnings[0], "same side"));
-  CHECK(CountInverted(filter->GetOutput()) == 0);
-  CHECK(filter->GetWorstQualityBefore() > 0.0);
-  CHECK(filter->GetWorstQualityAfter() >= filter->GetWorstQualityBefore());
+  EXPECT_EQ(messages.Errors, NoMessages);
+  ASSERT_EQ(messages.Warnings.size(), 1u);
+  EXPECT_TRUE(Says(messages.Warnings[0], "Cells of the input overlap"));
+  EXPECT_TRUE(Says(messages.Warnings[0], "same side"));
+  EXPECT_EQ(CountInverted(filter->GetOutput()), 0);
+  EXPECT_GT(filter->GetWorstQualityBefore(), 0.0);
+  EXPECT_GE(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore());
 }
 
 /**
@@ -150,99 +151,122 @@ void CheckNames(const std::string& warning, vtkUnstructuredGrid* output)
     ++named;
     if (warning.compare(end, 14, " of the output") == 0)
     {
-      CHECK(SignedVolume(output, id) <= 0.0);
+      EXPECT_LE(SignedVolume(output, id), 0.0) << "cell " << id;
     }
     else
     {
-      CHECK(inverted.count(id) == 1);
+      EXPECT_EQ(inverted.count(id), 1u) << "cell " << id;
     }
   }
-  CHECK(named > 0);
+  EXPECT_GT(named, 0);
 }
 
 /**
- * A node of the upper side is moved along it past the next one, or pushed down through the lower.
+ * A node of the upper side is moved along it past the next one.
  */
-void TestSurfaceAtFault()
-{
-  OptimizeFilter filter;
-  Grid folded = MakeBox(4, 0.0);
-  AddCellIds(folded);
-  Move(folded, 112, 0.33, 0.02, 0.0);
-  const std::string aboutFold = Run(filter, folded);
-  CHECK(filter->GetNumberOfInvertedCellsAfter() > 0);
-  CHECK(Has(aboutFold, "folded onto each other (points of the input ") && Has(aboutFold, "112"));
-  CheckNames(aboutFold, filter->GetOutput());
-
-  Grid crossing = MakeBox(2, 0.0);
-  AddCellIds(crossing);
-  Move(crossing, 22, 0.07, 0.04, -1.2);
-  const std::string aboutCrossing = Run(filter, crossing);
-  CHECK(Has(aboutCrossing, "pass through each other (points of the input "));
-  CHECK(Has(aboutCrossing, "22"));
-  CheckNames(aboutCrossing, filter->GetOutput());
-
-  Grid line = MakeGrid(
-    { { { 0, 0, 0 } }, { { 1, 0, 0 } }, { { 3, 0, 0 } }, { { 0, 1, 0 } }, { { 0, 0, 1 } } });
-  AddCell(line, VTK_TETRA, { 0, 1, 2, 4 });
-  AddCell(line, VTK_TETRA, { 0, 2, 3, 4 });
-  AddCellIds(line);
-  const std::string aboutLine = Run(filter, line);
-  CHECK(Has(aboutLine,
-    "1 with a face without area on the kept surface (points of the input 0 1 2), cell 0."));
-
-  Grid plane = MakeSquare(4, 0.0, [](double u, double v) { return Point{ { u, v, 0 } }; });
-  Move(plane, 22, 0.3, 0.0, 0.0);
-  Messages messages(filter);
-  filter->SetInputData(plane);
-  filter->Update();
-  CHECK(filter->GetNumberOfInvertedCellsAfter() > 0);
-  CHECK(messages.Warnings.size() == 1 &&
-    Has(messages.Warnings[0], "kept edges are folded onto each other") &&
-    Has(messages.Warnings[0], "22"));
-}
-
-/**
- * The surface is sound but nothing may change, or there is no time.
- */
-void TestNotAllowed()
+TEST_P(MeshOptimizeFilterTangle, FoldedSurfaceIsNamed)
 {
   Grid input = MakeBox(4, 0.0);
   AddCellIds(input);
-  Move(input, 62, 0.6, 0.35, 0.2);
+  Move(input, 112, 0.33, 0.02, 0.0);
+  OptimizeFilter filter(GetParam());
+  const std::string warning = WarningOf(filter, input);
+  EXPECT_GT(filter->GetNumberOfInvertedCellsAfter(), 0);
+  EXPECT_TRUE(Says(warning, "folded onto each other (points of the input "));
+  EXPECT_TRUE(Says(warning, "112"));
+  CheckNames(warning, filter->GetOutput());
+}
+
+/**
+ * A node of the upper side is pushed down through the lower one.
+ */
+TEST_P(MeshOptimizeFilterTangle, CrossingSurfaceIsNamed)
+{
+  Grid input = MakeBox(2, 0.0);
+  AddCellIds(input);
+  Move(input, 22, 0.07, 0.04, -1.2);
+  OptimizeFilter filter(GetParam());
+  const std::string warning = WarningOf(filter, input);
+  EXPECT_TRUE(Says(warning, "pass through each other (points of the input "));
+  EXPECT_TRUE(Says(warning, "22"));
+  CheckNames(warning, filter->GetOutput());
+}
+
+TEST_P(MeshOptimizeFilterTangle, SurfaceWithoutAreaIsNamed)
+{
+  Grid input = MakeGrid(
+    { { { 0, 0, 0 } }, { { 1, 0, 0 } }, { { 3, 0, 0 } }, { { 0, 1, 0 } }, { { 0, 0, 1 } } });
+  AddCell(input, VTK_TETRA, { 0, 1, 2, 4 });
+  AddCell(input, VTK_TETRA, { 0, 2, 3, 4 });
+  AddCellIds(input);
+  OptimizeFilter filter(GetParam());
+  EXPECT_TRUE(Says(WarningOf(filter, input),
+    "1 with a face without area on the kept surface (points of the input 0 1 2), cell 0."));
+}
+
+TEST_P(MeshOptimizeFilterTangle, FoldedEdgesInThePlaneAreNamed)
+{
+  Grid input = MakeSquare(4, 0.0, [](double u, double v) { return Point{ { u, v, 0 } }; });
+  Move(input, 22, 0.3, 0.0, 0.0);
+  OptimizeFilter filter(GetParam());
+  Messages messages(filter);
+  filter->SetInputData(input);
+  filter->Update();
+  EXPECT_GT(filter->GetNumberOfInvertedCellsAfter(), 0);
+  ASSERT_EQ(messages.Warnings.size(), 1u);
+  EXPECT_TRUE(Says(messages.Warnings[0], "kept edges are folded onto each other"));
+  EXPECT_TRUE(Says(messages.Warnings[0], "22"));
+}
+
+/**
+ * The surface is sound, a node inside is not.
+ */
+Grid MakeTangled()
+{
+  Grid grid = MakeBox(4, 0.0);
+  AddCellIds(grid);
+  Move(grid, 62, 0.6, 0.35, 0.2);
   vtkNew<vtkUnsignedCharArray> mask;
   mask->SetName("fixed");
-  mask->SetNumberOfValues(input->GetNumberOfPoints());
+  mask->SetNumberOfValues(grid->GetNumberOfPoints());
   mask->Fill(1);
-  input->GetPointData()->AddArray(mask);
-  OptimizeFilter fixed;
-  fixed->SetFixedPointArray("fixed");
-  fixed->ReconnectOff();
-  fixed->InsertNodesOff();
-  fixed->RemoveNodesOff();
-  const std::string aboutFixed = Run(fixed, input);
-  CHECK(Has(aboutFixed, "with no node that may move"));
-  CHECK(Has(aboutFixed, ", ...")); // there are more than five
-  CheckNames(aboutFixed, fixed->GetOutput());
+  grid->GetPointData()->AddArray(mask);
+  return grid;
+}
 
-  OptimizeFilter none;
-  none->MoveNodesOff();
-  none->ReconnectOff();
-  none->InsertNodesOff();
-  none->RemoveNodesOff();
-  CHECK(Has(Run(none, input), "that nothing tried could repair"));
+TEST_P(MeshOptimizeFilterTangle, SaysThatNoNodeMayMove)
+{
+  OptimizeFilter filter(GetParam());
+  filter->SetFixedPointArray("fixed");
+  filter->ReconnectOff();
+  filter->InsertNodesOff();
+  filter->RemoveNodesOff();
+  const std::string warning = WarningOf(filter, MakeTangled());
+  EXPECT_TRUE(Says(warning, "with no node that may move"));
+  EXPECT_TRUE(Says(warning, ", ...")); // there are more than five
+  CheckNames(warning, filter->GetOutput());
+}
 
-  OptimizeFilter hurried;
-  hurried->SetTimeLimit(1e-9);
-  const std::string aboutTime = Run(hurried, input);
-  CHECK(hurried->GetStopReason() == vtkMeshOptimizeFilter::TimeLimitReached);
-  CHECK(aboutTime.empty() || Has(aboutTime, "left because the run was ended early"));
+TEST_P(MeshOptimizeFilterTangle, SaysThatNothingTriedCouldRepair)
+{
+  OptimizeFilter filter(GetParam());
+  ChangeNothing(filter);
+  EXPECT_TRUE(Says(WarningOf(filter, MakeTangled()), "that nothing tried could repair"));
+}
+
+TEST_P(MeshOptimizeFilterTangle, SaysThatTheRunWasEndedEarly)
+{
+  OptimizeFilter filter(GetParam());
+  filter->SetTimeLimit(1e-9);
+  const std::string warning = WarningOf(filter, MakeTangled());
+  EXPECT_EQ(filter->GetStopReason(), vtkMeshOptimizeFilter::TimeLimitReached);
+  EXPECT_TRUE(warning.empty() || Says(warning, "left because the run was ended early")) << warning;
 }
 
 /**
  * All blocks in one warning, each by its index.
  */
-void TestBlocks()
+TEST_P(MeshOptimizeFilterTangle, BlocksAreNamedInOneWarning)
 {
   Grid folded = MakeBox(4, 0.0);
   Move(folded, 112, 0.33, 0.02, 0.0);
@@ -250,29 +274,17 @@ void TestBlocks()
   blocks->SetBlock(0, folded);
   blocks->SetBlock(1, MakeBox(2, 0.1));
   blocks->SetBlock(2, folded);
-  OptimizeFilter filter, alone;
+  OptimizeFilter filter(GetParam()), alone(GetParam());
   Messages messages(filter);
   filter->SetInputDataObject(blocks);
   filter->Update();
-  Run(alone, folded);
-  CHECK(messages.Warnings.size() == 1 && Has(messages.Warnings[0], "Block 1: ") &&
-    !Has(messages.Warnings[0], "Block 2: ") && Has(messages.Warnings[0], "Block 3: "));
-  CHECK(filter->GetNumberOfInvertedCellsBefore() == 2 * alone->GetNumberOfInvertedCellsBefore());
-  CHECK(filter->GetNumberOfInvertedCellsAfter() == 2 * alone->GetNumberOfInvertedCellsAfter());
+  WarningOf(alone, folded);
+  ASSERT_EQ(messages.Warnings.size(), 1u);
+  EXPECT_TRUE(Says(messages.Warnings[0], "Block 1: "));
+  EXPECT_FALSE(Says(messages.Warnings[0], "Block 2: "));
+  EXPECT_TRUE(Says(messages.Warnings[0], "Block 3: "));
+  EXPECT_EQ(filter->GetNumberOfInvertedCellsBefore(), 2 * alone->GetNumberOfInvertedCellsBefore());
+  EXPECT_EQ(filter->GetNumberOfInvertedCellsAfter(), 2 * alone->GetNumberOfInvertedCellsAfter());
 }
 
 } // namespace
-
-int main(int, char*[])
-{
-  ForBothAlgorithms(
-    []()
-    {
-      TestRepaired();
-      TestOverlapIsNamed();
-      TestSurfaceAtFault();
-      TestNotAllowed();
-      TestBlocks();
-    });
-  return Testing::Failures;
-}

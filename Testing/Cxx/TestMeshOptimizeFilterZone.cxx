@@ -1,5 +1,6 @@
-// OptimizeBelow and NumberOfLayers of vtkMeshOptimizeFilter: what lies outside of the zone stays bit
-// for bit, what lies inside gets better, and the figures are those of the whole mesh.
+// SPDX-License-Identifier: BSD-3-Clause
+// OptimizeBelow and NumberOfLayers of vtkMeshOptimizeFilter: what lies outside of the zone stays
+// bit for bit, what lies inside gets better, and the figures are those of the whole mesh.
 #include "MeshOptimizeFilterTesting.h"
 
 #include "vtkIntArray.h"
@@ -8,6 +9,11 @@ using namespace Testing;
 
 namespace
 {
+
+class MeshOptimizeFilterZone : public BothAlgorithms
+{
+};
+TEST_BOTH_ALGORITHMS(MeshOptimizeFilterZone);
 
 constexpr double Threshold = 0.3;
 
@@ -148,27 +154,27 @@ void CheckFigures(vtkMeshOptimizeFilter* filter, vtkUnstructuredGrid* input)
   }
   const double mean = sum / input->GetNumberOfCells(),
                meanAfter = sumAfter / output->GetNumberOfCells();
-  CHECK(std::abs(filter->GetWorstQualityBefore() - worst) < 1e-12);
-  CHECK(std::abs(filter->GetMeanQualityBefore() - mean) < 1e-12);
-  CHECK(std::abs(filter->GetMeanQualityAfter() - meanAfter) < 1e-12);
-  CHECK(
-    filter->GetWorstQualityAfter() == MinimumOf(output->GetCellData()->GetArray("MeshQuality")));
-  CHECK(filter->GetQualityBound() >= filter->GetWorstQualityAfter());
+  EXPECT_NEAR(filter->GetWorstQualityBefore(), worst, 1e-12);
+  EXPECT_NEAR(filter->GetMeanQualityBefore(), mean, 1e-12);
+  EXPECT_NEAR(filter->GetMeanQualityAfter(), meanAfter, 1e-12);
+  EXPECT_EQ(
+    filter->GetWorstQualityAfter(), MinimumOf(output->GetCellData()->GetArray("MeshQuality")));
+  EXPECT_GE(filter->GetQualityBound(), filter->GetWorstQualityAfter());
   auto history = vtkTable::SafeDownCast(filter->GetOutputDataObject(1));
   const vtkIdType last = history->GetNumberOfRows() - 1;
-  CHECK(history->GetValueByName(0, "Worst").ToDouble() == filter->GetWorstQualityBefore());
-  CHECK(history->GetValueByName(0, "Cells").ToInt() == input->GetNumberOfCells());
-  CHECK(history->GetValueByName(0, "Points").ToInt() == input->GetNumberOfPoints());
-  CHECK(history->GetValueByName(last, "Worst").ToDouble() == filter->GetWorstQualityAfter());
-  CHECK(history->GetValueByName(last, "Mean").ToDouble() == filter->GetMeanQualityAfter());
-  CHECK(history->GetValueByName(last, "Cells").ToInt() == output->GetNumberOfCells());
-  CHECK(history->GetValueByName(last, "Points").ToInt() == output->GetNumberOfPoints());
+  EXPECT_EQ(history->GetValueByName(0, "Worst").ToDouble(), filter->GetWorstQualityBefore());
+  EXPECT_EQ(history->GetValueByName(0, "Cells").ToInt(), input->GetNumberOfCells());
+  EXPECT_EQ(history->GetValueByName(0, "Points").ToInt(), input->GetNumberOfPoints());
+  EXPECT_EQ(history->GetValueByName(last, "Worst").ToDouble(), filter->GetWorstQualityAfter());
+  EXPECT_EQ(history->GetValueByName(last, "Mean").ToDouble(), filter->GetMeanQualityAfter());
+  EXPECT_EQ(history->GetValueByName(last, "Cells").ToInt(), output->GetNumberOfCells());
+  EXPECT_EQ(history->GetValueByName(last, "Points").ToInt(), output->GetNumberOfPoints());
 }
 
-void TestLayers()
+TEST_P(MeshOptimizeFilterZone, OutsideOfTheLayersNothingChanges)
 {
   Grid input = MakePatchyBox();
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   Messages messages(filter);
   filter->SetInputData(input);
   filter->SetOptimizeBelow(Threshold);
@@ -176,51 +182,63 @@ void TestLayers()
   std::size_t outsideBefore = input->GetNumberOfCells();
   for (const int layers : { 0, 1, 2, 4 })
   {
+    SCOPED_TRACE(std::to_string(layers) + " layers");
     const std::vector<vtkIdType> outside = FindOutside(input, layers);
-    CHECK(outside.size() > 1000 && outside.size() < outsideBefore);
+    EXPECT_GT(outside.size(), 1000u);
+    EXPECT_LT(outside.size(), outsideBefore);
     outsideBefore = outside.size();
     filter->SetNumberOfLayers(layers);
     filter->Update();
-    CHECK(CountChanged(input, filter->GetOutput(), outside) == 0);
-    CHECK(KeptFacets(input) == KeptFacets(filter->GetOutput()));
+    EXPECT_EQ(CountChanged(input, filter->GetOutput(), outside), 0);
+    EXPECT_TRUE(SameFacets(KeptFacets(input), KeptFacets(filter->GetOutput())));
     CheckFigures(filter, input);
     if (layers > 0)
     {
-      CHECK(filter->GetNumberOfOperations() > 0);
-      CHECK(filter->GetWorstQualityBefore() < 0.2);
-      CHECK(filter->GetWorstQualityAfter() > Threshold);
+      EXPECT_GT(filter->GetNumberOfOperations(), 0);
+      EXPECT_LT(filter->GetWorstQualityBefore(), 0.2);
+      EXPECT_GT(filter->GetWorstQualityAfter(), Threshold);
     }
   }
-  CHECK(messages.Errors.empty() && messages.Warnings.empty());
-  // The default is two layers; and without a threshold cells change that were outside of it.
-  OptimizeFilter plain;
-  CHECK(plain->GetOptimizeBelow() == 0.0 && plain->GetNumberOfLayers() == 2);
-  plain->SetInputData(input);
-  plain->Update();
-  CHECK(CountChanged(input, plain->GetOutput(), FindOutside(input, 2)) > 0);
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(messages.Warnings, NoMessages);
 }
 
 /**
- * No cell under the threshold: all stays. Every cell under it: as if there were none.
+ * The default is no threshold: cells change that are outside of the zone. The cases above can fail.
  */
-void TestNoneAndAll()
+TEST_P(MeshOptimizeFilterZone, WithoutAThresholdTheWholeMeshChanges)
 {
   Grid input = MakePatchyBox();
-  OptimizeFilter filter;
+  OptimizeFilter plain(GetParam());
+  EXPECT_EQ(plain->GetOptimizeBelow(), 0.0);
+  EXPECT_EQ(plain->GetNumberOfLayers(), 2);
+  plain->SetInputData(input);
+  plain->Update();
+  EXPECT_GT(CountChanged(input, plain->GetOutput(), FindOutside(input, 2)), 0);
+}
+
+TEST_P(MeshOptimizeFilterZone, NoCellUnderTheThresholdLeavesTheMesh)
+{
+  Grid input = MakePatchyBox();
+  OptimizeFilter filter(GetParam());
   filter->SetInputData(input);
   filter->SetOptimizeBelow(0.01);
   filter->Update();
-  CHECK(filter->GetStopReason() == vtkMeshOptimizeFilter::NothingToDo);
-  CHECK(filter->GetNumberOfOperations() == 0);
-  CHECK(filter->GetWorstQualityAfter() == filter->GetWorstQualityBefore());
+  EXPECT_EQ(filter->GetStopReason(), vtkMeshOptimizeFilter::NothingToDo);
+  EXPECT_EQ(filter->GetNumberOfOperations(), 0);
+  EXPECT_EQ(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore());
   CheckFigures(filter, input);
   Grid bare = Grid::New();
   bare->DeepCopy(filter->GetOutput());
   bare->GetCellData()->RemoveArray("MeshQuality");
   bare->GetFieldData()->Initialize();
-  CHECK(SameGrid(bare, input));
+  EXPECT_TRUE(SameGrid(bare, input));
+}
 
-  OptimizeFilter all, off;
+TEST_P(MeshOptimizeFilterZone, EveryCellUnderTheThresholdIsAsWithoutOne)
+{
+  Grid input = MakePatchyBox();
+  OptimizeFilter all(GetParam()), off(GetParam());
   all->SetInputData(input);
   all->SetOptimizeBelow(1.0);
   all->SetTargetQuality(0.5);
@@ -228,14 +246,14 @@ void TestNoneAndAll()
   off->SetInputData(input);
   off->SetTargetQuality(0.5);
   off->Update();
-  CHECK(SameGrid(all->GetOutput(), off->GetOutput()));
+  EXPECT_TRUE(SameGrid(all->GetOutput(), off->GetOutput()));
 }
 
 /**
  * Inverted cells are cells under any threshold and keep their orientation, though the zone's own
- * volume may be negative; reversed ones are found wherever they are.
+ * volume may be negative.
  */
-void TestInvertedAndReversed()
+TEST_P(MeshOptimizeFilterZone, InvertedCellsAreUnderAnyThreshold)
 {
   Grid input = MakePatchyBox(1.3);
   int inverted = 0;
@@ -243,17 +261,18 @@ void TestInvertedAndReversed()
   {
     inverted += SignedVolume(input, c) < 0.0;
   }
-  CHECK(inverted > 3);
+  EXPECT_GT(inverted, 3);
   for (const int layers : { 0, 2 })
   {
-    OptimizeFilter filter;
+    SCOPED_TRACE(std::to_string(layers) + " layers");
+    OptimizeFilter filter(GetParam());
     Messages messages(filter);
     filter->SetInputData(input);
     filter->SetOptimizeBelow(1e-6);
     filter->SetTargetQuality(0.4);
     filter->SetNumberOfLayers(layers);
     filter->Update();
-    CHECK(messages.Errors.empty());
+    EXPECT_EQ(messages.Errors, NoMessages);
     double volume = 0.0;
     int still = 0;
     for (vtkIdType c = 0; c < filter->GetOutput()->GetNumberOfCells(); ++c)
@@ -262,31 +281,35 @@ void TestInvertedAndReversed()
       volume += v;
       still += v <= 0.0;
     }
-    CHECK(std::abs(volume - 1.0) < 1e-12);
-    CHECK(layers == 0 || still == 0);
+    EXPECT_NEAR(volume, 1.0, 1e-12);
+    EXPECT_TRUE(layers == 0 || still == 0);
     CheckFigures(filter, input);
   }
+}
 
+TEST_P(MeshOptimizeFilterZone, ReversedCellsAreFoundOutsideOfTheZone)
+{
   Grid reversed = MakePatchyBox();
   std::vector<vtkIdType> ids = CellPoints(reversed, 4000);
   std::swap(ids[0], ids[1]);
   reversed->GetCells()->ReplaceCellAtId(4000, 4, ids.data());
-  OptimizeFilter filter;
+  OptimizeFilter filter(GetParam());
   Messages messages(filter);
   filter->SetInputData(reversed);
   filter->SetOptimizeBelow(Threshold);
   filter->SetTargetQuality(0.45);
   filter->Update();
-  CHECK(messages.Warnings.size() == 1 && messages.Warnings[0].find("1 cells") != std::string::npos);
-  CHECK(filter->GetWorstQualityAfter() > Threshold);
-  CHECK(filter->GetWorstQualityAfter() ==
+  ASSERT_EQ(messages.Warnings.size(), 1u);
+  EXPECT_TRUE(Says(messages.Warnings[0], "1 cells"));
+  EXPECT_GT(filter->GetWorstQualityAfter(), Threshold);
+  EXPECT_EQ(filter->GetWorstQualityAfter(),
     MinimumOf(filter->GetOutput()->GetCellData()->GetArray("MeshQuality")));
 }
 
 /**
  * Triangles, with a size that differs from place to place: qualities outside are right as well.
  */
-void TestPlane()
+TEST_P(MeshOptimizeFilterZone, TrianglesOutsideKeepTheirQualities)
 {
   Grid input = MakeSquare(12, 0.1, [](double u, double v) { return Point{ { u, v, u - v } }; });
   const Point a = GetPoint(input, 84), b = GetPoint(input, 85);
@@ -299,48 +322,32 @@ void TestPlane()
     size->InsertNextValue(0.15 * (1.0 + 0.3 * GetPoint(input, p)[0]));
   }
   input->GetPointData()->AddArray(size);
-  OptimizeFilter measure, filter;
+  OptimizeFilter measure(GetParam()), filter(GetParam());
   for (vtkMeshOptimizeFilter* f : { measure.Get(), filter.Get() })
   {
     f->SetInputData(input);
     f->SetBeta(0.3);
     f->SetSizeArray("h");
   }
-  measure->SetMoveNodes(false);
-  measure->SetReconnect(false);
-  measure->SetInsertNodes(false);
-  measure->SetRemoveNodes(false);
+  ChangeNothing(measure);
   measure->Update();
   filter->SetOptimizeBelow(0.4);
   filter->SetNumberOfLayers(1);
   filter->Update();
-  CHECK(filter->GetNumberOfOperations() > 0);
-  CHECK(filter->GetWorstQualityBefore() == measure->GetWorstQualityBefore());
-  CHECK(std::abs(filter->GetMeanQualityBefore() - measure->GetMeanQualityBefore()) < 1e-12);
-  CHECK(filter->GetWorstQualityAfter() > filter->GetWorstQualityBefore() + 0.1);
+  EXPECT_GT(filter->GetNumberOfOperations(), 0);
+  EXPECT_EQ(filter->GetWorstQualityBefore(), measure->GetWorstQualityBefore());
+  EXPECT_NEAR(filter->GetMeanQualityBefore(), measure->GetMeanQualityBefore(), 1e-12);
+  EXPECT_GT(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore() + 0.1);
   // What has been left out comes first and has its quality of before, to the last bit.
   vtkDataArray* before = measure->GetOutput()->GetCellData()->GetArray("MeshQuality");
   vtkDataArray* after = filter->GetOutput()->GetCellData()->GetArray("MeshQuality");
-  CHECK(MinimumOf(after) == filter->GetWorstQualityAfter());
+  EXPECT_EQ(MinimumOf(after), filter->GetWorstQualityAfter());
   int same = 0;
   for (vtkIdType c = 0; c < 100; ++c)
   {
     same += before->GetComponent(c, 0) == after->GetComponent(c, 0);
   }
-  CHECK(same == 100);
+  EXPECT_EQ(same, 100);
 }
 
 } // namespace
-
-int main(int, char*[])
-{
-  ForBothAlgorithms(
-    []()
-    {
-      TestLayers();
-      TestNoneAndAll();
-      TestInvertedAndReversed();
-      TestPlane();
-    });
-  return Testing::Failures;
-}

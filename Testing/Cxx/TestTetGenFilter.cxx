@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkTetGenFilter on good surfaces: volumes, the surface kept bit for bit, sizes, regions, holes, interior points, data.
+// vtkTetGenFilter on good surfaces: volumes, the surface kept bit for bit, sizes, regions, holes,
+// interior points, data.
 #include "TetGenFilterTesting.h"
 
 #include "vtkFloatArray.h"
@@ -8,60 +9,27 @@
 #include "vtkStringArray.h"
 #include "vtkTetra.h"
 
-#include <cstdio>
-#include <thread>
-
-#include <sys/wait.h>
-#include <unistd.h>
-
 using namespace Testing;
 
 namespace
 {
 
-using Prepare = std::function<void(vtkTetGenFilter*)>;
-
 /**
- * The mesh, and that there was no message but so many warnings.
- */
-Grid Fill(vtkPolyData* surface, const Prepare& prepare = nullptr, std::size_t warnings = 0)
-{
-  vtkNew<vtkTetGenFilter> filter;
-  Messages messages(filter);
-  filter->SetInputData(surface);
-  if (prepare)
-  {
-    prepare(filter);
-  }
-  filter->Update();
-  for (const std::string& error : messages.Errors)
-  {
-    std::cerr << error;
-  }
-  CHECK(messages.Errors.empty());
-  CHECK(messages.Warnings.size() == warnings);
-  CHECK(filter->GetErrorCode() == 0);
-  Grid grid = Grid::New();
-  grid->DeepCopy(filter->GetOutput());
-  return grid;
-}
-
-/**
- * Points of the surface come first, same ids, same bits; the mesh has these triangles as its boundary
- * (and as faces between regions) and no others.
+ * Points of the surface come first, same ids, same bits; the mesh has these triangles as its
+ * boundary (and as faces between regions) and no others.
  */
 void CheckKept(vtkPolyData* surface, vtkUnstructuredGrid* grid)
 {
-  CHECK(grid->GetPoints()->GetDataType() == VTK_DOUBLE);
-  CHECK(grid->GetNumberOfPoints() >= surface->GetNumberOfPoints());
+  EXPECT_EQ(grid->GetPoints()->GetDataType(), VTK_DOUBLE);
+  EXPECT_GE(grid->GetNumberOfPoints(), surface->GetNumberOfPoints());
   for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
   {
     Point x;
     surface->GetPoint(p, x.data());
     const Point y = GetPoint(grid, p);
-    CHECK(std::memcmp(x.data(), y.data(), sizeof x) == 0);
+    EXPECT_EQ(std::memcmp(x.data(), y.data(), sizeof x), 0) << "point " << p;
   }
-  CHECK(KeptFacets(grid, "Region") == SurfaceFacets(surface));
+  EXPECT_TRUE(SameFacets(KeptFacets(grid, "Region"), SurfaceFacets(surface)));
 }
 
 double LargestVolume(vtkUnstructuredGrid* grid)
@@ -75,18 +43,25 @@ double LargestVolume(vtkUnstructuredGrid* grid)
 }
 
 //------------------------------------------------------------------------------
-void TestKeptSurface()
+TEST(TetGenFilter, SurfaceOfABoxIsKept)
 {
   for (const int precision : { VTK_DOUBLE, VTK_FLOAT })
   {
+    SCOPED_TRACE(precision == VTK_FLOAT ? "float" : "double");
     Surface box = MakeBoxSurface(5, precision);
     Grid grid = Fill(box, [](vtkTetGenFilter* f) { f->SetMaximumVolume(1e-3); });
     CheckKept(box, grid);
-    CHECK(Near(VolumeOf(grid), 1.0, 1e-7)); // float: corners are not exactly on the planes
-    CHECK(grid->GetNumberOfCells() > 500);
-    CHECK(grid->GetNumberOfPoints() > box->GetNumberOfPoints());
+    EXPECT_NEAR(VolumeOf(grid), 1.0, 1e-7); // float: corners are not exactly on the planes
+    EXPECT_GT(grid->GetNumberOfCells(), 500);
+    EXPECT_GT(grid->GetNumberOfPoints(), box->GetNumberOfPoints());
   }
-  // A ball of uneven triangles.
+}
+
+/**
+ * A ball of uneven triangles.
+ */
+Surface MakeBall()
+{
   std::vector<Point> points;
   std::vector<std::vector<vtkIdType>> cells;
   const int n = 24;
@@ -111,9 +86,15 @@ void TestKeptSurface()
     cells.push_back({ 0, id(1, j), id(1, j + 1) });
     cells.push_back({ 1, id(n / 2 - 1, j + 1), id(n / 2 - 1, j) });
   }
-  Surface ball = MakeSurface(points, cells);
+  return MakeSurface(points, cells);
+}
+
+TEST(TetGenFilter, SurfaceOfABallIsKept)
+{
+  Surface ball = MakeBall();
   for (const int level : { 0, 2, 10 })
   {
+    SCOPED_TRACE("level " + std::to_string(level));
     Grid grid = Fill(ball,
       [=](vtkTetGenFilter* f)
       {
@@ -123,7 +104,8 @@ void TestKeptSurface()
       });
     CheckKept(ball, grid);
     const double volume = VolumeOf(grid);
-    CHECK(volume > 4.0 && volume < 4.0 / 3.0 * vtkMath::Pi());
+    EXPECT_GT(volume, 4.0);
+    EXPECT_LT(volume, 4.0 / 3.0 * vtkMath::Pi());
   }
 }
 
@@ -182,61 +164,88 @@ double LargestRadiusEdgeRatio(vtkUnstructuredGrid* grid)
   return std::sqrt(largest2);
 }
 
-void TestLimits()
+/**
+ * A unit cube with limits, and something more.
+ */
+Grid Refine(const Prepare& more = nullptr)
+{
+  return Fill(MakeBoxSurface(1),
+    [&](vtkTetGenFilter* f)
+    {
+      f->SetKeepSurface(false);
+      f->SetMaximumVolume(1e-3);
+      f->SetMaximumRadiusEdgeRatio(1.4);
+      f->SetOptimizationLevel(0);
+      if (more)
+      {
+        more(f);
+      }
+    });
+}
+
+TEST(TetGenFilter, LimitsAreKept)
+{
+  Grid grid = Refine();
+  EXPECT_NEAR(VolumeOf(grid), 1.0, 1e-12);
+  EXPECT_LE(LargestVolume(grid), 1e-3);
+  EXPECT_LE(LargestRadiusEdgeRatio(grid), 1.4 * (1 + 1e-9));
+  EXPECT_GT(KeptFacets(grid).size(), SurfaceFacets(MakeBoxSurface(1)).size()); // cut
+}
+
+/**
+ * Level 0 leaves the mesh as it was generated, level 2 does not.
+ */
+TEST(TetGenFilter, OptimizationLevelCounts)
+{
+  Grid grid = Refine();
+  EXPECT_EQ(CountSpheresWithNodes(grid), 0);
+  Grid optimized = Refine([](vtkTetGenFilter* f) { f->SetOptimizationLevel(2); });
+  EXPECT_FALSE(SameGrid(grid, optimized));
+  EXPECT_GT(CountSpheresWithNodes(optimized), 0);
+}
+
+TEST(TetGenFilter, LimitOnAnglesAddsNodes)
+{
+  Grid angles = Refine([](vtkTetGenFilter* f) { f->SetMinimumDihedralAngle(12); });
+  EXPECT_GT(angles->GetNumberOfPoints(), Refine()->GetNumberOfPoints());
+}
+
+TEST(TetGenFilter, WithoutLimitsNothingIsAdded)
 {
   Surface box = MakeBoxSurface(1);
-  const auto refine = [](vtkTetGenFilter* f)
-  {
-    f->SetKeepSurface(false);
-    f->SetMaximumVolume(1e-3);
-    f->SetMaximumRadiusEdgeRatio(1.4);
-    f->SetOptimizationLevel(0);
-  };
-  Grid grid = Fill(box, refine);
-  CHECK(Near(VolumeOf(grid), 1.0));
-  CHECK(LargestVolume(grid) <= 1e-3);
-  CHECK(LargestRadiusEdgeRatio(grid) <= 1.4 * (1 + 1e-9));
-  CHECK(KeptFacets(grid).size() > SurfaceFacets(box).size()); // cut
-  CHECK(CountSpheresWithNodes(grid) == 0);
-  // Level 0 leaves the mesh alone, level 2 does not; a limit on angles adds nodes.
-  Grid optimized = Fill(box,
-    [&](vtkTetGenFilter* f)
-    {
-      refine(f);
-      f->SetOptimizationLevel(2);
-    });
-  CHECK(!SameGrid(grid, optimized));
-  CHECK(CountSpheresWithNodes(optimized) > 0);
-  Grid angles = Fill(box,
-    [&](vtkTetGenFilter* f)
-    {
-      refine(f);
-      f->SetMinimumDihedralAngle(12);
-    });
-  CHECK(angles->GetNumberOfPoints() > grid->GetNumberOfPoints());
-  // No limits at all: nothing is added.
   Grid bare = Fill(box, [](vtkTetGenFilter* f) { f->SetMaximumRadiusEdgeRatio(0); });
-  CHECK(bare->GetNumberOfPoints() == box->GetNumberOfPoints());
+  EXPECT_EQ(bare->GetNumberOfPoints(), box->GetNumberOfPoints());
 }
 
 //------------------------------------------------------------------------------
-void TestRegionsAndHoles()
+/**
+ * Two boxes with a wall between them, and a cavity in the first one.
+ */
+Surface MakeCompartments()
 {
-  // Two boxes with a wall between them, and a cavity in the first one.
   Soup soup;
   soup.AddBox({ { 0, 0, 0 } }, { { 1, 1, 1 } }, 4).AddBox({ { 1, 0, 0 } }, { { 2, 1, 1 } }, 4);
   soup.AddBox({ { 0.25, 0.25, 0.25 } }, { { 0.75, 0.75, 0.75 } }, 2);
-  Surface surface = soup.Make();
-  Grid plain = Fill(surface);
-  CheckKept(surface, plain);
-  CHECK(Near(VolumeOf(plain), 2.0));
-  std::set<int> numbers;
-  for (vtkIdType c = 0; c < plain->GetNumberOfCells(); ++c)
-  {
-    numbers.insert(static_cast<int>(plain->GetCellData()->GetArray("Region")->GetComponent(c, 0)));
-  }
-  CHECK((numbers == std::set<int>{ 1, 2, 3 }));
+  return soup.Make();
+}
 
+TEST(TetGenFilter, CompartmentsAreNumberedFromOne)
+{
+  Surface surface = MakeCompartments();
+  Grid grid = Fill(surface);
+  CheckKept(surface, grid);
+  EXPECT_NEAR(VolumeOf(grid), 2.0, 1e-12);
+  std::set<int> numbers;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    numbers.insert(static_cast<int>(grid->GetCellData()->GetArray("Region")->GetComponent(c, 0)));
+  }
+  EXPECT_EQ(numbers, (std::set<int>{ 1, 2, 3 }));
+}
+
+TEST(TetGenFilter, RegionsHaveTheirNumbersAndSizesAndHolesAreEmpty)
+{
+  Surface surface = MakeCompartments();
   Grid marked = Fill(surface,
     [](vtkTetGenFilter* f)
     {
@@ -244,18 +253,24 @@ void TestRegionsAndHoles()
       f->AddRegion(1.5, 0.5, 0.5, 40, 5e-4);
       f->AddHole(0.5, 0.5, 0.5);
       f->AddHole(9, 9, 9); // outside: does nothing
-      CHECK(f->GetNumberOfRegions() == 2 && f->GetNumberOfHoles() == 2);
+      EXPECT_EQ(f->GetNumberOfRegions(), 2);
+      EXPECT_EQ(f->GetNumberOfHoles(), 2);
     });
   CheckKept(surface, marked);
   const int first = -5, second = 40;
-  CHECK(Near(VolumeOf(marked, &first), 1.0 - 0.125));
-  CHECK(Near(VolumeOf(marked, &second), 1.0));
-  CHECK(Near(VolumeOf(marked), 2.0 - 0.125));
-  CHECK(marked->GetNumberOfCells() > plain->GetNumberOfCells() + 500); // the finer region
+  EXPECT_NEAR(VolumeOf(marked, &first), 1.0 - 0.125, 1e-12); // the hole is a cube of 1/2
+  EXPECT_NEAR(VolumeOf(marked, &second), 1.0, 1e-12);
+  EXPECT_NEAR(VolumeOf(marked), 2.0 - 0.125, 1e-12);
+  EXPECT_GT(marked->GetNumberOfCells(), Fill(surface)->GetNumberOfCells() + 500); // finer
+}
 
-  // In no tetrahedron, and twice in one compartment: a warning each.
+/**
+ * In no tetrahedron, and twice in one compartment: a warning each.
+ */
+TEST(TetGenFilter, RegionsThatAreNoneAreWarnings)
+{
   Fill(
-    surface,
+    MakeCompartments(),
     [](vtkTetGenFilter* f)
     {
       f->AddRegion(0.5, 0.5, 0.5, 3, 0);
@@ -264,17 +279,21 @@ void TestRegionsAndHoles()
       f->AddRegion(0.9, 0.9, 0.9, 5, 0);
     },
     2);
+}
 
+TEST(TetGenFilter, RegionsAndHolesCanBeRemoved)
+{
   vtkNew<vtkTetGenFilter> filter;
   filter->AddRegion(0, 0, 0, 0, 0);
   filter->AddHole(0, 0, 0);
   filter->RemoveAllRegions();
   filter->RemoveAllHoles();
-  CHECK(filter->GetNumberOfRegions() == 0 && filter->GetNumberOfHoles() == 0);
+  EXPECT_EQ(filter->GetNumberOfRegions(), 0);
+  EXPECT_EQ(filter->GetNumberOfHoles(), 0);
 }
 
 //------------------------------------------------------------------------------
-void TestInteriorPoints()
+TEST(TetGenFilter, PointsInsideBecomeNodesAndOthersDoNot)
 {
   const std::vector<Point> wanted = { { { 0.41, 0.52, 0.43 } }, { { 0.3, 0.6, 0.7 } },
     { { 0.55, 0.45, 0.35 } } };
@@ -292,18 +311,18 @@ void TestInteriorPoints()
       f->SetOptimizationLevel(0);
     });
   CheckKept(box, grid);
-  CHECK(Near(VolumeOf(grid), 1.0));
-  CHECK(CountSpheresWithNodes(grid) == 0); // level 0 here, too
+  EXPECT_NEAR(VolumeOf(grid), 1.0, 1e-12);
+  EXPECT_EQ(CountSpheresWithNodes(grid), 0); // level 0 here, too
   std::set<Point> nodes;
   for (vtkIdType p = box->GetNumberOfPoints(); p < grid->GetNumberOfPoints(); ++p)
   {
     nodes.insert(GetPoint(grid, p));
   }
-  CHECK(nodes == std::set<Point>(wanted.begin(), wanted.end()));
+  EXPECT_EQ(nodes, std::set<Point>(wanted.begin(), wanted.end()));
 }
 
 //------------------------------------------------------------------------------
-void TestCellsAndData()
+TEST(TetGenFilter, CellsOfAllKindsAreFacetsAndDataAreCarriedAlong)
 {
   // Squares, a strip, vertices, lines; a point that nothing uses.
   Soup soup;
@@ -348,152 +367,30 @@ void TestCellsAndData()
   Grid interior = MakeGrid(inside);
   Grid grid = Fill(surface, [&](vtkTetGenFilter* f) { f->SetInteriorPointsData(interior); });
 
-  CHECK(Near(VolumeOf(grid), 1.0));
-  CHECK((GetPoint(grid, 3) == Point{ { 7, 7, 7 } }));
-  CHECK(grid->GetNumberOfPoints() > n);
+  EXPECT_NEAR(VolumeOf(grid), 1.0, 1e-12);
+  EXPECT_EQ(GetPoint(grid, 3), (Point{ { 7, 7, 7 } }));
+  EXPECT_GT(grid->GetNumberOfPoints(), n);
   vtkDataArray* heatOut = grid->GetPointData()->GetArray("Heat");
   vtkDataArray* markOut = grid->GetPointData()->GetScalars();
-  CHECK(heatOut && heatOut->GetDataType() == VTK_FLOAT);
-  CHECK(markOut && std::string(markOut->GetName()) == "Mark" && markOut->GetDataType() == VTK_INT);
-  for (vtkIdType p = 0; heatOut && markOut && p < grid->GetNumberOfPoints(); ++p)
+  ASSERT_TRUE(heatOut);
+  EXPECT_EQ(heatOut->GetDataType(), VTK_FLOAT);
+  ASSERT_TRUE(markOut);
+  EXPECT_EQ(std::string(markOut->GetName()), "Mark");
+  EXPECT_EQ(markOut->GetDataType(), VTK_INT);
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
     const double value = heatOut->GetComponent(p, 1);
-    CHECK(p < n ? value == -static_cast<double>(p) : std::isnan(value));
-    CHECK(markOut->GetComponent(p, 0) == (p < n ? static_cast<double>(p + 1) : 0.0));
+    EXPECT_TRUE(p < n ? value == -static_cast<double>(p) : std::isnan(value)) << value;
+    EXPECT_EQ(markOut->GetComponent(p, 0), p < n ? static_cast<double>(p + 1) : 0.0);
   }
-  CHECK(grid->GetFieldData()->GetAbstractArray("Title") != nullptr);
-
-  Grid nothing = Fill(Surface::New()); // no message
-  CHECK(nothing->GetNumberOfCells() == 0 && nothing->GetNumberOfPoints() == 0);
+  EXPECT_NE(grid->GetFieldData()->GetAbstractArray("Title"), nullptr);
 }
 
-//------------------------------------------------------------------------------
-void TestSameBitsAndThreads()
+TEST(TetGenFilter, EmptySurfaceIsNoError)
 {
-  Surface box = MakeBoxSurface(6);
-  const auto refine = [](vtkTetGenFilter* f) { f->SetMaximumVolume(2e-4); };
-  Grid first = Fill(box, refine);
-  std::rand(); // TetGen uses rand(): the state of the application must not matter
-  CHECK(SameGrid(first, Fill(box, refine)));
-
-  Grid grids[3];
-  Surface boxes[3];
-  std::vector<std::thread> threads;
-  for (int i = 0; i < 3; ++i)
-  {
-    grids[i] = Grid::New();
-    boxes[i] = MakeBoxSurface(6);
-    threads.emplace_back(
-      [&, i]()
-      {
-        vtkNew<vtkTetGenFilter> filter;
-        filter->SetInputData(boxes[i]);
-        refine(filter);
-        filter->Update();
-        grids[i]->ShallowCopy(filter->GetOutput());
-      });
-  }
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
-  for (const Grid& grid : grids)
-  {
-    CHECK(SameGrid(first, grid));
-  }
-}
-
-/**
- * Nothing on stdout or stderr, and no process left behind.
- */
-void TestQuiet()
-{
-  std::fflush(stdout);
-  std::FILE* file = std::tmpfile();
-  const int out = ::dup(STDOUT_FILENO), err = ::dup(STDERR_FILENO);
-  std::printf("written before");
-  ::dup2(::fileno(file), STDOUT_FILENO);
-  ::dup2(::fileno(file), STDERR_FILENO);
-  vtkNew<vtkTetGenFilter> filter;
-  Messages messages(filter);
-  filter->SetInputData(MakeBoxSurface(3));
-  filter->Update();
-  Soup crossing;
-  crossing.AddBox({ { 0, 0, 0 } }, { { 1, 1, 1 } }, 1);
-  crossing.AddBox({ { 0.3, 0.3, 0.3 } }, { { 1.3, 1.3, 1.3 } }, 1);
-  filter->SetInputData(crossing.Make());
-  filter->Update();
-  std::fflush(stdout);
-  ::dup2(out, STDOUT_FILENO);
-  ::dup2(err, STDERR_FILENO);
-  CHECK(std::ftell(file) == static_cast<long>(std::strlen("written before"))); // once, not twice
-  CHECK(messages.Errors.size() == 1);
-  CHECK(::waitpid(-1, nullptr, WNOHANG) == -1); // no child
-  std::fclose(file);
-  ::close(out);
-  ::close(err);
-}
-
-void TestProgressAndAbort()
-{
-  Surface box = MakeBoxSurface(10);
-  vtkNew<vtkTetGenFilter> filter;
-  Messages messages(filter);
-  filter->SetInputData(box);
-  filter->SetMaximumVolume(2e-6);
-  struct Seen
-  {
-    double Last = 0.0;
-    bool Falls = false;
-    bool Stop = false;
-    int Phases = 0;
-    std::string Text;
-  } seen;
-  vtkNew<vtkCallbackCommand> observer;
-  observer->SetClientData(&seen);
-  observer->SetCallback(
-    [](vtkObject* caller, unsigned long, void* self, void* fraction)
-    {
-      auto mine = static_cast<Seen*>(self);
-      auto algorithm = static_cast<vtkTetGenFilter*>(caller);
-      const double now = *static_cast<double*>(fraction);
-      mine->Falls |= now < mine->Last;
-      mine->Last = now;
-      const char* text = algorithm->GetProgressText();
-      mine->Phases += text && mine->Text != text;
-      mine->Text = text ? text : "";
-      if (mine->Stop && mine->Text == "Refining")
-      {
-        algorithm->SetAbortExecute(1);
-      }
-    });
-  filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  seen.Stop = true;
-  filter->Update();
-  CHECK(messages.Errors.empty());
-  CHECK(seen.Text == "Refining" && !seen.Falls && seen.Phases >= 3);
-  CHECK(filter->GetOutput()->GetNumberOfCells() == 0);
-  CHECK(::waitpid(-1, nullptr, WNOHANG) == -1);
-
-  seen = Seen();
-  filter->SetAbortExecute(0);
-  filter->SetMaximumVolume(1e-3);
-  filter->Update();
-  CHECK(!seen.Falls && seen.Phases >= 3 && seen.Last == 1.0);
-  CHECK(filter->GetOutput()->GetNumberOfCells() > 0);
+  Grid nothing = Fill(Surface::New());
+  EXPECT_EQ(nothing->GetNumberOfCells(), 0);
+  EXPECT_EQ(nothing->GetNumberOfPoints(), 0);
 }
 
 } // namespace
-
-int main(int, char*[])
-{
-  TestKeptSurface();
-  TestLimits();
-  TestRegionsAndHoles();
-  TestInteriorPoints();
-  TestCellsAndData();
-  TestSameBitsAndThreads();
-  TestQuiet();
-  TestProgressAndAbort();
-  return Failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}

@@ -17,50 +17,61 @@ Filter HotBox(vtkUnstructuredGrid* box)
   return filter;
 }
 
-void TestThreadsAndSolvers()
+TEST(ThermoelasticFilterRun, SameBitsWithAnyNumberOfThreads)
 {
   Grid box = MakeBox(12, 0.15);
   Filter one = HotBox(box);
   one->SetNumberOfThreads(1);
-  Run(one);
+  Solve(one);
   for (const int threads : { 0, 2, 3 })
   {
+    SCOPED_TRACE(std::to_string(threads) + " threads");
     Filter many = HotBox(box);
     many->SetNumberOfThreads(threads);
-    Run(many);
-    CHECK(SameGrid(one->GetOutput(0), many->GetOutput(0)));
+    Solve(many);
+    EXPECT_TRUE(SameGrid(one->GetOutput(0), many->GetOutput(0)));
   }
-  Filter cholesky = HotBox(box);
-  cholesky->SetSolverToIncompleteCholesky();
-  Run(cholesky);
-  CHECK(cholesky->GetNumberOfSolverIterations() < one->GetNumberOfSolverIterations());
-  CHECK(std::abs(cholesky->GetStrainEnergy() / one->GetStrainEnergy() - 1.0) < 1e-8);
-  Filter direct = HotBox(MakeBox(5, 0.15));
-  direct->SetSolverToDirect();
-  Run(direct);
-  CHECK(direct->GetNumberOfSolverIterations() == 0);
-  CHECK(direct->GetRelativeResidual() < 1e-12);
 }
 
-void TestNotConverged()
+TEST(ThermoelasticFilterRun, IncompleteCholeskyTakesFewerSteps)
+{
+  Grid box = MakeBox(12, 0.15);
+  Filter one = Solve(HotBox(box));
+  Filter cholesky = HotBox(box);
+  cholesky->SetSolverToIncompleteCholesky();
+  Solve(cholesky);
+  EXPECT_LT(cholesky->GetNumberOfSolverIterations(), one->GetNumberOfSolverIterations());
+  EXPECT_NEAR(cholesky->GetStrainEnergy() / one->GetStrainEnergy(), 1.0, 1e-8);
+}
+
+TEST(ThermoelasticFilterRun, DirectSolverTakesNone)
+{
+  Filter direct = HotBox(MakeBox(5, 0.15));
+  direct->SetSolverToDirect();
+  Solve(direct);
+  EXPECT_EQ(direct->GetNumberOfSolverIterations(), 0);
+  EXPECT_LT(direct->GetRelativeResidual(), 1e-12);
+}
+
+TEST(ThermoelasticFilterRun, IterationLimitIsAWarning)
 {
   Filter filter = HotBox(MakeBox(4, 0.15));
   filter->SetMaximumNumberOfIterations(3);
   Messages messages(filter);
   filter->Update();
-  CHECK(messages.Errors.empty() && messages.Warnings.size() == 1);
-  CHECK(
-    !messages.Warnings.empty() && messages.Warnings[0].find("after 3 steps") != std::string::npos);
-  CHECK(filter->GetStopReason() == vtkThermoelasticFilter::IterationLimit);
-  CHECK(std::string(filter->GetStopReasonAsString()) == "Tolerance not reached");
-  CHECK(filter->GetNumberOfSolverIterations() == 3);
-  CHECK(PointArray(filter, "Stress") != nullptr);
+  EXPECT_EQ(messages.Errors, NoMessages);
+  ASSERT_EQ(messages.Warnings.size(), 1u);
+  EXPECT_TRUE(Says(messages.Warnings[0], "after 3 steps"));
+  EXPECT_EQ(filter->GetStopReason(), vtkThermoelasticFilter::IterationLimit);
+  EXPECT_STREQ(filter->GetStopReasonAsString(), "Tolerance not reached");
+  EXPECT_EQ(filter->GetNumberOfSolverIterations(), 3);
+  EXPECT_NE(PointArray(filter, "Stress"), nullptr);
 }
 
 /**
  * Progress never falls; an abort leaves outputs empty, and the filter works again afterwards.
  */
-void TestProgressAndAbort()
+TEST(ThermoelasticFilterRun, ProgressNeverFallsAndAnAbortLeavesNothing)
 {
   struct Watch
   {
@@ -81,43 +92,35 @@ void TestProgressAndAbort()
       }
     });
   filter->AddObserver(vtkCommand::ProgressEvent, observer);
-  Run(filter);
-  CHECK(std::is_sorted(watch.Fractions.begin(), watch.Fractions.end()));
-  CHECK(!watch.Fractions.empty() && watch.Fractions.back() == 1.0);
+  Solve(filter);
+  EXPECT_TRUE(std::is_sorted(watch.Fractions.begin(), watch.Fractions.end()));
+  ASSERT_FALSE(watch.Fractions.empty());
+  EXPECT_EQ(watch.Fractions.back(), 1.0);
 
   watch.Abort = true;
   Messages messages(filter);
   filter->Modified();
   filter->Update();
-  CHECK(messages.Errors.empty());
-  CHECK(filter->GetStopReason() == vtkThermoelasticFilter::Aborted);
-  CHECK(filter->GetOutput(0)->GetNumberOfCells() == 0);
-  CHECK(vtkTable::SafeDownCast(filter->GetOutputDataObject(1))->GetNumberOfRows() == 0);
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(filter->GetStopReason(), vtkThermoelasticFilter::Aborted);
+  EXPECT_EQ(filter->GetOutput(0)->GetNumberOfCells(), 0);
+  EXPECT_EQ(vtkTable::SafeDownCast(filter->GetOutputDataObject(1))->GetNumberOfRows(), 0);
 
   watch.Abort = false;
   filter->SetAbortExecute(0);
   filter->Modified();
-  Run(filter);
-  CHECK(filter->GetOutput(0)->GetNumberOfCells() == 6000);
+  Solve(filter);
+  EXPECT_EQ(filter->GetOutput(0)->GetNumberOfCells(), 6 * 1000);
 }
 
-void TestEmpty()
+TEST(ThermoelasticFilterRun, EmptyGridIsNothingToDo)
 {
   Filter filter = MakeFilter(MakeGrid({}));
   Messages messages(filter);
   filter->Update();
-  CHECK(messages.Errors.empty());
-  CHECK(filter->GetStopReason() == vtkThermoelasticFilter::NothingToDo);
-  CHECK(filter->GetOutput(0)->GetNumberOfCells() == 0);
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(filter->GetStopReason(), vtkThermoelasticFilter::NothingToDo);
+  EXPECT_EQ(filter->GetOutput(0)->GetNumberOfCells(), 0);
 }
 
 } // namespace
-
-int main()
-{
-  TestThreadsAndSolvers();
-  TestNotConverged();
-  TestProgressAndAbort();
-  TestEmpty();
-  return Failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
-}

@@ -5,7 +5,7 @@
 #ifndef TetGenFilterTesting_h
 #define TetGenFilterTesting_h
 
-#include "MeshOptimizeFilterTesting.h"
+#include "FilterTesting.h"
 
 #include "vtkPolyData.h"
 #include "vtkTetGenFilter.h"
@@ -138,27 +138,46 @@ inline std::set<std::vector<Point>> SurfaceFacets(vtkPolyData* surface)
   return facets;
 }
 
+using Prepare = std::function<void(vtkTetGenFilter*)>;
+
+/**
+ * The mesh, and that there was no message but this many warnings.
+ */
+inline Grid Fill(vtkPolyData* surface, const Prepare& prepare = nullptr, std::size_t warnings = 0)
+{
+  vtkNew<vtkTetGenFilter> filter;
+  Messages messages(filter);
+  filter->SetInputData(surface);
+  if (prepare)
+  {
+    prepare(filter);
+  }
+  filter->Update();
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(messages.Warnings.size(), warnings);
+  EXPECT_EQ(filter->GetErrorCode(), 0);
+  Grid grid = Grid::New();
+  grid->DeepCopy(filter->GetOutput());
+  return grid;
+}
+
 /**
  * Volume of all cells, or of those of one region. Each must be a tetrahedron, none inverted.
  */
 inline double VolumeOf(vtkUnstructuredGrid* grid, const int* region = nullptr)
 {
   vtkDataArray* regions = grid->GetCellData()->GetArray("Region");
-  CHECK(regions != nullptr && regions->GetDataType() == VTK_INT);
+  EXPECT_NE(regions, nullptr);
+  EXPECT_EQ(regions->GetDataType(), VTK_INT);
   double volume = 0.0;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
-    CHECK(grid->GetCellType(c) == VTK_TETRA);
+    EXPECT_EQ(grid->GetCellType(c), VTK_TETRA);
     const double one = SignedVolume(grid, c);
-    CHECK(one > -1e-15); // as generated, tetrahedra can be flat to rounding
+    EXPECT_GT(one, -1e-15); // as generated, tetrahedra can be flat to rounding
     volume += !region || regions->GetComponent(c, 0) == *region ? one : 0.0;
   }
   return volume;
-}
-
-inline bool Near(double a, double b, double tolerance = 1e-12)
-{
-  return std::abs(a - b) <= tolerance;
 }
 
 } // namespace Testing

@@ -5,9 +5,11 @@
 #ifndef ThermoelasticFilterTesting_h
 #define ThermoelasticFilterTesting_h
 
-#include "MeshOptimizeFilterTesting.h"
+#include "FilterTesting.h"
 
 #include "vtkThermoelasticFilter.h"
+
+#include <stdexcept>
 
 namespace Testing
 {
@@ -70,9 +72,7 @@ inline vtkDataArray* PointArray(vtkThermoelasticFilter* filter, const char* name
   vtkDataArray* array = filter->GetOutput(0)->GetPointData()->GetArray(name);
   if (!array)
   {
-    std::cerr << "no point array " << name << "\n";
-    ++Failures;
-    std::exit(EXIT_FAILURE);
+    throw std::runtime_error(std::string("no point array ") + name); // the case fails
   }
   return array;
 }
@@ -82,9 +82,7 @@ inline vtkDataArray* CellArray(vtkThermoelasticFilter* filter, const char* name)
   vtkDataArray* array = filter->GetOutput(0)->GetCellData()->GetArray(name);
   if (!array)
   {
-    std::cerr << "no cell array " << name << "\n";
-    ++Failures;
-    std::exit(EXIT_FAILURE);
+    throw std::runtime_error(std::string("no cell array ") + name); // the case fails
   }
   return array;
 }
@@ -92,38 +90,42 @@ inline vtkDataArray* CellArray(vtkThermoelasticFilter* filter, const char* name)
 /**
  * Every tuple that is not NaN is `expected`, to `tolerance`; and there is one.
  */
-inline bool IsUniform(
+inline testing::AssertionResult IsUniform(
   vtkDataArray* array, const std::vector<double>& expected, double tolerance = 1e-10)
 {
-  bool same = array->GetNumberOfComponents() == static_cast<int>(expected.size());
+  if (array->GetNumberOfComponents() != static_cast<int>(expected.size()))
+  {
+    return testing::AssertionFailure() << array->GetNumberOfComponents() << " components";
+  }
   bool any = false;
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples() && same; ++i)
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     for (int k = 0; k < array->GetNumberOfComponents(); ++k)
     {
       const double value = array->GetComponent(i, k);
       any |= !std::isnan(value);
-      same = same && !(std::abs(value - expected[k]) > tolerance);
+      if (std::abs(value - expected[k]) > tolerance)
+      {
+        return testing::AssertionFailure() << "component " << k << " of tuple " << i << " is "
+                                           << value << " instead of " << expected[k];
+      }
     }
   }
-  return same && any;
+  return (any ? testing::AssertionSuccess() : testing::AssertionFailure())
+    << "no value is a number";
 }
 
-inline Filter Run(Filter filter)
+/**
+ * Updates it: no message, and it converges.
+ */
+inline Filter Solve(Filter filter)
 {
   Messages messages(filter);
   filter->Update();
-  for (const std::string& text : messages.Errors)
-  {
-    std::cerr << text << "\n";
-  }
-  for (const std::string& text : messages.Warnings)
-  {
-    std::cerr << text << "\n";
-  }
-  CHECK(messages.Errors.empty() && messages.Warnings.empty());
-  CHECK(filter->GetErrorCode() == 0);
-  CHECK(filter->GetStopReason() == vtkThermoelasticFilter::Converged);
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_EQ(messages.Warnings, NoMessages);
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
+  EXPECT_EQ(filter->GetStopReason(), vtkThermoelasticFilter::Converged);
   return filter;
 }
 

@@ -90,6 +90,20 @@ def check_number(proxy, prop, instance):
         available = {m[len(prefix):] for m in dir(instance) if m.startswith(prefix)}
         hidden = NOT_OFFERED.get((proxy, name), set())
         check(available - hidden == offered, f"{where}: the class offers {available}, the XML {offered}")
+        if name == "QualityMeasure":
+            check_measures(where, prefix, instance, available)
+
+
+def check_measures(where, prefix, instance, available):
+    """The class has the numbers of the core: they are cast from one to the other."""
+    header = open(os.path.join(SOURCE, "Filters", "Core", "Quality", "Measure.h"), encoding="utf-8").read()
+    body = re.search(r"enum class Measure\n\{(.*?)\n\};", header, re.DOTALL).group(1)
+    core = {word: int(number) for word, number in re.findall(r"(\w+) =\s*(\d+)", body)}
+    check(len(core) >= 7, f"{where}: the core has {core}")
+    for word in available:
+        getattr(instance, prefix + word)()
+        check(instance.GetQualityMeasure() == core.get(word),
+              f"{where}: {word} is {instance.GetQualityMeasure()} in the class, {core.get(word)} in the core")
 
 
 def check_proxy(path):

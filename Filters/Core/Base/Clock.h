@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Clock.h
-/// Whether a run goes on: progress, abort and time limit in one place.
+/// Whether a run continues: progress, abort and time limit in one place.
 #ifndef meshopt_Base_Clock_h
 #define meshopt_Base_Clock_h
 
@@ -8,20 +8,21 @@
 
 namespace meshopt
 {
-/// Starts when it is made. The caller is told of progress at most about ten times a second, and may ask
-/// to stop. No result depends on the clock unless it stops the run.
+/// Starts when it is constructed. Reports progress to the caller at most about ten times a second;
+/// the caller may then ask to stop. No result depends on the clock unless it stops the run.
 class Clock
 {
 public:
-  /// `timeLimit` in seconds; 0: none. The control must live as long as the clock.
+  /// `timeLimit`: in seconds; 0: none. The control must outlive the clock.
   explicit Clock(const Control& control, double timeLimit = 0.0)
     : progress_(control)
     , timeLimit_(timeLimit)
   {
   }
 
-  /// Reports progress: `fraction` in [0, 1] of the part that is at work, `text` makes a sentence about
-  /// it. Returns false once the caller has asked to stop or the time is over.
+  /// Reports progress. `fraction`, in [0, 1], is that of the current part; `text` is a callable
+  /// that makes a sentence about it. Returns false once the caller has asked to stop or the time is
+  /// over.
   template <class Text>
   bool goesOn(double fraction, Text&& text)
   {
@@ -29,20 +30,17 @@ public:
     return this->progress_.report(done, text) && !this->isOutOfTime();
   }
   bool isAborted() const { return this->progress_.cancelled(); }
-  /// May be asked by any thread.
-  bool isOutOfTime() const
-  {
-    return this->timeLimit_ > 0.0 && this->seconds() > this->timeLimit_;
-  }
+  /// May be called by any thread.
+  bool isOutOfTime() const { return this->timeLimit_ > 0.0 && this->seconds() > this->timeLimit_; }
   bool hasStopped() const { return this->isAborted() || this->isOutOfTime(); }
-  /// Since the clock was made.
+  /// Since the construction of the clock.
   double seconds() const
   {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->begin_).count();
   }
 
-  /// As long as it lives, fractions are of a part of the work: that from `first` to `last` of the part
-  /// before.
+  /// While it exists, fractions refer to a part of the work: from `first` to `last` of the
+  /// enclosing part.
   class Part
   {
   public:
@@ -71,7 +69,7 @@ public:
 private:
   Progress progress_;
   double timeLimit_;
-  double first_ = 0.0, last_ = 1.0; // the part that is at work
+  double first_ = 0.0, last_ = 1.0; // the current part
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 }

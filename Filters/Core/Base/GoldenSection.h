@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file GoldenSection.h
-/// The greatest value of a function of one variable.
+/// Maximum of a function of one variable.
 #ifndef meshopt_Base_GoldenSection_h
 #define meshopt_Base_GoldenSection_h
 
 namespace meshopt
 {
-/// Where, between a and b (in any order), f is greatest, for an f that rises and then falls; `best` is
-/// the value there. Golden section, so many steps: each shrinks the interval by .618.
+/// The place between a and b (in any order) where f is greatest, for an f that first rises and then
+/// falls; `best` is the value there. Golden section: each of the `steps` shrinks the interval by
+/// .618.
 template <class F>
 double goldenSection(double a, double b, int steps, F&& f, double& best)
 {

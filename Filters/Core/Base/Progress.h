@@ -23,7 +23,7 @@ public:
   {
   }
 
-  /// Tells the caller, if it is time: `fraction` in [0, 1]; `text` is a callable that makes the
+  /// Calls the caller if it is time. `fraction` is in [0, 1]; `text` is a callable that makes the
   /// text. Returns false once the caller has asked to stop.
   template <class Text>
   bool report(double fraction, Text&& text)
@@ -38,12 +38,13 @@ public:
       this->first_ = false;
       this->fraction_ = std::max(this->fraction_, std::min(1.0, fraction));
       this->cancelled_ = !this->control_->progress(this->fraction_, text());
+      // Measured after the call: a slow caller must not be called without pause.
       this->last_ = Clock::now();
     }
     return !this->cancelled_;
   }
   bool cancelled() const { return this->cancelled_; }
-  /// The next report is told at once: other work begins.
+  /// The next report is passed on at once, since other work begins.
   void expectNews() { this->first_ = true; }
 
 private:

@@ -17,9 +17,9 @@ constexpr double shapeConstant = MeanEdgeShape<3>::constant;
 
 double cubed(double x) { return x * x * x; }
 
-/// Maximize z^(1/3) / P(p), with z > 0 the last coordinate of p and P(p) = base + sum_i of sqrt(|p
-/// - pole_i|^2 + offset_i): three edges lead from the free node to given ones. Since the facet that
-/// is given has a constant area, V is z times a constant.
+/// Maximizes z^(1/3) / P(p). Here z > 0 is the last coordinate of p, and P(p) = base + sum_i of
+/// sqrt(|p - pole_i|^2 + offset_i): three edges lead from the free node to given ones. The given
+/// facet has a constant area, so V is z times a constant.
 template <int N>
 struct ApexProblem
 {
@@ -53,8 +53,8 @@ struct ApexProblem
     }
   }
 
-  /// An upper bound of the maximum, from the start p, which becomes the best place; stops where
-  /// `enough` is reached.
+  /// Returns an upper bound of the maximum. Starts at p, which becomes the best place. Stops as
+  /// soon as `enough` is reached.
   double maximize(Point& p, double enough) const
   {
     double z = std::cbrt(p[N - 1]);
@@ -72,19 +72,20 @@ struct ApexProblem
       this->derivatives(p, g, h);
       Point slope = -lambda * g;
       slope[N - 1] += z / (3.0 * p[N - 1]);
-      // concave: the maximum of z^(1/3) - lambda P, 0 at p, is at most the slope times a distance.
-      // The best node is nearer to the given ones than their perimeter, and so is p.
+      // z^(1/3) - lambda P is concave and 0 at p, so its maximum is at most the slope times a
+      // distance. The best node is nearer to the given ones than their perimeter, and so is p.
       const double rest = slope.norm() * 2.0 * this->base / s;
       if (rest <= 1e-13 * lambda)
       {
         return lambda + rest;
       }
+      // One Newton step; the Hessian is definite, since the function is strictly concave.
       h *= lambda;
       h(N - 1, N - 1) += 2.0 * z / (9.0 * p[N - 1] * p[N - 1]);
       const Point step = h.llt().solve(slope);
       if (!this->advance(step, p, z, s))
       {
-        // z / s is as great as rounding lets it be seen; steps may still make the slope smaller
+        // Rounding hides any further gain of z / s; steps may still make the slope smaller.
         if (rest > 0.5 * lastRest || p[N - 1] + step[N - 1] <= 0.0)
         {
           return lambda + std::min(rest, lastRest);
@@ -95,17 +96,19 @@ struct ApexProblem
         s = this->sum(p);
       }
     }
+    // Not converged: no bound is known. A huge value is always a valid one.
     return 1e30;
   }
 
 private:
-  /// The longest of the steps 1, 1/2, 1/4 ... that raises z / s. False if none does.
+  /// Takes the longest of the steps 1, 1/2, 1/4 ... that raises z / s. False if none does.
   bool advance(const Point& step, Point& p, double& z, double& s) const
   {
     double t = 1.0;
     for (int halving = 0; halving < 40; ++halving, t *= 0.5)
     {
       const Point next = p + t * step;
+      // Stay on the positive side of the facet, and well off its plane, where cbrt() is steep.
       if (next[N - 1] < 0.1 * p[N - 1])
       {
         continue;
@@ -124,7 +127,7 @@ private:
   }
 };
 
-/// S from lambda = z^(1/3) / P and back; the given facet has this area.
+/// S from lambda = z^(1/3) / P, and back; `area` is the area of the given facet.
 double shapeOf(double lambda, double area)
 {
   return std::min(1.0, shapeConstant * (area / 3.0) * cubed(lambda));
@@ -137,8 +140,7 @@ double lambdaOf(double shape, double area)
 
 double facetCap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, double enough, Vec<3>* apex)
 {
-  // a frame in the plane of the facet, the origin in its centre, its longest edge as the unit of
-  // length
+  // A frame in the plane of the facet: the origin at its centre, the unit its longest edge.
   const Vec<3> u = b - a, v = c - a;
   const double unit = std::sqrt(
     std::max(u.squaredNorm(), std::max(v.squaredNorm(), (v - u).squaredNorm())));
@@ -164,6 +166,7 @@ double facetCap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, double enough
   }
   problem.base = (u.norm() + v.norm() + (v - u).norm()) / unit;
   const double area = 0.5 * twiceArea / (unit * unit);
+  // 0.27 perimeters is about the height of the best apex of a regular facet: sqrt(2/3) / 3.
   Eigen::Vector3d p(0.0, 0.0, 0.27 * problem.base);
   const double target = std::isfinite(enough) ? lambdaOf(enough, area) : enough;
   const double lambda = problem.maximize(p, target);
@@ -176,8 +179,8 @@ double facetCap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, double enough
 
 double angleCap(double phi)
 {
-  // The edge has length 1, the other nodes are at the distance r from its middle: dS/dr = 0 is
-  // m (1 - r s) = 2 r^2 - 1, with s = sin(phi / 2), m = sqrt(r^2 + 1/4); falling in r.
+  // The edge has length 1, and the other nodes have distance r from its middle. dS/dr = 0 means m
+  // (1 - r s) = 2 r^2 - 1, with s = sin(phi / 2), m = sqrt(r^2 + 1/4). The difference falls in r.
   const double s = std::sin(0.5 * phi);
   double r = 0.85;
   for (int i = 0; i < 8; ++i)
@@ -199,8 +202,8 @@ double angleCap2(double phi)
 
 namespace
 {
-/// The place between `out` (where f < c) and `in` (f >= c) at which f reaches c, from without: by
-/// false position, halving the weight of an end that stays (Illinois).
+/// The place between `out` (where f < c) and `in` (where f >= c) at which f reaches c, approached
+/// from outside. False position; the weight of an end that stays is halved (Illinois).
 template <class F>
 double crossing(double out, double fOut, double in, double fIn, double c, double width, F&& f)
 {
@@ -208,7 +211,7 @@ double crossing(double out, double fOut, double in, double fIn, double c, double
   for (int i = 0; i < 100 && std::fabs(in - out) > width; ++i)
   {
     double x = b > a ? out + (in - out) * (-a / (b - a)) : 0.5 * (in + out);
-    // keeps a little off both ends, so that the interval closes from both sides
+    // Keep a little off both ends, so that the interval closes from both sides.
     const double least = 0.4 * width, margin = in > out ? least : -least;
     x = std::fabs(x - out) < least ? out + margin : std::fabs(x - in) < least ? in - margin : x;
     const double y = f(x) - c;
@@ -225,12 +228,14 @@ double crossing(double out, double fOut, double in, double fIn, double c, double
       b *= 0.5;
     }
   }
+  // The outer end: intervals are rounded outwards, so that the bound stays certified.
   return out;
 }
 }
 
 void angleCapLevel(double c, double& low, double& high, double width)
 {
+  // The dihedral angle of the regular tetrahedron.
   const double best = std::acos(1.0 / 3.0);
   low = crossing(0.0, 0.0, best, 1.0, c, width, angleCap);
   high = crossing(pi, 0.0, best, 1.0, c, width, angleCap);
@@ -260,7 +265,7 @@ double EdgeView::cap(double phi, double enough) const
 
 double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p) const
 {
-  // In the half plane at the angle phi: s along the edge, r away from it; V = off r sin(phi) / 6.
+  // In the half plane at angle phi: s along the edge, r away from it; V = off r sin(phi) / 6.
   const double sine = std::sin(phi), cosine = std::cos(phi);
   ApexProblem<2> problem;
   problem.base = this->perimeter;
@@ -279,7 +284,7 @@ double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p) const
 
 bool EdgeView::level(double c, double& low, double& high, double width) const
 {
-  // each search starts from the best place of the one before
+  // Each search starts from the best place of the one before.
   const double exact = std::numeric_limits<double>::infinity();
   Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
   const auto value = [this, exact, &p](double phi) { return this->capFrom(phi, exact, p); };
@@ -297,7 +302,8 @@ bool EdgeView::level(double c, double& low, double& high, double width) const
 
 namespace
 {
-/// Is there a filling by three or more that is easily found? For the many edges that forbid nothing.
+/// Whether a filling by three or more tetrahedra is found easily. It is for the many edges that
+/// forbid nothing, and saves the expensive search.
 bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& last)
 {
   const auto between = [c](double angle, int n)
@@ -305,7 +311,7 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
   const auto ends = [c, &first, &last](double angle)
   { return angle < pi && first.cap(angle, c) >= c && last.cap(angle, c) >= c; };
   const int most = std::max(
-    3, static_cast<int>(theta) + 1); // the next one has less than 57 degrees each
+    3, static_cast<int>(theta) + 1); // with more, each has less than 57 degrees
   for (int k = most; k >= 3 && k >= most - 2; --k)
   {
     if (between(theta - first.best - last.best, k - 2) ||
@@ -325,12 +331,14 @@ bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& 
   {
     return false;
   }
-  // Two: V at the other facet is wrong by slack times the node's distance, and S by 1833 / 24 slack at most.
+  // Filling by two: V at the other facet is wrong by slack times the distance of the node, and S by
+  // at most 1833 / 24 slack.
   if (pairReaches(c * (1.0 - 8.0 * slack) - 100.0 * slack, theta, first, last) ||
     fillsSimply(c, theta, first, last))
   {
     return false;
   }
+  // On the safe side: the views of the facets have this error.
   c *= 1.0 - 8.0 * slack;
   double low, high;
   angleCapLevel(c, low, high, width);
@@ -339,8 +347,8 @@ bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& 
   {
     return false; // the best place is not known well enough
   }
-  // k - 2 >= 1 tetrahedra between the first and the last; fewer than this many reach theta, and more
-  // exceed it
+  // k - 2 >= 1 tetrahedra lie between the first and the last. Fewer than `between` do not reach
+  // theta; if that many already exceed it, all larger numbers do, too.
   const double between = std::max(1.0, std::ceil((theta - slack - u1 - u2) / high));
   return l1 + l2 + between * low > theta + slack;
 }
@@ -351,6 +359,7 @@ double edgeCap(double above, double theta, const EdgeView& first, const EdgeView
   double low = std::max(0.0, spanned), high = above;
   while (high - low > tolerance * high && high > 1e-12)
   {
+    // While only a tiny low end is known, steps by a factor find the magnitude faster.
     const double middle = low > 0.1 * high ? 0.5 * (low + high) : 0.3 * high;
     (edgeForbids(middle, theta, first, last, spanned, slack, width) ? high : low) = middle;
   }

@@ -27,9 +27,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
   {
     if (surface.sideCaps[k] < limit)
     {
-      Facet<D> f = surface.sides[k].nodes;
-      std::sort(f.begin(), f.end());
-      this->facets_[f] = surface.sideCaps[k];
+      this->facets_[sortedIds(surface.sides[k].nodes)] = surface.sideCaps[k];
       this->hasTiny_ |= surface.sideCaps[k] < Tiny;
       this->largest_ = std::max(this->largest_, surface.sideCaps[k]);
     }
@@ -38,8 +36,8 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
   {
     if (e.cap < limit && e.b != None)
     {
-      double& cap =
-        this->edges_.try_emplace({ std::min(e.a, e.b), std::max(e.a, e.b) }, 1.0).first->second;
+      // An edge may have several wedges: the lowest of their caps counts.
+      double& cap = this->edges_.try_emplace(sortedIds(e.a, e.b), 1.0).first->second;
       cap = std::min(cap, e.cap);
       this->largest_ = std::max(this->largest_, e.cap);
     }
@@ -53,8 +51,7 @@ double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
   {
     return 1.0;
   }
-  std::sort(f.begin(), f.end());
-  const auto found = this->facets_.find(f);
+  const auto found = this->facets_.find(sortedIds(f));
   return found == this->facets_.end() || found->second >= Tiny
     ? 1.0
     : this->full_ / std::max(found->second, Rounding);
@@ -78,6 +75,7 @@ template <int D>
 bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 {
   const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh, mesh.nodes(c)) : 1.0);
+  // The caps are looked up only for cells that may be at one: most are above the largest cap.
   if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))
   {
     return false;
@@ -86,9 +84,7 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
   {
     if (mesh.isConstrained(c, i))
     {
-      Facet<D> f = mesh.facet(c, i);
-      std::sort(f.begin(), f.end());
-      const auto found = this->facets_.find(f);
+      const auto found = this->facets_.find(sortedIds(mesh.facet(c, i)));
       if (found != this->facets_.end() && q >= this->reached_ * found->second)
       {
         return true;
@@ -105,9 +101,7 @@ double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
   {
     return -1.0;
   }
-  Facet<D> f = mesh.facet(c, i);
-  std::sort(f.begin(), f.end());
-  const auto found = this->facets_.find(f);
+  const auto found = this->facets_.find(sortedIds(mesh.facet(c, i)));
   return found == this->facets_.end() ? -1.0
                                       : std::max(mesh.quality(c), this->reached_ * found->second);
 }
@@ -125,11 +119,13 @@ bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
       {
         continue;
       }
-      const auto found = this->edges_.find({ std::min(a, b), std::max(a, b) });
+      const auto found = this->edges_.find(sortedIds(a, b));
       if (found == this->edges_.end() || !(mesh.quality(c) >= this->reached_ * found->second))
       {
         continue;
       }
+      // Some cell at the edge is at most the cap, but it is not known which. It is this one if all
+      // others are better.
       mesh.ring(c, a, b, false, ring);
       if (std::none_of(ring.begin(), ring.end(),
             [&](Index o) { return o != c && mesh.quality(o) <= found->second; }))

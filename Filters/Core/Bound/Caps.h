@@ -1,63 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Caps.h
-/// Which cells cannot get better because the surface is kept: they must cost nothing.
+/// Finds the cells that cannot get better because the surface is kept. They must cost no time.
 #ifndef meshopt_Bound_Caps_h
 #define meshopt_Bound_Caps_h
 
 #include "Bound/SurfaceBound.h"
+#include "Mesh/Ids.h"
 
 #include <unordered_map>
 
 namespace meshopt
 {
-/// Caps of kept facets and edges under a given quality (see SurfaceBound), for look-up.
+/// Look-up of caps of kept facets and edges below a given quality (see SurfaceBound).
 template <int D>
 class Caps
 {
 public:
-  /// Prepares the look-up of caps below `limit`; `known` is false where none can be certified (a
-  /// metric that varies): then nothing is capped and bound() is 1.
+  /// Prepares the look-up of caps below `limit`. `known` is false if none can be certified (if the
+  /// metric varies): then nothing is capped, and bound() is 1.
   void build(const SimplexMesh<D>& mesh, Measure measure, double limit, bool known);
 
   double bound() const { return this->bound_; }
 
-  /// The fraction of its cap with which a cell counts as capped.
+  /// The fraction of its cap at which a cell counts as capped.
   void setReached(double fraction) { this->reached_ = fraction; }
 
-  /// True if cell c has reached a cap of one of its kept facets; or that of a kept edge whose other
+  /// True if cell c has reached a cap of one of its kept facets, or that of a kept edge whose other
   /// cells are all better.
   bool isCapped(const SimplexMesh<D>& mesh, Index c) const;
 
-  /// A facet with a cap under Tiny makes a bad cell whatever is done, and its best fourth node, far
-  /// away, makes the neighbours bad, too. To spare these, cells there can be judged by what they
-  /// could have: weighed with 1 / cap, such that `full` is at the cap. But not with more than
-  /// 1 / Rounding: what is less is mostly rounding, and would make gains without end.
+  /// A facet with a cap under Tiny makes a bad cell in any case. Its best fourth node is far away
+  /// and makes the neighbours bad, too. To spare these, cells there can be judged by what they
+  /// could reach: with the weight full / cap, their quality at the cap becomes `full`. Caps under
+  /// Rounding are mostly rounding errors and would allow gains without end, so no weight is greater
+  /// than full / Rounding.
   static constexpr double Tiny = 0.2, Rounding = 1e-6;
   bool hasTiny() const { return this->hasTiny_; }
   void setFull(double quality) { this->full_ = quality; }
-  /// The weight of a facet, 1 unless its cap is tiny; the greatest one of a cell's facets.
+  /// The weight of a facet (1 unless its cap is tiny), and the greatest weight of a cell's facets.
   double weight(const SimplexMesh<D>& mesh, Facet<D> f) const;
   double weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) const;
-  /// Says if the qualities that the mesh holds are weighed.
+  /// Says whether the qualities stored in the mesh are weighted.
   void setWeighed(bool on) { this->weighed_ = on; }
 
-  /// What a cell on kept facet i of cell c must have to count as capped; not less than c has. -1 if
-  /// no cap is known there.
+  /// The quality at which a cell on kept facet i of cell c counts as capped; at least that of c. -1
+  /// if no cap is known there.
   double enough(const SimplexMesh<D>& mesh, Index c, int i) const;
 
 private:
   struct Hash
   {
     template <std::size_t N>
-    std::size_t operator()(const std::array<Index, N>& f) const
+    std::size_t operator()(const std::array<Index, N>& ids) const
     {
-      std::size_t h = 0;
-      for (Index p : f)
-      {
-        h = (h ^ std::uint32_t(p)) * 0x9e3779b97f4a7c15ull;
-        h ^= h >> 29;
-      }
-      return h;
+      return hashIds(ids);
     }
   };
 

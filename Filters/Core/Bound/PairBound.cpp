@@ -11,11 +11,11 @@ namespace meshopt
 {
 namespace
 {
-/// One of the two tetrahedra, its free node being p; the common edge goes from 0 to (1, 0, 0).
+/// One of the two tetrahedra; p is the free node. The common edge goes from 0 to (1, 0, 0).
 struct Half
 {
   Vec<3> tip;    ///< third node of the facet
-  Vec<3> inward; ///< times p: proportional to V
+  Vec<3> inward; ///< its product with p is proportional to V
   double base;   ///< perimeter of the facet
 
   Half(const EdgeView& view, double angle, double turn)
@@ -25,19 +25,19 @@ struct Half
   {
   }
 
-  /// (c V)^(1/3), in perimeters of the facet.
+  /// (c V)^(1/3), in units of the perimeter of the facet.
   double root(const Vec<3>& p) const
   {
     return std::cbrt(MeanEdgeShape<3>::constant / 6.0 * this->inward.dot(p)) / this->base;
   }
 
-  /// Sum of the edges, likewise.
+  /// The sum of the edges, in the same unit.
   double sum(const Vec<3>& p) const
   {
     return 1.0 + (p.norm() + (p - Vec<3>::UnitX()).norm() + (p - this->tip).norm()) / this->base;
   }
 
-  /// Adds to the gradient of -(root - lambda sum), times weight, and to its second derivatives.
+  /// Adds the gradient of -(root - lambda sum), times weight, and its second derivatives.
   void differentiate(
     const Vec<3>& p, double lambda, double weight, Vec<3>& g, Eigen::Matrix3d& h) const
   {
@@ -69,7 +69,7 @@ public:
     return this->first_.inward.dot(p) > 0.0 && this->last_.inward.dot(p) > 0.0;
   }
 
-  /// S^(1/3) of both.
+  /// S^(1/3) of the first and of the last tetrahedron.
   double first(const Vec<3>& p) const { return this->first_.root(p) / this->first_.sum(p); }
   double last(const Vec<3>& p) const { return this->last_.root(p) / this->last_.sum(p); }
 
@@ -79,8 +79,8 @@ public:
       (weight * this->first_.sum(p) + (1.0 - weight) * this->last_.sum(p));
   }
 
-  /// Moves p to the best place for the weighted mean; returns an upper bound of what the worse of both can
-  /// have anywhere, as S^(1/3).
+  /// Moves p to the best place for the weighted mean. Returns an upper bound, as S^(1/3), on what
+  /// the worse of the two tetrahedra can reach anywhere.
   double maximize(double weight, Vec<3>& p) const
   {
     double lambda = this->mean(p, weight);
@@ -91,9 +91,9 @@ public:
       Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
       this->first_.differentiate(p, lambda, weight, g, h);
       this->last_.differentiate(p, lambda, 1.0 - weight, g, h);
-      // Concave: the mean is at most the slope times a distance above lambda. The best place for both is
-      // no farther from the edge's middle than the longer perimeter, as beyond both get better on the
-      // straight way back. The sums, by which is to be divided, are at least 1.
+      // The mean is concave: it exceeds lambda by at most the slope times a distance. The best
+      // place for both is no farther from the middle of the edge than the longer perimeter: beyond
+      // it, both get better on the straight way back. The sums in the denominator are at least 1.
       const double radius = std::max(this->first_.base, this->last_.base);
       rest = g.norm() * (radius + (p - 0.5 * Vec<3>::UnitX()).norm());
       if (rest <= 1e-11 * lambda || !this->advance(h.llt().solve(-g), weight, p, lambda))
@@ -105,7 +105,7 @@ public:
   }
 
 private:
-  /// The longest of the steps 1, 1/2, 1/4 ... that raises the mean. False if none does.
+  /// Takes the longest of the steps 1, 1/2, 1/4 ... that raises the mean. False if none does.
   bool advance(const Vec<3>& step, double weight, Vec<3>& p, double& lambda) const
   {
     double t = 1.0;
@@ -136,21 +136,25 @@ bool pairReaches(double c, double theta, const EdgeView& first, const EdgeView& 
     away * std::sin(0.5 * theta));
   double low = 0.0, high = 1.0;
   for (int halving = 0; halving < 40 && pair.isInside(p); ++halving)
+  // Such a place exists: no bound is needed.
   {
     const double s1 = pair.first(p), s2 = pair.last(p);
     if (s1 >= wanted && s2 >= wanted)
     {
       return true;
     }
+    // The worse of the two needs more weight.
     if (halving > 0)
     {
       (s1 < s2 ? low : high) = 0.5 * (low + high);
     }
+    // Some weighted mean stays below what is wanted, everywhere: so does the worse of the two.
     if (pair.maximize(0.5 * (low + high), p) < wanted)
     {
       return false;
     }
   }
+  // Not decided: the edge must then not be said to forbid anything.
   return true;
 }
 }

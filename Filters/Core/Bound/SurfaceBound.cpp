@@ -13,8 +13,7 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 
-/// Edge (3D) or node (2D) k of a side, ready to be sorted so that those that coincide are
-/// neighbours.
+/// Edge (3D) or node (2D) k of a side. Sorted, those that coincide become neighbours.
 struct Rim
 {
   Index low, high; ///< nodes; in 2D both are the node
@@ -68,7 +67,7 @@ std::vector<Rim> collectRims(const std::vector<KeptSide<2>>& sides)
   return rims;
 }
 
-/// An angle in ]0, 2 pi[, and how far the true one may be from it, also round 0.
+/// An angle in ]0, 2 pi[, with a bound on its error (also across 0).
 struct Angle
 {
   double value = 0.0, error = 0.0;
@@ -81,7 +80,7 @@ struct Angle
   {
     this->value += this->value > 0.0 ? 0.0 : 2.0 * pi;
   }
-  /// False where it may as well be 0 as 2 pi, or anything.
+  /// False if it may be 0 as well as 2 pi, or if nothing is known.
   bool known() const
   {
     return this->error < 1e-3 && this->value > this->error && this->value < 2.0 * pi - this->error;
@@ -92,8 +91,8 @@ struct Angle
   }
 };
 
-/// What both dimensions share: facet caps, then the wedges between neighbouring sides of one
-/// region.
+/// The part that both dimensions share: caps of facets, then wedges between neighbouring sides of
+/// one region.
 template <int D>
 class BoundBuilder
 {
@@ -132,7 +131,7 @@ private:
     return this->result_.sides[rim.side].nodes[D == 3 ? (rim.k + 2) % 3 : 1 - rim.k];
   }
 
-  /// A wedge begins at one rim, and ends at the one met first when turning into it.
+  /// A wedge begins at one rim, and ends at the first other rim when turning into it.
   struct Wedge
   {
     const Rim* from;
@@ -168,7 +167,7 @@ double BoundBuilder<3>::capOfSide(std::size_t s, double enough)
     case FacetBound::MeanRatio:
     case FacetBound::MeanRatioToTwoThirds:
     {
-      // The best apex is above the centroid, and gives the mean ratio 4 sqrt(3) A / sum l^2 of the
+      // The best apex is above the centroid. It gives the mean ratio 4 sqrt(3) A / sum l^2 of the
       // facet itself.
       const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
       const double area = 0.5 * (b - a).cross(c - a).norm();
@@ -195,6 +194,7 @@ void BoundBuilder<D>::capSides()
   double bound = this->result_.bound;
   for (std::size_t s = 0; s < this->result_.sides.size(); ++s)
   {
+    // Only caps that can lower the bound or are listed must be exact.
     const double cap = this->capOfSide(s, std::max(bound, this->enough_));
     this->result_.sideCaps[s] = cap;
     bound = std::min(bound, cap);
@@ -207,7 +207,8 @@ bool BoundBuilder<D>::findWedge(
   const Rim& from, const Rim* begin, const Rim* end, Wedge& wedge) const
 {
   wedge = { &from, nullptr, {} };
-  // A facet's own back side is behind all others, at 2 pi exactly; it is no use to compute this.
+  // A facet's own back side is behind all others, at exactly 2 pi: computing it could only blur
+  // that.
   Angle back;
   back.value = 2.0 * pi;
   for (const Rim* rim = begin; rim != end; ++rim)
@@ -228,7 +229,7 @@ bool BoundBuilder<D>::findWedge(
       wedge.theta = t;
     }
   }
-  // nothing may be as near as the end, but for the front of that facet
+  // Nothing may be as near as the end, except the front of that facet.
   for (const Rim* rim = begin; wedge.to && rim != end; ++rim)
   {
     if (rim == &from || rim == wedge.to)
@@ -252,8 +253,8 @@ bool BoundBuilder<D>::findWedge(
   return wedge.to != nullptr;
 }
 
-/// False where the sides at the edge do not bound wedges one after another, in an order that is
-/// beyond doubt: facets folded onto each other, wedges that overlap, sides missing.
+/// False if the sides at the edge do not bound wedges one after another in an order beyond doubt:
+/// facets folded onto each other, wedges that overlap, or missing sides.
 template <int D>
 bool BoundBuilder<D>::findWedges(const Rim* begin, const Rim* end, std::vector<Wedge>& wedges) const
 {
@@ -273,7 +274,7 @@ bool BoundBuilder<D>::findWedges(const Rim* begin, const Rim* end, std::vector<W
       }
     }
   }
-  // as many ends as beginnings: then they alternate
+  // As many ends as beginnings: then they alternate.
   return 2 * static_cast<std::ptrdiff_t>(wedges.size()) == end - begin;
 }
 
@@ -301,7 +302,7 @@ void BoundBuilder<D>::capWedges()
 template <int D>
 void BoundBuilder<D>::capWedge(const Rim& from, const Rim& to, const Angle& theta)
 {
-  // only what the facets at the edge do not forbid by themselves
+  // Only an edge that forbids more than its own facets do needs an entry.
   const double list = this->options_.listEdgesBelow;
   const double facets = std::min(
     this->result_.sideCaps[from.side], this->result_.sideCaps[to.side]);
@@ -333,9 +334,10 @@ Angle BoundBuilder<3>::angle(const Rim& from, const Rim& to) const
   const Vec<3> t = this->points_[from.high] - a;
   const Vec<3> u = this->points_[this->tip(from)] - a;
   const Vec<3> v = this->points_[this->tip(to)] - a;
-  // normals of both half planes, turned the same way: (t x u) . (t x v) and t . ((t x u) x (t x v))
+  // Normals of both half planes, turned the same way: (t x u) . (t x v) and t . ((t x u) x (t x
+  // v)).
   const Vec<3> m = t.cross(u), n = t.cross(v);
-  // of a needle along the edge the normal is known badly
+  // The normal of a needle along the edge is known badly.
   const double l = t.norm();
   const double blur = 1.0 + l * u.norm() / m.norm() + l * v.norm() / n.norm();
   return Angle(l * u.dot(v.cross(t)), m.dot(n), blur);
@@ -358,7 +360,7 @@ double BoundBuilder<2>::wedgeCap(
       cap = std::max(cap, angleCap2(theta / k));
     }
   }
-  return cap + angle.error; // more than what the error of theta can do
+  return cap + angle.error; // the error of theta changes the cap by less than this
 }
 
 template <>
@@ -368,11 +370,12 @@ double BoundBuilder<3>::wedgeCap(
   const double theta = angle.value, slack = angle.error;
   const Vec<3>&a = this->points_[from.low], &b = this->points_[from.high];
   const Vec<3>&c = this->points_[this->tip(from)], &d = this->points_[this->tip(to)];
-  // rounding: seen from other corners the volume of a flat one differs by some 1e-14
+  // Rounding: the volume of a flat tetrahedron differs by some 1e-14, depending on the corner that
+  // it is seen from.
   const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + 1e-13 : 0.0;
   const EdgeView first(a, b, c, this->apexes_[from.side]);
   const EdgeView last(a, b, d, this->apexes_[to.side]);
-  // exactly only what sets the bound
+  // Exact only for edges that set the bound: all others are for look-up.
   const bool exact = below <= this->result_.bound;
   const double width = exact ? 1e-9 : 1e-3 * std::min(1.0, theta);
   if (!edgeForbids(below, theta, first, last, spanned, slack, width))

@@ -2,11 +2,11 @@
 /// @file SurfaceBound.h
 /// How good a mesh can be at best while its surface is kept: a certified upper bound of (2.1).
 ///
-/// Every kept facet belongs to one cell on each side, whose shape is at most that of the best
-/// element with this facet: its cap. At every kept edge (3D; a kept node in 2D) the angle between
-/// two kept facets has to be filled by some number of elements; the worst of them is at most what
-/// edgeForbids() leaves possible. Nothing else is used: what lies inside may be reconnected, also
-/// where all nodes of a cell are fixed.
+/// Every kept facet belongs to one cell on each side. The shape of that cell is at most that of the
+/// best element with this facet: its cap. At every kept edge (3D; in 2D a kept node) the angle
+/// between two kept facets has to be filled by some number of elements. The worst of them is at
+/// most what edgeForbids() leaves possible. Nothing else is used: the inside may be reconnected,
+/// even where all nodes of a cell are fixed.
 #ifndef meshopt_Bound_SurfaceBound_h
 #define meshopt_Bound_SurfaceBound_h
 
@@ -27,13 +27,13 @@ struct KeptSide
   Facet<D> nodes;
   Index cell = None; ///< on this side
   Index region = 0;  ///< of that cell
-  /// False where it is not sure on which side of the facet the mesh lies (the cell is inverted or
-  /// flat and nothing else tells): its angles with other facets are then left out.
+  /// False if it is uncertain on which side of the facet the mesh lies (the cell is inverted or
+  /// flat, and nothing else tells). Its angles with other facets are then ignored.
   bool oriented = true;
 };
 
-/// A kept edge (nodes a, b) or, in 2D, a kept node (a; b is None) where some cell of every filling
-/// is at most `cap`. Which one of the cells there it is, is not said.
+/// A kept edge (nodes a, b) or, in 2D, a kept node (a; b is None), where every filling has some
+/// cell of at most `cap`. It is not known which of the cells there.
 struct EdgeBound
 {
   Index a = None, b = None;
@@ -43,19 +43,19 @@ struct EdgeBound
 struct SurfaceBoundOptions
 {
   Measure measure = Measure::Shape;
-  /// Caps of facets and edges are needed exactly only where they are below this; above, sideCaps
-  /// may be anything from here to the true cap. Infinite: all sideCaps are exact.
+  /// Caps of facets and edges must be exact only below this. Above it, sideCaps may be any value
+  /// from here to the true cap. Infinite: all sideCaps are exact.
   double enough = std::numeric_limits<double>::infinity();
-  /// List all edges that cap something under this (0: only the edge that sets the bound).
+  /// Lists all edges with a cap below this (0: only the edge that sets the bound).
   double listEdgesBelow = 0.0;
 };
 
-/// The result. For Measure::Shape, in 3D and 2D; for MeanRatio and VolumeLength facets only; for
-/// the others nothing is known and the caps are those of the regular simplex.
+/// The result. Measure::Shape uses facets and edges, in 3D and 2D; MeanRatio and VolumeLength use
+/// facets only. For other measures nothing is known, and the caps are those of the regular simplex.
 ///
-/// A cap of the shape is one of the quality (2.2) as well, since the size factor is at most 1.
-/// Lengths are Euclidean: for a constant metric pass points mapped by M^(1/2); for a varying one
-/// there is no bound.
+/// A cap of the shape is also one of the quality (2.2), since the size factor is at most 1. Lengths
+/// are Euclidean: for a constant metric pass points mapped by M^(1/2). For a varying metric there
+/// is no bound.
 template <int D>
 struct SurfaceBound
 {
@@ -65,14 +65,14 @@ struct SurfaceBound
   std::vector<EdgeBound> edges; ///< see listEdgesBelow; in no special order, but always the same
 };
 
-/// Bound of a mesh: its kept facets (surface, regions, the caller's) as they are now. Linear in its
-/// size; besides one scan of the cells the work is on the surface only: some .3 us a facet, 1 us an
-/// edge.
+/// The bound of a mesh with its present kept facets (surface, regions, the caller's). Linear in the
+/// size of the mesh. Besides one scan of the cells, the work is proportional to the surface: some
+/// 0.3 us per facet and 1 us per edge.
 template <int D>
 SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptions& options = {});
 
-/// The same from a list of sides. `points` is indexed by the ids in it. A side's points need not be
-/// finite.
+/// The same from a list of sides. `points` is indexed by the ids in the sides. The points of a side
+/// need not be finite.
 template <int D>
 SurfaceBound<D> surfaceBound(
   const Vec<D>* points, std::vector<KeptSide<D>> sides, const SurfaceBoundOptions& options = {});

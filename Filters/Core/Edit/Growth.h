@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Growth.h
-/// How many cells may come, counted in cells.
+/// The growth budget: how many cells may still be added.
 #ifndef meshopt_Edit_Growth_h
 #define meshopt_Edit_Growth_h
 
@@ -8,18 +8,18 @@
 
 namespace meshopt
 {
-/// As a number of cells that may come: no limit. Such numbers are added and subtracted.
+/// No limit, as a number of cells. It leaves room for sums and differences of such numbers.
 inline constexpr long AnyGrowth = std::numeric_limits<long>::max() / 2;
 
-/// The growth that one judge may allow: all of a run's, or the share of one chunk.
+/// The growth that one judge may allow: that of the whole run, or the share of one chunk.
 struct Growth
 {
-  long left = AnyGrowth; ///< net number of cells that may still come; where cells go it rises
-  /// Once so many may come, since so many have gone, no more nodes are removed.
+  long left = AnyGrowth; ///< net number of cells that may still be added; rises when cells vanish
+  /// No more nodes are removed once `left` has risen to this.
   long most = std::numeric_limits<long>::max();
-  bool isShort = false; ///< something was left out for want of growth
+  bool isShort = false; ///< a change was refused for lack of growth
 
-  /// Whether so many more cells may come; notes it if not.
+  /// Whether this many cells may be added. Notes it in isShort if not.
   bool allows(long cells)
   {
     const bool enough = cells <= 0 || cells <= this->left;

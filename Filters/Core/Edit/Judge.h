@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Judge.h
-/// The one place where a proposed change is accepted and made, or refused: the mesh is then as it was.
+/// The one place where a proposed change is accepted and made, or refused. If refused, the mesh
+/// stays as it was.
 ///
-/// What it asks, in this order:
-///  - quality: what comes is better than Proposal::least, for the operations of the fast engine the
-///    worst of what goes by gain(). The sorted vector of all qualities then rises
-///    lexicographically, so that nothing cycles;
-///  - topology, where geometry does not tell since cells overlap: what comes fills the cavity and
-///    meets the rest of the mesh in its boundary only (CavityFit.h); kept edges stay;
-///  - growth: so many cells may still come;
-///  - guard: no more bad cells than before, where one bad cell is not to be lifted by others.
+/// It checks, in this order:
+///  - quality: the new cells are better than Proposal::least. Operations of the fast engine set
+///    this to the worst quality of the cavity plus gain(). The sorted vector of all qualities then
+///    rises lexicographically, so that no cycle is possible;
+///  - topology, only if cells may overlap, since geometry then says nothing: the new cells fill the
+///    cavity and meet the rest of the mesh in its boundary only (CavityFit.h). Kept edges stay;
+///  - growth: the budget allows the additional cells;
+///  - guard: there are no more bad cells than before, where one bad cell must not be improved at
+///    the expense of others.
 #ifndef meshopt_Edit_Judge_h
 #define meshopt_Edit_Judge_h
 
@@ -33,8 +35,9 @@ class Judge
 public:
   static constexpr double Never = Proposal<D>::Never;
 
-  /// All must live as long as the judge. `surface`: what nodes of the surface may slide along, or
-  /// null: it is kept. `caps`: for operations that ask how good a cell can get; may be null.
+  /// All arguments must outlive the judge. `surface`: what nodes of the surface may slide along;
+  /// null: the surface is kept. `caps`: for operations that ask how good a cell can get; may be
+  /// null.
   Judge(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Switches& switches,
     const Surface<D>* surface = nullptr, const Caps<D>* caps = nullptr)
     : editor_(&editor)
@@ -45,7 +48,7 @@ public:
   {
   }
 
-  // --- what operations look at
+  // --- what operations read
   MeshEditor<D>& editor() { return *this->editor_; }
   const SimplexMesh<D>& mesh() const { return this->editor_->mesh(); }
   const QualityModel<D, Shape>& model() const { return *this->model_; }
@@ -53,15 +56,17 @@ public:
   const Surface<D>* surface() const { return this->surface_; }
   const Caps<D>* caps() const { return this->caps_; }
 
-  // --- what is asked
-  /// The least gain over a worst quality q that makes a change worth it; less where all is tiny.
+  // --- requirements
+  /// The least gain over a worst quality q that makes a change worthwhile. It is smaller if all
+  /// qualities are tiny.
   double gain(double q) const
   {
     return std::min(this->gain_, std::max(1e-4 * this->gain_, 2 * this->gain_ * std::fabs(q)));
   }
-  /// What has to be beaten where the worst is q.
+  /// The quality that a change must exceed if the worst is q.
   double required(double q) const { return q + this->gain(q); }
-  /// A search for the place of nodes ends here: more than enough is not paid for.
+  /// A search for better places of nodes may stop at this quality: anything above is not worth its
+  /// cost.
   double enough(double q) const
   {
     constexpr double margin = 0.02; // above the target
@@ -69,24 +74,24 @@ public:
   }
   bool mayRemoveNodes() const { return this->switches_->removeNodes && this->growth.mayShrink(); }
 
-  /// Towards which quality cells are lifted.
+  /// The quality that the pass works towards.
   void setTarget(double quality) { this->target_ = quality; }
   void setGain(double gain)
   {
     this->failuresSince_ = gain == this->gain_ ? this->failuresSince_ : this->editor_->clock();
     this->gain_ = gain;
   }
-  /// No change may bring more bad cells than it takes away: otherwise many cells that are hardly
-  /// better come for one that is worst. A cell under `quality` counts once, under two thirds of it
-  /// twice, under one third three times. -1: no guard. Insertions are always guarded; `all`: so is
-  /// every other change that does not take an inverted cell out.
+  /// Sets the guard: no change may add more bad cells than it removes. Otherwise many cells that
+  /// are hardly better would replace one that is worst. A cell under `quality` counts once, under
+  /// two thirds of it twice, under one third three times. -1: no guard. Insertions are always
+  /// guarded. With `all`, so is every other change, except those that remove an inverted cell.
   void setGuard(double quality, bool all = false)
   {
     this->guard_ = quality;
     this->guardsAll_ = all;
   }
-  /// For meshes whose cells overlap. `tangled`: they may, and topology is looked at; `inverted`:
-  /// some cells are inverted; `pinched`: see PinchedPoints.h, must live as long as the judge.
+  /// For meshes whose cells may overlap. `tangled`: they may, so topology is checked. `inverted`:
+  /// some cells are inverted. `pinched`: see PinchedPoints.h; must outlive the judge.
   void setTangled(bool tangled, bool inverted, const std::vector<std::uint8_t>& pinched)
   {
     this->tangled_ = tangled;
@@ -94,8 +99,8 @@ public:
     this->pinched_ = &pinched;
   }
   bool hasInverted() const { return this->inverted_; }
-  /// After a move the stars of all nodes around count as changed (MeshEditor::stamp()); else only the
-  /// moved nodes are stamped.
+  /// If on, all nodes of the moved cells are stamped after a move, since their stars have changed
+  /// (MeshEditor::stamp()). If off, only the moved nodes are stamped.
   void setStampsStars(bool on) { this->stampsStars_ = on; }
 
   Growth growth;
@@ -114,21 +119,22 @@ public:
     this->growth.left = mark.growth;
     this->bad_ = mark.bad;
   }
-  /// Whether the changes since `mark` have brought no more bad cells than they took away.
+  /// Whether the changes since `mark` have added no more bad cells than they removed.
   bool keepsGuard(const Mark& mark) const { return this->bad_ <= mark.bad; }
 
   // --- judging
-  /// Computes the qualities of the cells that come. False as soon as one is not better than least.
+  /// Computes the qualities of the new cells. Stops and returns false at the first that is not
+  /// better than p.least.
   bool measure(Proposal<D>& p) const;
-  /// Whether topology allows what comes; always true where cells do not overlap (setTangled()).
+  /// Whether topology allows the new cells. Always true if cells cannot overlap (setTangled()).
   bool fits(const Proposal<D>& p) const
   {
     return !this->tangled_ ||
       (fillsCavity<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) &&
         !meetsOthers<D>(this->mesh(), p.cavity, p.cells, *this->pinched_));
   }
-  /// Makes the change if it is acceptable. `also` is asked after nodes have moved, before their cells
-  /// are judged.
+  /// Makes the change if it is acceptable. `also` is a further condition: it is called after the
+  /// nodes have moved, before their cells are judged.
   template <class Also>
   bool acceptIf(const Proposal<D>& p, Also&& also)
   {
@@ -139,13 +145,13 @@ public:
     return this->acceptIf(p, [] { return true; });
   }
 
-  /// A new try begins: changed() is empty.
+  /// Begins a new try: changed() is emptied.
   void start() { this->changed_.clear(); }
-  /// Cells that accepted changes have made, or whose quality they have changed, since start(); some
-  /// may be dead.
+  /// Cells that accepted changes have created, or whose quality they have changed, since start().
+  /// Some may be dead.
   std::vector<Index>& changed() { return this->changed_; }
 
-  /// How many of the cells of these qualities are bad, less those of the cavity; see setGuard().
+  /// How bad cells of these qualities are in total, minus the same for the cavity; see setGuard().
   long badBalance(const std::vector<double>& qualities, const std::vector<Index>& cavity) const;
 
   // --- bookkeeping
@@ -156,8 +162,9 @@ public:
   }
   std::array<long, NumberOfOperations> tried{}, done{};
 
-  /// Whether a try that failed at the time `failed` would fail again: nothing has changed since
-  /// `stamp`. Failures within a transaction are not to be remembered: what is undone is another star.
+  /// Whether a try that failed at time `failed` would fail again, because nothing has changed since
+  /// `stamp`. Do not remember failures within a transaction: after a rollback the star is another
+  /// one.
   bool failsAgain(std::uint32_t failed, std::uint32_t stamp) const
   {
     return failed >= stamp && failed > this->failuresSince_;
@@ -182,10 +189,10 @@ private:
   double target_ = 1.0, gain_ = 1e-3;
   double guard_ = -1.0;
   bool guardsAll_ = false, stampsStars_ = true;
-  std::uint32_t failuresSince_ = 0; ///< failures at a node before that were with another gain
-  long bad_ = 0;                    ///< badness() of all cells made, less that of those removed
+  std::uint32_t failuresSince_ = 0; ///< older failures at a node were with another gain
+  long bad_ = 0;                    ///< badness() of all cells made, minus that of those removed
   bool tangled_ = false, inverted_ = false;
-  const std::vector<std::uint8_t>* pinched_ = nullptr; // where tangled_
+  const std::vector<std::uint8_t>* pinched_ = nullptr; // only if tangled_
   std::vector<Index> changed_;
   std::vector<double> qualities_;
 };
@@ -226,6 +233,7 @@ long Judge<D, Shape>::badBalance(
 template <int D, class Shape>
 bool Judge<D, Shape>::replace(const Proposal<D>& p)
 {
+  // In this order: first the comparison, then tests of topology, which can be expensive.
   const bool knows = !p.qualities.empty();
   if (!(p.newWorst > p.least) || !this->fits(p) ||
     !keepsEdges<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) ||
@@ -240,12 +248,14 @@ bool Judge<D, Shape>::replace(const Proposal<D>& p)
   }
   const std::vector<double>& qualities = knows ? p.qualities : this->qualities_;
   const long bad = this->badBalance(qualities, p.cavity);
-  // What happens within a transaction is judged at its end, by keepsGuard().
+  // Within a transaction a single change may break the guard: keepsGuard() judges the sum at the
+  // end. Removing an inverted cell is worth any number of bad ones.
   if (this->guardsAll_ && bad > 0 && !this->editor_->inTransaction() &&
     this->mesh().worstQuality(p.cavity) > 0.0)
   {
     return false;
   }
+  // Fails only if the chunk has no free slot left.
   if (!this->editor_->replace(p.cavity, p.cells, qualities, p.keptChange()))
   {
     return false;
@@ -261,6 +271,8 @@ template <int D, class Shape>
 template <class Also>
 bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
 {
+  // The nodes move first: `also` may look at the new surface, and the model reads points from the
+  // mesh.
   const Mark mark = this->begin();
   for (const auto& m : p.moves)
   {
@@ -277,6 +289,7 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
     const Index c = p.cavity[k];
     const double old = this->mesh().quality(c);
     const double q = p.qualities.empty() ? (*this->model_)(this->mesh().nodes(c)) : p.qualities[k];
+    // A cell that was inverted may stay so while it improves; one that was positive may not turn.
     good = q > p.least && (q > 0.0 || !(p.keepsPositive && old > 0.0));
     bad += this->badness(q) - this->badness(old);
     this->editor_->setQuality(c, q);

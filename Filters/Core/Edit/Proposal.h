@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Proposal.h
-/// What an operation wants to do: nothing has happened yet.
+/// A change that an operation proposes; nothing has been changed yet.
 #ifndef meshopt_Edit_Proposal_h
 #define meshopt_Edit_Proposal_h
 
@@ -11,12 +11,13 @@
 
 namespace meshopt
 {
-/// Either cells come for those of the cavity; or, if there are `moves`, nodes move and the cells stay.
-/// New points have been added to the mesh, within a transaction; no cell uses them yet.
+/// Either `cells` replace those of the cavity; or, if there are `moves`, nodes move and the cells
+/// stay. New points have already been added to the mesh, within a transaction, but no cell uses
+/// them yet.
 template <int D>
 struct Proposal
 {
-  /// A quality that every other is above.
+  /// A value below every quality.
   static constexpr double Never = -std::numeric_limits<double>::infinity();
 
   struct Move
@@ -26,17 +27,17 @@ struct Proposal
     Place place; ///< on the surface, if the point slides
   };
 
-  std::vector<Index> cavity;      ///< cells that go; with moves: all cells around the nodes
-  std::vector<Simplex<D>> cells;  ///< cells that come
-  std::vector<double> qualities;  ///< of the cells in the end, if they are known already; else empty
+  std::vector<Index> cavity;     ///< cells that vanish; with moves: all cells around the nodes
+  std::vector<Simplex<D>> cells; ///< the new cells
+  std::vector<double> qualities; ///< final qualities of the cells, if already known; else empty
   std::vector<Move> moves;
-  KeptChange<D> kept; ///< regions always, the rest if changesKept
+  KeptChange<D> kept; ///< regions: always used; the rest: only if changesKept
   bool changesKept = false;
 
-  double oldWorst = 0.0; ///< least quality in the cavity
-  double newWorst = 0.0; ///< of what comes; what a search found may differ from it by rounding
-  double least = Never;  ///< what comes has to be better than this
-  bool keepsPositive = false; ///< with moves: no cell of positive quality may lose that
+  double oldWorst = 0.0;      ///< least quality in the cavity
+  double newWorst = 0.0;      ///< of the new cells; a search may give it with rounding errors
+  double least = Never;       ///< the new cells must be better than this
+  bool keepsPositive = false; ///< with moves: no cell with positive quality may lose it
 
   void clear()
   {
@@ -50,7 +51,7 @@ struct Proposal
     this->least = Never;
   }
   const KeptChange<D>* keptChange() const { return this->changesKept ? &this->kept : nullptr; }
-  /// Net number of cells that it brings.
+  /// Net number of cells that it adds.
   long growth() const
   {
     return this->moves.empty()

@@ -17,11 +17,11 @@ struct QualityModel
   const SimplexMesh<D>* mesh;
   NodalMetric<D>* metric;
   ElementQuality<D, Shape> quality;
-  /// Euclidean and without size factor: the metric need not be asked.
+  /// Euclidean and without size factor: the metric need not be read.
   bool plain;
-  /// Plain, and the measure is a function of volume and edge sum: lengths can be shared.
+  /// The measure is a function of volume and edge sum: if also plain, edge lengths can be shared.
   static constexpr bool HasSum = EdgeSum<Shape>::value;
-  /// Where set, the quality of a cell is multiplied by Caps::weight(), unless it is under the floor.
+  /// If set, the quality of a cell is multiplied by Caps::weight(), unless it is under the floor.
   const Caps<D>* weights = nullptr;
   double floor = 0.0;
 
@@ -35,7 +35,7 @@ struct QualityModel
   {
   }
 
-  /// Of a cell with nodes at the places x.
+  /// The quality of a cell if its nodes were at the places x.
   double at(const Simplex<D>& nodes, const Corners<D>& x) const
   {
     const double q = this->plain ? Shape::value(x)

@@ -8,13 +8,13 @@ namespace meshopt
 {
 struct Switches
 {
-  bool moveNodes = true;   ///< node repositioning (section 2.2)
-  bool reconnect = true;   ///< changes of topology that keep the points
+  bool moveNodes = true;   ///< node repositioning (section 2.2 of the paper)
+  bool reconnect = true;   ///< changes of topology that keep all points
   bool insertNodes = true; ///< changes of topology that add points
-  bool removeNodes = true; ///< changes of topology that take points away
+  bool removeNodes = true; ///< changes of topology that remove points
 
-  /// When nothing else gains: changes that pay only together, or after nodes have moved. The paper
-  /// has no such thing; without it Algorithm::Paper1996 is what the paper says.
+  /// When nothing else gains: changes that gain only together, or after nodes have moved. This is
+  /// not in the paper. Without it, Algorithm::Paper1996 does exactly what the paper says.
   bool lookAhead = true;
 };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file CavityFit.h
-/// Whether cells are a filling of a cavity, by their points alone.
+/// Whether cells fill a cavity, decided from their points alone.
 #ifndef meshopt_Mesh_CavityFit_h
 #define meshopt_Mesh_CavityFit_h
 
@@ -16,7 +16,7 @@ namespace meshopt
 {
 namespace fitting
 {
-/// Facets in order, with the numbers of their cells.
+/// Sorted facets with the numbers of their cells.
 template <int D>
 using Facets = std::vector<std::pair<Facet<D>, std::size_t>>;
 
@@ -31,8 +31,7 @@ Facets<D> facetsOf(const std::vector<Simplex<D>>& cells)
       Facet<D> f;
       std::transform(
         std::begin(local), std::end(local), f.begin(), [&](int i) { return cells[k][i]; });
-      std::sort(f.begin(), f.end());
-      facets.push_back({ f, k });
+      facets.push_back({ sortedIds(f), k });
     }
   }
   std::sort(facets.begin(), facets.end());
@@ -45,7 +44,7 @@ bool has(const Facet<D>& f, const std::vector<Index>& face)
   return std::includes(f.begin(), f.end(), face.begin(), face.end());
 }
 
-/// One number per cell, the same for cells that hang together over facets that have all of `face`.
+/// One number per cell, equal for cells that are connected over facets that contain all of `face`.
 template <int D>
 std::vector<std::size_t> parts(
   const Facets<D>& facets, std::size_t numberOfCells, const std::vector<Index>& face)
@@ -63,12 +62,14 @@ std::vector<std::size_t> parts(
   return part;
 }
 
-/// Whether, at every point (D = 3: and edge) of the boundary, cells that hang together there before do so
-/// after. `outer`: the boundary, with the old cells; `within`: the new cells, in the same order.
+/// Whether cells that are connected at a point (D = 3: or an edge) of the boundary before are so
+/// after, for every such point and edge. `outer`: the boundary, with the old cells; `within`: the
+/// new cells, in the same order.
 template <int D>
 bool staysTogether(const std::vector<Simplex<D>>& old, const std::vector<Simplex<D>>& cells,
   const Facets<D>& outer, const std::vector<std::size_t>& within)
 {
+  // All points and edges of the boundary.
   const Facets<D> oldFacets = facetsOf<D>(old), newFacets = facetsOf<D>(cells);
   std::vector<std::vector<Index>> faces;
   for (const auto& f : outer)
@@ -88,7 +89,7 @@ bool staysTogether(const std::vector<Simplex<D>>& old, const std::vector<Simplex
   {
     const std::vector<std::size_t> before = parts<D>(oldFacets, old.size(), face);
     const std::vector<std::size_t> after = parts<D>(newFacets, cells.size(), face);
-    std::vector<std::size_t> now(old.size(), None); // the part after, for each part before
+    std::vector<std::size_t> now(old.size(), None); // for each part before: the part after
     for (std::size_t k = 0; k < outer.size(); ++k)
     {
       if (has<D>(outer[k].first, face))
@@ -106,15 +107,17 @@ bool staysTogether(const std::vector<Simplex<D>>& old, const std::vector<Simplex
 }
 }
 
-/// Whether `cells` may come for those of the cavity, where that does not follow from geometry since
-/// cells overlap. O(n^2) in the number of cells, of which there are few. True if
-/// - every facet of the cavity's boundary is a facet of one of `cells`, and all their other facets
-///   are there in pairs: what MeshEditor::replace() asks for; but for kept facets that `change` has come or go;
-/// - they hang together: a new node that is joined to the outside of a cavity and to an inverted cell
-///   that the cavity surrounds would close a bubble around that cell;
-/// - at every point (D = 3: and edge) of the boundary those hang together that did before: otherwise the
-///   mesh could be pinched there, and a star be found in part only;
-/// - their Euler characteristic is that of the cavity: a node joined to all of a ring makes no ring.
+/// Whether `cells` may replace those of the cavity. For meshes whose cells overlap: geometry then
+/// does not tell. O(n^2) in the number of cells, which are few. True if
+/// - every facet of the cavity's boundary is a facet of one of `cells`, and all other facets of
+///   `cells` come in pairs: this is what MeshEditor::replace() requires. Kept facets that `change`
+///   adds or removes are excepted;
+/// - the cells are connected. Otherwise, a new node joined to the outside of a cavity and to an
+///   inverted cell inside it would close a bubble around that cell;
+/// - at every point (D = 3: and edge) of the boundary, cells stay connected that were so before.
+///   Otherwise the mesh could be pinched there, and a star would be found only in part;
+/// - their Euler characteristic is that of the cavity: a node joined to all of a ring of cells does
+///   not make a ring.
 template <int D>
 bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   const std::vector<Simplex<D>>& cells, const KeptChange<D>* change = nullptr)
@@ -135,18 +138,17 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   {
     for (int i = 0; i <= D; ++i)
     {
-      Facet<D> f = mesh.facet(c, i);
+      const Facet<D> f = mesh.facet(c, i);
       if (!inCavity(mesh.adjacent(c, i)) && !(change && isAmong(change->gone, f)))
       {
-        std::sort(f.begin(), f.end());
-        outer.push_back({ f, old.size() });
+        outer.push_back({ sortedIds(f), old.size() });
       }
     }
     old.push_back(mesh.nodes(c));
   }
   std::sort(outer.begin(), outer.end());
   const fitting::Facets<D> facets = fitting::facetsOf<D>(cells);
-  std::vector<std::size_t> within; // for each facet of the boundary, the new cell that has it
+  std::vector<std::size_t> within; // for each boundary facet, the new cell that has it
   const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
   for (std::size_t k = 0; k < facets.size();)
   {
@@ -154,6 +156,8 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     const auto [a, b] = std::equal_range(outer.begin(), outer.end(), facets[k], less);
     const auto n = last - first;
     const bool comes = change && b == a && n == 1 && isAmong(change->come, facets[k].first);
+    // A facet must not be on the boundary twice. A boundary facet needs one new cell; one inside
+    // needs two, and a new kept facet one.
     if (b - a > 1 || (n != (b == a ? 2 : 1) && !comes))
     {
       return false;
@@ -171,9 +175,10 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     fitting::staysTogether<D>(old, cells, outer, within);
 }
 
-/// Whether one of `cells` has an edge or a facet that is there already outside of the cavity. Where
-/// no cell is inverted geometry forbids it; it is the link condition of an edge contraction, and its
-/// like for other changes. `pinched`: see PinchedPoints.h. The cost goes with the stars of points.
+/// Whether one of `cells` has an edge or a facet that already exists outside of the cavity. This is
+/// the link condition of an edge contraction, and its analogue for other changes. Without inverted
+/// cells geometry rules it out. `pinched`: see PinchedPoints.h. The cost is proportional to the
+/// stars of the points.
 template <int D>
 bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   const std::vector<Simplex<D>>& cells, const std::vector<std::uint8_t>& pinched)
@@ -182,7 +187,7 @@ bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   { return p < static_cast<Index>(pinched.size()) && pinched[p]; };
   std::vector<Index> star;
   Index centre = None; // of the star
-  // a face of a new cell: its points, the first `n` of `face`
+  // `face`: the first n ids are a face of a new cell
   const auto isNewAndTaken = [&](const Index* face, int n)
   {
     const auto has = [&](Index c)
@@ -192,7 +197,8 @@ bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     {
       return false;
     }
-    // The star at hand if it will do; else that of the last point, the apex that many new cells share.
+    // Use the present star if it will do; otherwise that of the last point, the apex that many new
+    // cells share. The star of a pinched point is incomplete, so it will not do.
     const Index* whole = std::find(face, face + n, centre);
     for (int k = n; whole == face + n && k-- > 0;)
     {
@@ -207,7 +213,7 @@ bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
       }
       return std::any_of(star.begin(), star.end(), has);
     }
-    bool found = false; // no star of these points is all of it; there are few such points
+    bool found = false; // all points are pinched, which is rare: scan all cells
     for (Index c = 0; c < mesh.numberOfCellSlots() && !found; ++c)
     {
       found = mesh.isAlive(c) && has(c);
@@ -237,7 +243,7 @@ bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   return false;
 }
 
-/// Whether every kept edge of the cavity is an edge of one of `cells`, or goes by the change.
+/// Whether every kept edge of the cavity is an edge of one of `cells`, or is removed by the change.
 template <int D>
 bool keepsEdges(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   const std::vector<Simplex<D>>& cells, const KeptChange<D>* change = nullptr)

@@ -33,7 +33,7 @@ int ClusterGatherer<D>::localNumber(const SimplexMesh<D>& mesh, Index p, Cluster
   return k;
 }
 
-/// Neighbours of the cell, order by order, in front_.
+/// Puts the neighbours of the cell into front_, order by order.
 template <int D>
 void ClusterGatherer<D>::findNeighbours(MeshEditor<D>& editor, Index cell, int level)
 {
@@ -65,7 +65,8 @@ void ClusterGatherer<D>::findNeighbours(MeshEditor<D>& editor, Index cell, int l
   }
 }
 
-/// Moving nodes, those of front_, first; then their cells with whatever other nodes these have.
+/// Numbers the moving nodes (those of front_) first; then collects their cells with all other
+/// nodes.
 template <int D>
 void ClusterGatherer<D>::collect(MeshEditor<D>& editor, Cluster<D>& cluster)
 {
@@ -81,7 +82,8 @@ void ClusterGatherer<D>::collect(MeshEditor<D>& editor, Cluster<D>& cluster)
     this->localNumber(mesh, p, cluster);
   }
   cluster.numberOfMoving = static_cast<int>(cluster.points.size());
-  // star() uses marks of its own: a cell is taken at its first moving node in local order.
+  // star() overwrites marks, so these cannot tell which cells are taken: a cell is taken at its
+  // first moving node in local order.
   for (int k = 0; k < cluster.numberOfMoving; ++k)
   {
     editor.star(cluster.points[k], this->star_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Cluster.h
-/// The few cells being worked on, numbered locally: what the node motion sees of a mesh.
+/// The few cells that are worked on, numbered locally: the part of a mesh that node motion sees.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2 (steps 3 and 4 of the global
 /// algorithm: neighbours of order NL, moving nodes, optimization cluster).
@@ -26,7 +26,7 @@ struct Cluster
   std::vector<Vec<D>> x;         ///< coordinates, by local number
   std::vector<Index> cells;      ///< cells of the mesh
   std::vector<Simplex<D>> nodes; ///< local point numbers of each cell
-  std::vector<double> quality;   ///< of each cell, as the mesh has it
+  std::vector<double> quality;   ///< of each cell, as stored in the mesh
   int numberOfMoving = 0;
 
   Corners<D> corners(int k) const
@@ -38,7 +38,8 @@ struct Cluster
     }
     return c;
   }
-  /// Whether the moving nodes are in the box of the others, as they are where no cell is inverted.
+  /// Whether the moving nodes lie in the bounding box of the others. This holds if no cell is
+  /// inverted.
   bool isAmidPoints() const
   {
     Eigen::AlignedBox<double, D> box;
@@ -47,23 +48,22 @@ struct Cluster
     return std::all_of(this->x.begin(), this->x.begin() + this->numberOfMoving,
       [&](const Vec<D>& p) { return box.contains(p); });
   }
-  /// Mean length of the edges of all cells (an edge counts once per cell): the L of (2.5).
+  /// Mean length of the edges of all cells (an edge counts once for each cell): the L of (2.5).
   double meanEdge() const;
 };
 
-/// Gathers optimization clusters; keeps its scratch between calls. The cost of a call is
+/// Gathers optimization clusters; keeps its scratch memory between calls. The cost of a call is
 /// proportional to the cells around the neighbourhood, not to the mesh.
 template <int D>
 class ClusterGatherer
 {
 public:
-  /// The cluster of `cell`: nodes in its neighbourhood of order `level` (0: its own nodes; 1: also
-  /// those joined to them by an edge; and so on) for which movable(p) is true become moving nodes, in
-  /// the order of distance; the cells are those that contain one. What the editor does not own is not
-  /// seen.
+  /// The cluster of `cell`. Its neighbourhood of order `level` are its own nodes (0), also those
+  /// joined to them by an edge (1), and so on. Nodes of the neighbourhood for which movable(p) is
+  /// true become moving nodes, in the order of distance. The cells are those that contain a moving
+  /// node. What the editor does not own is ignored.
   template <class Movable>
-  void gather(
-    MeshEditor<D>& editor, Index cell, int level, Movable&& movable, Cluster<D>& cluster)
+  void gather(MeshEditor<D>& editor, Index cell, int level, Movable&& movable, Cluster<D>& cluster)
   {
     this->findNeighbours(editor, cell, level);
     this->front_.erase(std::remove_if(this->front_.begin(), this->front_.end(),

@@ -4,7 +4,7 @@
 #ifndef meshopt_Mesh_EulerCharacteristic_h
 #define meshopt_Mesh_EulerCharacteristic_h
 
-#include "Mesh/Types.h"
+#include "Mesh/Ids.h"
 
 #include <algorithm>
 #include <iterator>
@@ -24,14 +24,13 @@ long eulerCharacteristic(const std::vector<Simplex<D>>& cells)
     points.insert(points.end(), c.begin(), c.end());
     for (const auto& e : Local<D>::edges)
     {
-      edges.push_back({ std::min(c[e[0]], c[e[1]]), std::max(c[e[0]], c[e[1]]) });
+      edges.push_back(sortedIds(c[e[0]], c[e[1]]));
     }
     for (const auto& local : Local<D>::facets)
     {
       Facet<D> f;
       std::transform(std::begin(local), std::end(local), f.begin(), [&](int i) { return c[i]; });
-      std::sort(f.begin(), f.end());
-      facets.push_back(f);
+      facets.push_back(sortedIds(f));
     }
   }
   const auto countDistinct = [](auto& faces)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Ids.h
-/// Small things that are done with the point ids of a simplex, a facet or an edge.
+/// Small functions on the point ids of a simplex, a facet or an edge.
 #ifndef meshopt_Mesh_Ids_h
 #define meshopt_Mesh_Ids_h
 
@@ -16,7 +16,7 @@ bool hasId(const std::array<Index, N>& ids, Index p)
   return std::find(ids.begin(), ids.end(), p) != ids.end();
 }
 
-/// The same with `to` in the place of `from`.
+/// The same ids with `to` in place of `from`.
 template <std::size_t N>
 std::array<Index, N> exchanged(std::array<Index, N> ids, Index from, Index to)
 {
@@ -24,7 +24,7 @@ std::array<Index, N> exchanged(std::array<Index, N> ids, Index from, Index to)
   return ids;
 }
 
-/// In ascending order: the key by which a facet or an edge is known to all cells that have it.
+/// In ascending order: the key of a facet or an edge, the same for all cells that have it.
 inline std::array<Index, 2> sortedIds(std::array<Index, 2> f)
 {
   if (f[0] > f[1])
@@ -32,6 +32,11 @@ inline std::array<Index, 2> sortedIds(std::array<Index, 2> f)
     std::swap(f[0], f[1]);
   }
   return f;
+}
+
+inline std::array<Index, 2> sortedIds(Index a, Index b)
+{
+  return sortedIds(std::array<Index, 2>{ a, b });
 }
 
 inline std::array<Index, 3> sortedIds(std::array<Index, 3> f)
@@ -51,7 +56,7 @@ inline std::array<Index, 3> sortedIds(std::array<Index, 3> f)
   return f;
 }
 
-/// For tables with open addressing whose size is a power of two.
+/// A hash for tables with open addressing whose size is a power of two.
 template <std::size_t N>
 std::size_t hashIds(const std::array<Index, N>& f)
 {

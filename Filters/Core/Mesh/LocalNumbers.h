@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file LocalNumbers.h
-/// Local numbers 0, 1, 2, ... for the few points of a cluster, in the order of their first mention.
+/// Local numbers 0, 1, 2, ... for a few points or cells, in the order of their first use.
 #ifndef meshopt_Mesh_LocalNumbers_h
 #define meshopt_Mesh_LocalNumbers_h
 
@@ -10,7 +10,7 @@
 
 namespace meshopt
 {
-/// An open-addressing hash that is emptied in O(1).
+/// A hash with open addressing that is emptied in O(1): entries of an earlier time count as empty.
 class LocalNumbers
 {
 public:

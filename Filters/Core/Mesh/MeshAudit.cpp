@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The audit: everything that must hold of a SimplexMesh, checked without trusting any of it.
+// The audit: checks all invariants of a SimplexMesh, without trusting any of its data.
 #include "Mesh/EulerCharacteristic.h"
+#include "Mesh/Ids.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <algorithm>
@@ -76,10 +77,8 @@ struct Audit
       this->fault(name + " leads to a dead cell");
       return;
     }
-    Facet<D> g = this->mesh.facet(o, j);
-    std::sort(f.begin(), f.end());
-    std::sort(g.begin(), g.end());
-    if (this->mesh.adjacent(o, j) != Mesh::handle(c, i) || f != g)
+    if (this->mesh.adjacent(o, j) != Mesh::handle(c, i) ||
+      sortedIds(f) != sortedIds(this->mesh.facet(o, j)))
     {
       this->fault(name + " is not the facet of its neighbour");
     }
@@ -93,7 +92,7 @@ struct Audit
     }
   }
 
-  /// Facets counted anew, without the adjacency.
+  /// Counts facets again, without the adjacency.
   void counts()
   {
     std::map<Facet<D>, int> count;
@@ -112,9 +111,7 @@ struct Audit
       }
       for (int i = 0; i <= D; ++i)
       {
-        Facet<D> f = this->mesh.facet(c, i);
-        std::sort(f.begin(), f.end());
-        const int n = ++count[f];
+        const int n = ++count[sortedIds(this->mesh.facet(c, i))];
         if (n > 2)
         {
           this->fault("a facet of cell " + std::to_string(c) + " has more than two cells");
@@ -164,6 +161,7 @@ std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
       audit.cell(c, requirePositive);
     }
   }
+  // Further checks walk over ids that the first ones have found to be valid.
   if (audit.faults.empty())
   {
     audit.counts();

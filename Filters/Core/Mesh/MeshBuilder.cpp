@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Building a SimplexMesh: checks, adjacency by a bucket sort, orientation, what must be kept.
+// Builds a SimplexMesh: checks, adjacency by a bucket sort, orientation, kept facets and edges.
+#include "Mesh/Ids.h"
+#include "Mesh/PinchedPoints.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <algorithm>
@@ -42,7 +44,7 @@ bool sortFacet(Facet<D>& f)
   return odd;
 }
 
-/// What a facet is besides its least point id.
+/// A facet without its lowest point id.
 struct FacetEntry
 {
   std::uint64_t rest;    // the other ids, sorted
@@ -116,6 +118,7 @@ struct MeshBuilder
               Index(c), t[i]);
           }
         }
+        // Only points that cells use: others are never read.
         if (!this->input.points[t[i]].allFinite())
         {
           return this->error("Point " + std::to_string(t[i]) + " of cell " + std::to_string(c) +
@@ -159,7 +162,8 @@ struct MeshBuilder
     }
   }
 
-  /// Bucket by the least point id (counting sort), then sort the few entries of each bucket.
+  /// Puts facets into buckets by their lowest point id (counting sort), then sorts the few facets
+  /// of each bucket: equal facets become neighbours.
   std::optional<MeshError> link()
   {
     const Index n = this->mesh.numberOfCellSlots();
@@ -220,12 +224,14 @@ struct MeshBuilder
     const Index ca = Mesh::cellOf(a), cb = Mesh::cellOf(b);
     if (k + 2 < end && entries[k + 2].rest == entries[k].rest)
     {
+      // A third equal facet: the mesh is not conforming.
       const Index cc = Mesh::cellOf(static_cast<Index>(entries[k + 2].handle2 >> 1));
       return this->error("The " + std::string(D == 3 ? "face" : "edge") + " of points " +
           list(this->mesh.facet(ca, Mesh::facetOf(a))) +
           " belongs to more than two cells: " + list(std::array<Index, 3>{ ca, cb, cc }) + ".",
         cc);
     }
+    // Two cells with the same points would share all facets.
     Simplex<D> na = this->mesh.nodes(ca), nb = this->mesh.nodes(cb);
     std::sort(na.begin(), na.end());
     std::sort(nb.begin(), nb.end());
@@ -236,11 +242,12 @@ struct MeshBuilder
     }
     this->mesh.cells_[ca].adjacent[Mesh::facetOf(a)] = b;
     this->mesh.cells_[cb].adjacent[Mesh::facetOf(b)] = a;
+    // Neighbours that are numbered alike see their facet with opposite parity.
     this->consistent &= ((entries[k].handle2 ^ entries[k + 1].handle2) & 1) != 0;
     return std::nullopt;
   }
 
-  /// True if the shared facet is seen from opposite sides, as it must be.
+  /// True if the two cells see the shared facet from opposite sides, as they must.
   bool agree(Index c, int i) const
   {
     const Index h = this->mesh.adjacent(c, i);
@@ -248,10 +255,10 @@ struct MeshBuilder
     return sortFacet<D>(f) != sortFacet<D>(g);
   }
 
-  /// Makes the numbering of each connected component consistent, and positive as a whole. What is
-  /// still negative after that is geometrically inverted, not just numbered the other way round.
-  /// A component without a negative cell stays as it is: where its numbering is not consistent, cells
-  /// lie on each other, and to turn one would make it inverted.
+  /// Makes the numbering of each connected component consistent, and its total volume positive. A
+  /// cell that is negative after that is geometrically inverted, not just numbered in reverse. A
+  /// component without a negative cell stays as it is: where its numbering is not consistent cells
+  /// overlap, and reversing one would make it inverted.
   void orient()
   {
     const Index n = this->mesh.numberOfCellSlots();
@@ -290,13 +297,14 @@ struct MeshBuilder
     }
   }
 
-  /// Facets that both of their cells lie on the same side of.
+  /// Counts facets that have both their cells on the same side.
   void findFolds(const std::vector<Index>& cells)
   {
     for (Index c : cells)
     {
       for (int i = 0; i <= D; ++i)
       {
+        // Each pair once: from the side with the lower handle.
         const Index h = this->mesh.adjacent(c, i);
         if (h > Mesh::handle(c, i) && !this->agree(c, i) && this->mesh.foldedFacets_++ == 0)
         {
@@ -308,6 +316,7 @@ struct MeshBuilder
 
   double propagate(Index seed, std::vector<std::int8_t>& sign, std::vector<Index>& component)
   {
+    // Walks over the component; sign is the numbering of each cell relative to the seed's.
     component.assign(1, seed);
     sign[seed] = 1;
     double volume = 0.0;
@@ -331,6 +340,7 @@ struct MeshBuilder
   void reverse(Index c)
   {
     auto& cell = this->mesh.cells_[c];
+    // The last two nodes, and with them the facets opposite to them.
     std::swap(cell.nodes[D - 1], cell.nodes[D]);
     std::swap(cell.adjacent[D - 1], cell.adjacent[D]);
     for (int i = D - 1; i <= D; ++i)
@@ -369,8 +379,8 @@ struct MeshBuilder
     this->fixPinchedPoints();
   }
 
-  /// The caller's facets and edges are marked in every cell that has them. All cells are gone
-  /// through: stars would not do where bodies touch in a point. What no cell has is ignored.
+  /// Marks the caller's facets and edges in every cell that has them. Scans all cells, since a star
+  /// may be incomplete where bodies touch in a point. Ignores what no cell has.
   void constrainListed()
   {
     std::vector<Facet<D>> facets = this->input.constrainedFacets;
@@ -385,9 +395,7 @@ struct MeshBuilder
     {
       for (int i = 0; i <= D; ++i)
       {
-        Facet<D> f = this->mesh.facet(c, i);
-        std::sort(f.begin(), f.end());
-        if (std::binary_search(facets.begin(), facets.end(), f))
+        if (std::binary_search(facets.begin(), facets.end(), sortedIds(this->mesh.facet(c, i))))
         {
           this->keepFacet(c, i);
         }
@@ -396,8 +404,7 @@ struct MeshBuilder
       {
         const Index a = this->mesh.nodes(c)[Local<D>::edges[k][0]];
         const Index b = this->mesh.nodes(c)[Local<D>::edges[k][1]];
-        const std::array<Index, 2> e{ std::min(a, b), std::max(a, b) };
-        if (std::binary_search(edges.begin(), edges.end(), e))
+        if (std::binary_search(edges.begin(), edges.end(), sortedIds(a, b)))
         {
           this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
           this->mesh.points_[a].flags |= Mesh::PointHeld;
@@ -413,33 +420,19 @@ struct MeshBuilder
   {
     for (auto& ids : list)
     {
-      std::sort(ids.begin(), ids.end());
+      ids = sortedIds(ids);
     }
     std::sort(list.begin(), list.end());
   }
 
-  /// A free point whose cells are not all connected over facets (two bodies that touch in an inner
-  /// point) must not move: its star would be seen in part only.
+  /// Holds free points whose cells are not all connected over facets (two bodies that touch in an
+  /// inner point). They must not move, because their star would be found only in part.
   void fixPinchedPoints()
   {
-    std::vector<Index> count(this->mesh.points_.size(), 0), star;
-    for (const auto& cell : this->mesh.cells_)
+    const std::vector<std::uint8_t> pinched = pinchedPoints(this->mesh, true);
+    for (std::size_t p = 0; p < pinched.size(); ++p)
     {
-      for (Index p : cell.nodes)
-      {
-        ++count[p];
-      }
-    }
-    for (Index p = 0; p < this->mesh.numberOfPointSlots(); ++p)
-    {
-      if (count[p] > 0 && this->mesh.isFree(p))
-      {
-        this->mesh.star(p, star);
-        if (static_cast<Index>(star.size()) != count[p])
-        {
-          this->mesh.points_[p].flags |= Mesh::PointHeld;
-        }
-      }
+      this->mesh.points_[p].flags |= pinched[p] ? Mesh::PointHeld : 0;
     }
   }
 };

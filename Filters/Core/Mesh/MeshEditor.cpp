@@ -12,7 +12,7 @@ template <int D>
 MeshEditor<D>::MeshEditor(Mesh& mesh)
   : mesh_(&mesh)
 {
-  // Take over from whoever edited before: marks and stamps only ever grow.
+  // Continue after whoever edited before: marks and stamps only ever grow.
   for (const CellData& data : mesh.cellData_)
   {
     this->mark_ = std::max(this->mark_, data.mark);
@@ -32,6 +32,7 @@ MeshEditor<D> MeshEditor<D>::beside(const MeshEditor& other)
   editor.mark_ = other.mark_;
   for (PointAttachment<D>* attachment : other.attachments_)
   {
+    // Makes another journal: editors that work at the same time must not share one.
     editor.attach(*attachment);
   }
   return editor;
@@ -43,6 +44,7 @@ template <int D>
 void MeshEditor<D>::attach(PointAttachment<D>& attachment)
 {
   assert(this->depth_ == 0);
+  // Room for all points now: nothing may grow while several editors place points.
   attachment.reserve(this->mesh_->numberOfPointSlots());
   this->attachments_.push_back(&attachment);
   this->attachmentJournals_.push_back(attachment.makeJournal());
@@ -58,7 +60,7 @@ void MeshEditor<D>::detach(PointAttachment<D>& attachment)
   this->attachments_.erase(at);
 }
 
-/// Patches are for all cell slots or for none; `isFirst`: from now on for all.
+/// Patches exist for all cell slots or for none. `isFirst`: create them.
 template <int D>
 void MeshEditor<D>::growPatches(bool isFirst)
 {
@@ -92,6 +94,7 @@ void MeshEditor<D>::growCells(Index n)
   this->mesh_->cells_.resize(first + n);
   this->mesh_->cellData_.resize(first + n);
   this->growPatches();
+  // In reverse, so that the lowest id is taken first from the back.
   for (Index c = first + n; c-- > first;)
   {
     this->freeCells_.push_back(c);
@@ -114,6 +117,7 @@ template <int D>
 bool MeshEditor<D>::reserveCells(std::size_t n)
 {
   const bool room = n <= this->freeCells_.size() || this->owner_ == None;
+  // Such a failure is due to the pool, not to the mesh.
   this->blocked_ |= !room;
   return room;
 }
@@ -129,7 +133,7 @@ Index MeshEditor<D>::takeCell()
     {
       this->journal_.push_back(Entry::CellTaken);
       this->slotRecords_.push_back(c);
-      this->saveCell(c);
+      this->saveCell(c); // also of a dead slot: undo is bit for bit
     }
     return c;
   }
@@ -155,7 +159,7 @@ void MeshEditor<D>::freeCell(Index c)
   }
 }
 
-/// A slot for a new point; None if there is none in the pool and the mesh may not grow.
+/// A slot for a new point; None if the pool has none and the mesh may not grow.
 template <int D>
 Index MeshEditor<D>::takePoint()
 {
@@ -195,6 +199,7 @@ Index MeshEditor<D>::addPoint(const Vec<D>& x)
     Point& point = this->mesh_->points_[p];
     point.x = x;
     point.cell = None;
+    // A new time: earlier failures of a point in this slot do not count.
     point.stamp = ++this->clock_;
     point.owner = this->owner_ == None ? 0 : this->owner_;
     point.flags = 0;
@@ -267,6 +272,7 @@ void MeshEditor<D>::commit(std::size_t)
 {
   if (--this->depth_ == 0)
   {
+    // An inner transaction keeps its entries: the outer one may still be rolled back.
     this->journal_.clear();
     this->cellRecords_.clear();
     this->patchRecords_.clear();
@@ -290,6 +296,7 @@ void MeshEditor<D>::rollback(std::size_t place)
     this->journal_.pop_back();
     this->undo(last);
   }
+  // Closes the transaction; its entries are gone already.
   this->commit(place);
 }
 
@@ -309,6 +316,7 @@ void MeshEditor<D>::undo(Entry entry)
       const CellRecord r = pop(this->cellRecords_);
       const std::uint32_t mark = this->mesh_->cellData_[r.id].mark;
       this->mesh_->cells_[r.id] = r.cell;
+      // The mark is scratch, not state: code that is using it must find it as it left it.
       this->mesh_->cellData_[r.id] = r.data;
       this->mesh_->cellData_[r.id].mark = mark;
       if (!this->mesh_->patches_.empty())
@@ -326,6 +334,7 @@ void MeshEditor<D>::undo(Entry entry)
     case Entry::PointChanged:
     {
       const PointRecord r = pop(this->pointRecords_);
+      // Without the owner, which other threads may be reading.
       this->mesh_->points_[r.id].restore(r.point);
       break;
     }
@@ -345,6 +354,7 @@ void MeshEditor<D>::undo(Entry entry)
       this->freeCells_.push_back(pop(this->slotRecords_));
       break;
     case Entry::CellGrown:
+      // Entries are undone in reverse, so the last slot of the array is the one that was added.
       this->mesh_->cells_.pop_back();
       this->mesh_->cellData_.pop_back();
       if (!this->mesh_->patches_.empty())
@@ -376,6 +386,7 @@ void MeshEditor<D>::undo(Entry entry)
 template <int D>
 void MeshEditor<D>::movePoint(Index p, const Vec<D>& x, Index near)
 {
+  // Saved even if the point does not move: attachments may change nevertheless.
   this->savePoint(p);
   this->saveAttachments(p);
   Point& point = this->mesh_->points_[p];
@@ -409,6 +420,7 @@ void MeshEditor<D>::setPatch(Index c, int i, Index patch)
   }
   this->saveCell(c);
   this->mesh_->patches_[c][i] = patch;
+  // The facet is stored twice, once for each of its cells.
   const Index h = this->mesh_->adjacent(c, i);
   if (h != None)
   {
@@ -432,6 +444,7 @@ void MeshEditor<D>::stamp(const std::vector<Index>& cells)
   {
     for (Index p : this->mesh_->cells_[c].nodes)
     {
+      // Saves each point once, although several cells share it.
       if (this->mesh_->points_[p].stamp != this->clock_)
       {
         this->savePoint(p);
@@ -450,7 +463,7 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
   if (this->owner_ != None && mesh.points_[p].owner != this->owner_)
   {
     this->blocked_ = true;
-    return false; // the point's cell may be changing
+    return false; // the point's cell may be changing at this moment
   }
   star.push_back(mesh.points_[p].cell);
   if (!this->owns(star[0]))
@@ -470,7 +483,7 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
       }
       if (!this->owns(Mesh::cellOf(h)))
       {
-        return false; // not even its mark may be looked at
+        return false; // not even its mark may be read
       }
       if (this->isMarked(Mesh::cellOf(h), seen))
       {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file MeshEditor.h
-/// The only way to change a SimplexMesh: replace a cavity, move a point; all of it can be undone.
+/// The only way to change a SimplexMesh: replace a cavity, or move a point. Both can be undone.
 #ifndef meshopt_Mesh_MeshEditor_h
 #define meshopt_Mesh_MeshEditor_h
 
@@ -11,15 +11,15 @@
 
 namespace meshopt
 {
-/// How a replacement changes what is kept, where the surface itself is remeshed.
+/// The kept facets and edges that a replacement changes, where the surface itself is remeshed.
 template <int D>
 struct KeptChange
 {
   using Edge = std::array<Index, 2>;
 
-  std::vector<Facet<D>> gone; ///< kept facets of the cavity, at its boundary or inside, that vanish
-  std::vector<Facet<D>> come; ///< facets of the new cells that are kept from now on
-  std::vector<Index> patches; ///< SimplexMesh::patch() of each that comes; empty: None for all
+  std::vector<Facet<D>> gone; ///< kept facets that vanish: of the cavity's boundary or inside
+  std::vector<Facet<D>> come; ///< facets of the new cells that become kept
+  std::vector<Index> patches; ///< SimplexMesh::patch() of each new kept facet; empty: None
   std::vector<Edge> goneEdges, comeEdges; ///< the same for kept edges (D = 3)
   std::vector<Index> regions;             ///< of each new cell
 
@@ -34,19 +34,19 @@ struct KeptChange
   }
 };
 
-/// Edits a mesh through two operations, both journalled while a transaction is open:
-///  - replace(): exchange a cavity (cells) for other cells that fill the same boundary;
+/// Edits a mesh through two operations, which are journalled while a transaction is open:
+///  - replace(): exchange a cavity (some cells) for other cells with the same boundary;
 ///  - movePoint().
-/// The journal carries cells, adjacency, kept facets and edges, regions, parents, points and their
-/// stamps, places on the surface, and the attachments (values at points that are kept elsewhere, such
-/// as the metric): rollback() brings all of it back, bit for bit. Qualities are given by the caller,
-/// who has just computed them to decide.
+/// The journal covers cells, adjacency, kept facets and edges, regions, parents, points and their
+/// stamps, places on the surface, and the attachments (values at points that are stored elsewhere,
+/// such as the metric). rollback() restores all of it, bit for bit. Qualities are passed in by the
+/// caller, who has just computed them to decide.
 ///
-/// Geometry is not looked at: whether the new cells are positively oriented, or better, is the
-/// caller's business; that they fill the cavity's boundary exactly is asserted in debug builds.
+/// The editor does not look at geometry. Whether the new cells are positive or better is up to the
+/// caller; debug builds assert that they fill the boundary of the cavity exactly.
 ///
 /// Several editors may work on one mesh at the same time if each touches only cells all of whose
-/// points it owns (Point::owner); see setOwner(). Then it takes slots from its own pool only.
+/// points it owns (Point::owner, setOwner()). Each then takes free slots only from its own pool.
 template <int D>
 class MeshEditor
 {
@@ -55,57 +55,58 @@ public:
 
   /// Scans the mesh for the latest mark and stamp; linear.
   explicit MeshEditor(Mesh& mesh);
-  /// One more editor of the same mesh, with the same attachments, clock and marks; O(1).
+  /// Another editor of the same mesh, with the same attachments, clock and marks; O(1).
   static MeshEditor beside(const MeshEditor& other);
 
   Mesh& mesh() { return *this->mesh_; }
   const Mesh& mesh() const { return *this->mesh_; }
 
-  /// From now on the values of `attachment` follow the points, and the journal carries them. It must
-  /// live as long as the editor. Not within a transaction.
+  /// From now on the values of `attachment` follow the points, and the journal covers them. It must
+  /// outlive the editor. Not within a transaction.
   void attach(PointAttachment<D>& attachment);
-  /// Ends that. Not within a transaction.
+  /// Ends the attachment. Not within a transaction.
   void detach(PointAttachment<D>& attachment);
 
-  /// Replaces the cells `cavity` by `cells` (positively numbered point ids, points from the cavity
-  /// or from addPoint), with the qualities `qualities`. New cell ids, in the order of `cells`, are
-  /// in created(). Points of the cavity that no new cell uses die (they must be interior to the
-  /// cavity), which has no kept facet inside. All cells of the cavity have one region; a new cell
-  /// takes its parent from the cavity cell behind its facet.
-  /// With `change` the boundary of the cavity may differ where it is the surface, and the cavity may
-  /// have several regions and the kept facets between them inside.
-  /// Returns false, with nothing changed, only if no slot is left in the editor's pool.
+  /// Replaces the cells `cavity` by `cells`, whose qualities are `qualities`. New cells are
+  /// numbered positively, and use points of the cavity or from addPoint(). Their ids are in
+  /// created(), in the order of `cells`. Points of the cavity that no new cell uses die; they must
+  /// be interior to it. The cavity has no kept facet inside, and all its cells have one region. A
+  /// new cell takes its parent from the cavity cell behind its facet.
+  /// With `change`, the boundary of the cavity may differ where it is the surface. The cavity may
+  /// then have several regions, with the kept facets between them inside.
+  /// Returns false, with nothing changed, only if the editor's pool has too few slots.
   bool replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
     const std::vector<double>& qualities, const KeptChange<D>* change = nullptr);
   const std::vector<Index>& created() const { return this->created_; }
 
-  /// A new point at x that no cell uses yet; None if no slot is left in the editor's pool.
-  /// Attachments get their values for it when it is placed by movePoint().
+  /// A new point at x that no cell uses yet; None if the editor's pool has no slot. Attachments get
+  /// a value for it when movePoint() places it.
   Index addPoint(const Vec<D>& x);
 
-  /// Moves a point, and stamps it unless it is there already. Attachments follow. `near`: a point near x, for a new point that has
-  /// no value yet; None: the point itself. Qualities of its star are the caller's to set.
+  /// Moves a point, and stamps it unless it is there already. Attachments follow. `near`: a point
+  /// near x, for a new point without values; None: the point itself. The caller must set the
+  /// qualities of its star.
   void movePoint(Index p, const Vec<D>& x, Index near = None);
 
-  /// Says where on the surface the point lies; changes nothing else. The first call must be outside of
-  /// transactions.
+  /// Sets the place of the point on the surface; changes nothing else. The first call must be
+  /// outside of transactions.
   void setPlace(Index p, const Place& place);
 
-  /// Says of which patch of the surface the kept facet i of cell c is; on both of its sides. The
-  /// first call must be outside of transactions.
+  /// Sets the patch of the surface to which the kept facet i of cell c belongs, on both sides of
+  /// it. The first call must be outside of transactions.
   void setPatch(Index c, int i, Index patch);
 
   void setQuality(Index c, double q);
   /// Stamps all points of these cells with a new time: their stars have changed.
   void stamp(const std::vector<Index>& cells);
-  /// CellData::stamp and level, the algorithms' "failed at" time and effort; not journalled.
+  /// Sets CellData::stamp and level: time and effort of the last failed try. Not journalled.
   void setFailed(Index c, std::uint32_t stamp, int level)
   {
     this->mesh_->cellData_[c].stamp = stamp;
     this->mesh_->cellData_[c].level = static_cast<std::uint8_t>(level);
   }
 
-  /// Point::moveFailed and removeFailed; not journalled.
+  /// Set Point::moveFailed and removeFailed. Not journalled.
   void setMoveFailed(Index p, std::uint32_t stamp) { this->mesh_->points_[p].moveFailed = stamp; }
   void setRemoveFailed(Index p, std::uint32_t stamp)
   {
@@ -117,25 +118,25 @@ public:
   void setClock(std::uint32_t clock) { this->clock_ = clock; }
 
   // --- transactions
-  /// Opens a transaction (they may be nested); returns its place in the journal.
+  /// Opens a transaction, and returns its place in the journal. Transactions may be nested.
   std::size_t begin();
-  /// Keeps what was done since `place`. The journal is emptied when the outermost one commits.
+  /// Keeps what was done since `place`. Empties the journal if this is the outermost transaction.
   void commit(std::size_t place);
   bool inTransaction() const { return this->depth_ > 0; }
   /// Undoes what was done since `place`, in reverse, bit for bit.
   void rollback(std::size_t place);
 
   // --- scratch marks on cells: O(1) sets of cells
-  /// Starts an empty set; the one before is forgotten.
+  /// Starts an empty set; the previous one is lost.
   std::uint32_t newMark() { return ++this->mark_; }
   bool isMarked(Index c, std::uint32_t m) const { return this->mesh_->cellData_[c].mark == m; }
   void setMark(Index c, std::uint32_t m) const { this->mesh_->cellData_[c].mark = m; }
   std::uint32_t lastMark() const { return this->mark_; }
   void setLastMark(std::uint32_t m) { this->mark_ = m; }
 
-  // --- parallel rounds
+  // --- parallel passes
   /// Restricts the editor to cells all of whose points have this owner, and to the slots of
-  /// freeCells() and freePoints(). None (the default): all cells, and the mesh grows as needed.
+  /// freeCells() and freePoints(). None (the default): all cells; the mesh grows as needed.
   void setOwner(Index owner) { this->owner_ = owner; }
   bool owns(Index c) const
   {
@@ -144,6 +145,7 @@ public:
       return true;
     }
     for (Index p : this->mesh_->cells_[c].nodes)
+    // Only the owners are read: the cell of another editor may be changing at this moment.
     {
       if (this->mesh_->points_[p].owner != this->owner_)
       {
@@ -153,20 +155,20 @@ public:
     }
     return true;
   }
-  /// True if, since the last resetBlocked(), something was refused because another editor owns it
-  /// or because the pool was empty: a failure that says nothing about the mesh.
+  /// True if something was refused since the last resetBlocked() because another editor owns it or
+  /// because the pool was empty. Such a failure says nothing about the mesh.
   bool blocked() const { return this->blocked_; }
   void resetBlocked() { this->blocked_ = false; }
   void setPointOwner(Index p, Index owner) { this->mesh_->points_[p].owner = owner; }
-  /// Dead slots that this editor may use, taken from the back.
+  /// Dead slots that this editor may use; it takes them from the back.
   std::vector<Index>& freeCells() { return this->freeCells_; }
   std::vector<Index>& freePoints() { return this->freePoints_; }
-  /// Appends n dead slots to the mesh (not while another editor works) and adds them to the pool.
+  /// Appends n dead slots to the mesh and adds them to the pool. Not while other editors work.
   void growCells(Index n);
   void growPoints(Index n);
 
-  /// Star of p as SimplexMesh::star, by marks: faster. Returns false, with `star` incomplete, as
-  /// soon as it meets a cell that the editor does not own.
+  /// The star of p, as SimplexMesh::star(), but faster, since it uses marks. Returns false, with
+  /// `star` incomplete, as soon as it meets a cell that the editor does not own.
   bool star(Index p, std::vector<Index>& star);
 
 private:
@@ -196,8 +198,8 @@ private:
     Cell cell;
     CellData data;
   };
-  /// adjacent[] of one facet. A cell at the border of what the editor owns is never saved whole:
-  /// its other facets may be another editor's.
+  /// The link across one facet. A cell at the border of the owned ones is never saved as a whole:
+  /// its other facets may belong to another editor.
   struct LinkRecord
   {
     Index handle;
@@ -213,11 +215,11 @@ private:
     Index id;
     Place place;
   };
-  /// A facet met while a cavity is refilled: one of its boundary, or one between new cells.
+  /// A facet in the refilling of a cavity: on its boundary, or between new cells.
   struct OpenFacet
   {
     Facet<D> key;  // sorted
-    Index outside; // handle across it (boundary of the cavity, or first new cell), or None: surface
+    Index outside; // handle across it (outer cell or first new cell); None: surface
     Index parent;  // input cell of the cavity cell behind it
     Index patch;
     bool kept;

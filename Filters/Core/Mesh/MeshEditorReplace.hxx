@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file MeshEditorReplace.hxx
-/// MeshEditor::replace(): a cavity's boundary goes into a hash of facets, by which the new cells are linked.
+/// MeshEditor::replace(): the facets of the cavity's boundary go into a hash table, which links the
+/// new cells.
 #ifndef meshopt_Mesh_MeshEditorReplace_hxx
 #define meshopt_Mesh_MeshEditorReplace_hxx
 
@@ -24,18 +25,21 @@ void MeshEditor<D>::collectOpenFacets(
   };
   for (Index c : cavity)
   {
+    // Cells of other editors cannot be in the cavity: owns() is asked first, and their marks are
+    // not read.
     for (int i = 0; i <= D; ++i)
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
       const bool kept = this->mesh_->isConstrained(c, i);
+      // No new cell has a kept facet that vanishes: it is not part of the boundary to fill.
       if (kept && isGone(sortedIds(this->mesh_->facet(c, i))))
       {
         continue;
       }
       if (h == None || !this->owns(Mesh::cellOf(h)) || !this->isMarked(Mesh::cellOf(h), inCavity))
       {
-        this->facets_.push_back({ sortedIds(this->mesh_->facet(c, i)), h,
-          this->mesh_->parent(c), this->mesh_->patch(c, i), kept, false });
+        this->facets_.push_back({ sortedIds(this->mesh_->facet(c, i)), h, this->mesh_->parent(c),
+          this->mesh_->patch(c, i), kept, false });
       }
       else
       {
@@ -45,10 +49,9 @@ void MeshEditor<D>::collectOpenFacets(
   }
 }
 
-/// The kept edges that the new cells are to have: those of the cavity, as the change wants them.
+/// Collects the kept edges for the new cells: those of the cavity, with the changes.
 template <int D>
-void MeshEditor<D>::collectKeptEdges(
-  const std::vector<Index>& cavity, const KeptChange<D>* change)
+void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity, const KeptChange<D>* change)
 {
   this->keptEdges_.clear();
   if (!this->mesh_->hasConstrainedEdges_)
@@ -81,7 +84,7 @@ void MeshEditor<D>::collectKeptEdges(
   }
 }
 
-/// Copies the marks of kept edges to a new cell that has them.
+/// Marks the kept edges in a new cell that has them.
 template <int D>
 void MeshEditor<D>::keepEdges(Index c)
 {
@@ -97,7 +100,7 @@ void MeshEditor<D>::keepEdges(Index c)
   }
 }
 
-/// Marks the facets that come as kept, and their points as held.
+/// Marks the new kept facets, and their points as held.
 template <int D>
 void MeshEditor<D>::keepFacets(const KeptChange<D>& change)
 {
@@ -117,7 +120,7 @@ void MeshEditor<D>::keepFacets(const KeptChange<D>& change)
       {
         this->mesh_->patches_[c][i] = change.patches[come - change.come.begin()];
       }
-      for (Index p : key) // saved already: they are of the cavity, or new
+      for (Index p : key) // saved already: of the cavity, or new
       {
         this->mesh_->points_[p].flags |= Mesh::PointHeld | Mesh::PointBoundary;
       }
@@ -125,7 +128,7 @@ void MeshEditor<D>::keepFacets(const KeptChange<D>& change)
   }
 }
 
-/// All points of the cavity are dead until a new cell uses them.
+/// Declares all points of the cavity dead, until a new cell uses them.
 template <int D>
 void MeshEditor<D>::killPoints(const std::vector<Index>& cavity)
 {
@@ -155,7 +158,7 @@ void MeshEditor<D>::buryPoints()
     if (!(point.flags & Mesh::PointAlive))
     {
       point.cell = None;
-      if (p >= this->mesh_->inputPoints_) // slots of input points keep their meaning
+      if (p >= this->mesh_->inputPoints_) // slots of input points keep their ids
       {
         this->freePoints_.push_back(p);
         if (this->depth_ > 0)
@@ -170,6 +173,7 @@ void MeshEditor<D>::buryPoints()
 template <int D>
 void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
 {
+  // At least twice as many slots as facets, so that chains stay short.
   std::size_t size = 64;
   while (size < 2 * (this->facets_.size() + (D + 1) * numberOfNewCells))
   {
@@ -197,6 +201,7 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
   CellData& data = this->mesh_->cellData_[c];
   data.quality = quality;
   data.region = region;
+  // A new cell has not failed yet.
   data.stamp = 0;
   data.level = 0;
   data.flags = Mesh::CellAlive;
@@ -209,7 +214,7 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
     Point& point = this->mesh_->points_[p];
     if (!(point.flags & Mesh::PointAlive) && point.cell == None)
     {
-      this->savePoint(p); // comes from addPoint(); the points of the cavity are saved already
+      this->savePoint(p); // from addPoint(); points of the cavity are saved already
     }
     point.flags |= Mesh::PointAlive;
     point.cell = c;
@@ -217,8 +222,8 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
   }
 }
 
-/// Links facet i of the new cell c, or leaves it open for the cell to come on its other side.
-/// Returns the parent of the cavity cell behind it, or None for a facet inside of the cavity.
+/// Links facet i of the new cell c, or leaves it open for the new cell on its other side. Returns
+/// the parent of the cavity cell behind it; None for a facet inside the cavity.
 template <int D>
 Index MeshEditor<D>::linkFacet(Index c, int i)
 {
@@ -231,6 +236,7 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   }
   if (this->table_[k] == None)
   {
+    // The first new cell at a facet inside the cavity: the second one finds it here.
     this->table_[k] = static_cast<Index>(this->facets_.size());
     this->facets_.push_back({ key, Mesh::handle(c, i), None, None, false, false });
     return None;
@@ -247,7 +253,7 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   if (f.outside != None)
   {
     Index& link = this->mesh_->cells_[Mesh::cellOf(f.outside)].adjacent[Mesh::facetOf(f.outside)];
-    if (f.parent != None && this->depth_ > 0) // outside of the cavity; new cells are saved already
+    if (f.parent != None && this->depth_ > 0) // outside; new cells are saved already
     {
       this->journal_.push_back(Entry::LinkChanged);
       this->linkRecords_.push_back({ f.outside, link });
@@ -257,7 +263,7 @@ Index MeshEditor<D>::linkFacet(Index c, int i)
   return f.parent;
 }
 
-/// For a new cell that has no facet of the cavity's boundary: the parent of a cell of its region.
+/// For a new cell without a facet of the cavity's boundary: the parent of a cell of its region.
 template <int D>
 Index MeshEditor<D>::parentIn(Index region) const
 {
@@ -268,6 +274,7 @@ Index MeshEditor<D>::parentIn(Index region) const
       return r[1];
     }
   }
+  // The cavity has no cell of this region: any parent will do.
   return this->parents_[0][1];
 }
 
@@ -277,10 +284,12 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
 {
   assert(cells.size() == qualities.size());
   assert(!change || change->regions.size() == cells.size());
+  // The only way to fail comes first, before anything has changed.
   if (cells.size() > cavity.size() && !this->reserveCells(cells.size() - cavity.size()))
   {
     return false;
   }
+  // A new time: all points of the cavity get it as their stamp.
   ++this->clock_;
   const std::uint32_t inCavity = this->newMark();
   for (Index c : cavity)
@@ -292,10 +301,12 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
   this->killPoints(cavity);
   const Index region = this->mesh_->region(cavity[0]);
   this->parents_.clear();
+  // Read now, since the slots are used again below.
   for (Index c : cavity)
   {
     this->parents_.push_back({ this->mesh_->region(c), this->mesh_->parent(c) });
   }
+  // In reverse, so that the new cells take the slots of the cavity in its order.
   for (std::size_t k = cavity.size(); k-- > 0;)
   {
     this->freeCell(cavity[k]);
@@ -331,6 +342,7 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
     assert((f.closed || change) && "the new cells do not fill the cavity");
   }
 #endif
+  // Only now is it known which points no new cell uses.
   this->buryPoints();
   return true;
 }

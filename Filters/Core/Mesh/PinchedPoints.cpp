@@ -6,7 +6,7 @@
 namespace meshopt
 {
 template <int D>
-std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh)
+std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh, bool freeOnly)
 {
   std::vector<std::size_t> uses(static_cast<std::size_t>(mesh.numberOfPointSlots()), 0);
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
@@ -20,7 +20,7 @@ std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh)
   std::vector<Index> star;
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
-    if (uses[p] > 0)
+    if (uses[p] > 0 && (!freeOnly || mesh.isFree(p)))
     {
       mesh.star(p, star);
       pinched[p] = star.size() < uses[p];
@@ -33,6 +33,6 @@ std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh)
   return pinched;
 }
 
-template std::vector<std::uint8_t> pinchedPoints<2>(const SimplexMesh<2>&);
-template std::vector<std::uint8_t> pinchedPoints<3>(const SimplexMesh<3>&);
+template std::vector<std::uint8_t> pinchedPoints<2>(const SimplexMesh<2>&, bool);
+template std::vector<std::uint8_t> pinchedPoints<3>(const SimplexMesh<3>&, bool);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Place.h
-/// What a point may do, and where on the surface it lies.
+/// The freedom of a point, and its place on the surface.
 #ifndef meshopt_Mesh_Place_h
 #define meshopt_Mesh_Place_h
 
@@ -11,13 +11,13 @@ namespace meshopt
 /// What a point may do.
 enum class Freedom : std::uint8_t
 {
-  Free,  ///< anything: no kept facet and no kept edge has it
-  Patch, ///< slides on a part of the surface, and may vanish into a neighbour there (D = 3)
-  Curve, ///< slides along a curve of the surface, and may vanish into a neighbour there
+  Free,  ///< anything: it is on no kept facet and no kept edge
+  Patch, ///< slide on a part of the surface, and vanish into a neighbour there (D = 3)
+  Curve, ///< slide along a curve of the surface, and vanish into a neighbour there
   Fixed  ///< nothing: it neither moves nor vanishes
 };
 
-/// Where on the surface a point lies that may slide. Points of the surface without a place are fixed.
+/// The place on the surface of a point that may slide. Surface points without a place are fixed.
 struct Place
 {
   Freedom freedom = Freedom::Fixed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file PointAttachment.h
-/// What belongs to the points of a mesh and is kept beside it: the editor's journal carries it, too.
+/// Values at the points of a mesh that are stored elsewhere. The editor's journal covers them, too.
 #ifndef meshopt_Mesh_PointAttachment_h
 #define meshopt_Mesh_PointAttachment_h
 
@@ -12,33 +12,33 @@
 
 namespace meshopt
 {
-/// A value at each point, such as the metric there. The editor tells when a point is placed, and
-/// takes back what was changed by that where a transaction is undone. Several editors may be at work
-/// at the same time, each at its own points; each has its own journal.
+/// A value at each point, such as the metric. The editor calls it when a point is placed, and
+/// restores the value when a transaction is undone. Several editors may work at the same time, each
+/// on its own points and with its own journal.
 template <int D>
 class PointAttachment
 {
 public:
-  /// Values of before, of one editor.
+  /// Earlier values, of one editor.
   class Journal
   {
   public:
     virtual ~Journal() = default;
-    virtual void save(Index p) = 0; ///< on top
-    virtual void undo() = 0;        ///< takes the top off, and puts that value back
+    virtual void save(Index p) = 0; ///< pushes the value of p
+    virtual void undo() = 0;        ///< pops the last value and restores it
     virtual void clear() = 0;
   };
 
   virtual ~PointAttachment() = default;
   virtual std::unique_ptr<Journal> makeJournal() = 0;
-  /// Makes room for points 0 ... n - 1. Never called while several editors are at work.
+  /// Makes room for points 0 ... n - 1. Never called while several editors work.
   virtual void reserve(Index n) = 0;
-  /// Point p is at x now: it has moved or is new. x is near the place of the point `near`, which may
-  /// be p itself.
+  /// Called when point p, moved or new, is now at x. The point `near` is near x; it may be p
+  /// itself.
   virtual void pointPlaced(Index p, const Vec<D>& x, Index near) = 0;
 };
 
-/// The journal of an attachment that can get() and set() the value of a point.
+/// The journal of an attachment that has get() and set() for the value of a point.
 template <int D, class Attachment, class Value>
 class ValueJournal final : public PointAttachment<D>::Journal
 {

@@ -10,7 +10,7 @@ namespace
 constexpr double epsilon = 1.0 / 9007199254740992.0; // 2^-53, half a unit in the last place of 1
 constexpr double splitter = 134217729.0;             // 2^27 + 1
 
-/// A sum of n doubles, exact, that do not overlap, from small to large; zeros are left out.
+/// An exact sum of n doubles that do not overlap, from small to large, without zeros.
 template <int N>
 struct Expansion
 {
@@ -24,7 +24,7 @@ struct Expansion
       this->c[this->n++] = x;
     }
   }
-  /// The largest component outweighs all others together.
+  /// The sign of the largest component, since it outweighs all others together.
   int sign() const { return this->n == 0 ? 0 : this->c[this->n - 1] > 0.0 ? 1 : -1; }
 };
 
@@ -37,6 +37,7 @@ void twoSum(double a, double b, double& sum, double& error)
   error = (a - aVirtual) + (b - bVirtual);
 }
 
+// Veltkamp: the halves have at most 26 bits each, so that their products are exact.
 void split(double a, double& high, double& low)
 {
   const double c = splitter * a;
@@ -64,7 +65,7 @@ Expansion<2> difference(double a, double b)
   return e;
 }
 
-/// Adds one double to an expansion with room for it (GROW-EXPANSION).
+/// Adds one double to an expansion that has room for it (GROW-EXPANSION).
 template <int N>
 void grow(Expansion<N>& e, double b)
 {
@@ -160,7 +161,7 @@ int orient(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c)
   const double left = (b[0] - a[0]) * (c[1] - a[1]);
   const double right = (b[1] - a[1]) * (c[0] - a[0]);
   const double det = left - right;
-  // Shewchuk's ccwerrboundA; below 1e-140 rounding errors are no longer relative ones
+  // Shewchuk's ccwerrboundA. It is relative, so it does not hold where products may underflow.
   const double size = std::fabs(left) + std::fabs(right);
   if (std::fabs(det) > (3.0 + 16.0 * epsilon) * epsilon * size && size > 1e-140)
   {
@@ -178,7 +179,7 @@ int orient(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& d)
   const double vzwx = vz * wx, vxwz = vx * wz;
   const double vxwy = vx * wy, vywx = vy * wx;
   const double det = ux * (vywz - vzwy) + uy * (vzwx - vxwz) + uz * (vxwy - vywx);
-  // Shewchuk's o3derrboundA
+  // Shewchuk's o3derrboundA; the second condition as in 2D.
   const double size = (std::fabs(vywz) + std::fabs(vzwy)) * std::fabs(ux) +
     (std::fabs(vzwx) + std::fabs(vxwz)) * std::fabs(uy) +
     (std::fabs(vxwy) + std::fabs(vywx)) * std::fabs(uz);

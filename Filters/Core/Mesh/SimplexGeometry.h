@@ -12,7 +12,7 @@
 
 namespace meshopt
 {
-/// Sets all gradients to zero; returns 0, the value that goes with it.
+/// Sets all gradients to zero. Returns 0, the value that belongs to them.
 template <int D>
 inline double setZero(std::array<Vec<D>, D + 1>& g)
 {
@@ -48,8 +48,8 @@ inline double sumOfSquaredEdges(const Corners<3>& x)
     (squaredEdge(x, 4) + squaredEdge(x, 5));
 }
 
-/// Half the gradient of the sum of squared edges with respect to x_a: sum_b (x_a - x_b), from
-/// differences only, so that it is as exact far from the origin as near to it.
+/// Half the gradient of the sum of squared edges with respect to x_a: sum_b (x_a - x_b). Computed
+/// from differences only, so that it is as accurate far from the origin as near it.
 template <std::size_t N, int D>
 inline Eigen::Matrix<double, D, 1, Eigen::DontAlign> sumOfDifferences(
   const std::array<Eigen::Matrix<double, D, 1, Eigen::DontAlign>, N>& x, std::size_t a)
@@ -62,7 +62,7 @@ inline Eigen::Matrix<double, D, 1, Eigen::DontAlign> sumOfDifferences(
   return s;
 }
 
-/// Cube root that keeps its bits when x is scaled by a power of eight, which std::cbrt() does not.
+/// Cube root. If x is scaled by a power of eight, the result keeps its bits: std::cbrt() does not.
 inline double cubeRoot(double x)
 {
   int exponent;
@@ -86,7 +86,7 @@ inline double volumeDeterminant(const Corners<3>& x)
     a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// The same, and its gradient.
+/// The same with its gradient.
 inline double volumeDeterminantGradient(const Corners<2>& x, std::array<Vec<2>, 3>& g)
 {
   const Vec<2> a = x[1] - x[0], b = x[2] - x[0];

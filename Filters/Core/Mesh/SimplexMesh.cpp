@@ -1,59 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/SimplexMesh.h"
 
+#include "Mesh/LocalNumbers.h"
+
 #include <algorithm>
 
 namespace meshopt
 {
 namespace
 {
-/// A small set of cells: open addressing, doubling; stars have some 24 cells, rarely hundreds.
-class SmallSet
+/// Scratch that is not part of the mesh, since several threads may ask for stars at the same time.
+/// Not inlined: its address would be asked for at each use, not once per star.
+[[gnu::noinline]] LocalNumbers& numbersOfThread()
 {
-public:
-  SmallSet() { this->table_.assign(128, None); }
-
-  bool insert(Index c)
-  {
-    if (2 * (this->size_ + 1) > this->table_.size())
-    {
-      std::vector<Index> old(2 * this->table_.size(), None);
-      old.swap(this->table_);
-      this->size_ = 0;
-      for (Index o : old)
-      {
-        if (o != None)
-        {
-          this->insert(o);
-        }
-      }
-    }
-    const std::size_t mask = this->table_.size() - 1;
-    for (std::size_t k = (std::uint32_t(c) * 2654435761u >> 7) & mask;; k = (k + 1) & mask)
-    {
-      if (this->table_[k] == c)
-      {
-        return false;
-      }
-      if (this->table_[k] == None)
-      {
-        this->table_[k] = c;
-        ++this->size_;
-        return true;
-      }
-    }
-  }
-
-  void clear()
-  {
-    this->table_.assign(128, None);
-    this->size_ = 0;
-  }
-
-private:
-  std::vector<Index> table_;
-  std::size_t size_ = 0;
-};
+  thread_local LocalNumbers numbers;
+  return numbers;
+}
 }
 
 template <int D>
@@ -73,18 +35,23 @@ Index SimplexMesh<D>::countPoints() const
 template <int D>
 void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
 {
-  thread_local SmallSet seen;
+  LocalNumbers& seen = numbersOfThread(); // of the cells, in the order of the list
   seen.clear();
   star.assign(1, this->points_[p].cell);
-  seen.insert(star[0]);
+  seen.add(star[0]);
   for (std::size_t k = 0; k < star.size(); ++k)
   {
     const Cell& cell = this->cells_[star[k]];
     for (int i = 0; i <= D; ++i)
     {
-      if (cell.nodes[i] != p && cell.adjacent[i] != None && seen.insert(cellOf(cell.adjacent[i])))
+      if (cell.nodes[i] == p || cell.adjacent[i] == None)
       {
-        star.push_back(cellOf(cell.adjacent[i]));
+        continue;
+      }
+      const Index next = cellOf(cell.adjacent[i]);
+      if (seen.add(next) == static_cast<int>(star.size()))
+      {
+        star.push_back(next);
       }
     }
   }
@@ -97,8 +64,8 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
   ring.assign(1, c);
   if constexpr (D == 3)
   {
-    // The two nodes off the edge: leave through the facet opposite to the first one and, if the
-    // ring proves open, go the other way round from the start.
+    // Two nodes are off the edge. Leave through the facet opposite to the first one. If the ring
+    // proves open, go the other way round from the start.
     bool crossed = false;
     for (int way = 0; way < 2; ++way)
     {
@@ -127,7 +94,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
           return !crossed;
         }
         ring.push_back(nextCell);
-        // leave through the facet opposite to the node that is neither a, b nor the newcomer
+        // leave through the facet opposite to the node that is neither a, b nor the new one
         const int entry = facetOf(h);
         for (int i = 0; i < 4; ++i)
         {
@@ -142,7 +109,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
       }
       if (way == 0)
       {
-        // so far outwards from c; turn it round so that the list runs from end to end
+        // So far the list runs outwards from c: reverse it, so that it runs from end to end.
         std::reverse(ring.begin(), ring.end());
       }
     }

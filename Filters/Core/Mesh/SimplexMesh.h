@@ -2,8 +2,9 @@
 /// @file SimplexMesh.h
 /// The mesh that is optimized: points, cells, adjacency, and what must be kept.
 ///
-/// Facets between cells are found once, by a linear bucket sort, when the mesh is built; from then
-/// on MeshEditor keeps them. There is no table of edges: rings and stars are walked over facets.
+/// Adjacency over facets is found once, by a linear bucket sort, when the mesh is built. From then
+/// on MeshEditor updates it. There is no table of edges: rings and stars are found by walking over
+/// facets.
 #ifndef meshopt_Mesh_SimplexMesh_h
 #define meshopt_Mesh_SimplexMesh_h
 
@@ -18,7 +19,7 @@
 
 namespace meshopt
 {
-/// What a mesh is built from. Points that no cell uses are legal and stay as they are.
+/// The input of a mesh. Points that no cell uses are legal and stay as they are.
 template <int D>
 struct MeshInput
 {
@@ -28,16 +29,16 @@ struct MeshInput
   std::vector<Index> regions;
   /// Nonzero: the point neither moves nor vanishes. One per point, or empty.
   std::vector<std::uint8_t> fixedPoints;
-  /// Facets to be kept though both sides have one region (any order of the points).
+  /// Facets that must be kept although both sides have one region (any order of the points).
   std::vector<Facet<D>> constrainedFacets;
-  /// Edges to be kept (any order of the points). For D = 2 use constrainedFacets.
+  /// Edges that must be kept (any order of the points). For D = 2 use constrainedFacets.
   std::vector<std::array<Index, 2>> constrainedEdges;
-  /// True: every cell is numbered as it is to be taken, none is renumbered. For a part of a mesh
-  /// whose orientation is known: its own volume need not tell.
+  /// True: the numbering of every cell is correct, and no cell is renumbered. For a part of a mesh
+  /// whose orientation is known: the volume of the part alone may mislead.
   bool isOriented = false;
 };
 
-/// Why a mesh could not be built: a sentence for the user that names what is wrong and where.
+/// Why a mesh could not be built: a sentence for the user that says what is wrong and where.
 struct MeshError
 {
   std::string message;
@@ -45,18 +46,18 @@ struct MeshError
   Index point = None; ///< first offending point of the input, or None
 };
 
-/// A conforming mesh of simplices. Cells and points live in slots; a slot may be dead after an
-/// edit and be used again. Slots of the input's points are never used for another point, so that
-/// point p < numberOfInputPoints() is always point p of the input.
+/// A conforming mesh of simplices. Cells and points live in slots. A slot may be dead after an edit
+/// and be used again. Slots of input points are never used for another point, so that point p <
+/// numberOfInputPoints() is always point p of the input.
 template <int D>
 class SimplexMesh
 {
 public:
   enum CellFlag : std::uint16_t
   {
-    /// Bits 0..3: facet i is kept (surface, interface between regions, or the caller's).
+    /// Bits 0..3: facet i is kept (surface, interface between regions, or by the caller's wish).
     FacetBits = 0x000f,
-    /// Bits 4..9: edge i is kept by the caller's wish (edges of kept facets are not marked).
+    /// Bits 4..9: edge i is kept by the caller's wish. Edges of kept facets are not marked.
     FirstEdgeBit = 4,
     EdgeBits = 0x03f0,
     CellAlive = 0x8000
@@ -64,30 +65,30 @@ public:
 
   enum PointFlag : std::uint8_t
   {
-    PointHeld = 1,     ///< is not free: on a kept facet, a kept edge, or fixed by the caller
+    PointHeld = 1,     ///< not free: on a kept facet or edge, or fixed by the caller
     PointBoundary = 2, ///< lies on a kept facet
     PointAlive = 8,    ///< is used by a cell
     PointFixedByUser = 16
   };
 
-  /// Topology of a cell. adjacent[i] is the handle of the facet across facet i, or None at the
-  /// surface: handle = 4 * cell + facet.
+  /// Topology of a cell. adjacent[i] is the handle of the facet across facet i; None at the
+  /// surface. handle = 4 * cell + facet.
   struct Cell
   {
     Simplex<D> nodes;
     std::array<Index, D + 1> adjacent;
   };
 
-  /// What else belongs to a cell.
+  /// Other data of a cell.
   struct CellData
   {
-    double quality = 0.0;           ///< kept by whoever edits; see MeshEditor
+    double quality = 0.0;           ///< updated by whoever edits; see MeshEditor
     Index region = 0;               ///< region of the input
     Index parent = None;            ///< input cell whose data this cell takes
-    std::uint32_t stamp = 0;        ///< free for algorithms: last failed try
+    std::uint32_t stamp = 0;        ///< for algorithms: last failed try
     mutable std::uint32_t mark = 0; ///< scratch of the MeshEditor that owns the cell
     std::uint16_t flags = 0;
-    std::uint8_t level = 0; ///< free for algorithms: effort of the last failed try
+    std::uint8_t level = 0; ///< for algorithms: effort of the last failed try
   };
 
   struct Point
@@ -95,12 +96,12 @@ public:
     Vec<D> x;
     Index cell = None;              ///< a cell that uses the point
     std::uint32_t stamp = 0;        ///< last change in the star of the point
-    std::uint32_t moveFailed = 0;   ///< free for algorithms: last failed try to move it
-    std::uint32_t removeFailed = 0; ///< likewise: to remove it
-    Index owner = 0;                ///< chunk that may edit around the point (parallel rounds)
+    std::uint32_t moveFailed = 0;   ///< for algorithms: last failed try to move it
+    std::uint32_t removeFailed = 0; ///< for algorithms: last failed try to remove it
+    Index owner = 0;                ///< chunk that may edit around the point (parallel passes)
     std::uint8_t flags = 0;
 
-    /// Takes over all of `old` but the owner, which threads of other chunks may read at this moment.
+    /// Copies all of `old` except the owner, which threads of other chunks may be reading.
     void restore(const Point& old)
     {
       this->x = old.x;
@@ -112,13 +113,14 @@ public:
     }
   };
 
-  /// Builds the mesh; linear in the size of the input. A malformed input (a point id out of range, a point
-  /// twice in a cell, coordinates that are not finite, a facet with more than two cells, a cell that stands twice,
-  /// arrays of a wrong length) is an error and leaves `mesh` empty. Inverted and flat cells are
-  /// legal. Cells numbered against their neighbours are renumbered (the last two nodes swapped),
-  /// such that each connected component is consistently oriented with positive total volume, unless
-  /// input.isOriented; numberOfReorientedCells() counts them. A component that has no cell of negative
-  /// volume is not renumbered: where neighbours are not numbered alike they lie on each other, and
+  /// Builds the mesh; linear in the size of the input. A malformed input is an error and leaves
+  /// `mesh` empty: a point id out of range, a point twice in a cell, coordinates that are not
+  /// finite, a facet with more than two cells, a cell given twice, or arrays of a wrong length.
+  /// Inverted and flat cells are legal.
+  /// Cells numbered against their neighbours are renumbered (the last two nodes are swapped),
+  /// unless input.isOriented: each connected component is then consistently oriented, with positive
+  /// total volume. numberOfReorientedCells() counts these cells. A component without a cell of
+  /// negative volume is not renumbered: neighbours that are not numbered alike overlap there.
   /// numberOfFoldedFacets() counts the facets between them.
   static std::optional<MeshError> build(const MeshInput<D>& input, SimplexMesh& mesh);
 
@@ -128,9 +130,9 @@ public:
   Index numberOfInputPoints() const { return this->inputPoints_; }
   Index numberOfInputCells() const { return this->inputCells_; }
   Index numberOfReorientedCells() const { return this->reoriented_; }
-  /// Facets of the input that both of their cells lie on the same side of.
+  /// Number of input facets that have both their cells on the same side.
   Index numberOfFoldedFacets() const { return this->foldedFacets_; }
-  /// The nodes of one of them, where there is one.
+  /// The nodes of one such facet, if there is one.
   const Facet<D>& firstFoldedFacet() const { return this->firstFoldedFacet_; }
   Index countCells() const;  ///< live cells; linear
   Index countPoints() const; ///< points used by a cell; linear
@@ -150,13 +152,13 @@ public:
   {
     return (this->cellData_[c].flags >> (FirstEdgeBit + e)) & 1;
   }
-  /// True if edge e in the numbering of Local<D>::edgeFirst is kept by itself: in space by the caller's
-  /// wish, in the plane as a facet.
+  /// True if edge e, numbered as in Local<D>::edgeFirst, is kept by itself: in 3D by the caller's
+  /// wish, in 2D as a facet.
   bool isEdgeKept(Index c, int e) const
   {
     return D == 2 ? this->isConstrained(c, e) : this->isEdgeConstrained(c, e);
   }
-  /// Number of the patch of the surface that kept facet i belongs to; None where there are no patches.
+  /// Number of the patch of the surface that kept facet i belongs to; None if there are no patches.
   Index patch(Index c, int i) const { return this->patches_.empty() ? None : this->patches_[c][i]; }
   double quality(Index c) const { return this->cellData_[c].quality; }
   /// The least of the stored qualities; infinity if there are no cells.
@@ -207,32 +209,33 @@ public:
   // --- points
   const Vec<D>& point(Index p) const { return this->points_[p].x; }
   const Point& pointData(Index p) const { return this->points_[p]; }
-  /// True if the point is on nothing that is kept: it may move anywhere, and vanish.
+  /// True if the point is on nothing that is kept: it may move anywhere, or vanish.
   bool isFree(Index p) const { return (this->points_[p].flags & PointHeld) == 0; }
   Freedom freedom(Index p) const
   {
     return this->isFree(p) ? Freedom::Free : this->place(p).freedom;
   }
-  /// Where on the surface the point lies if it slides.
+  /// The place of the point on the surface, if it slides.
   Place place(Index p) const { return this->places_.empty() ? Place() : this->places_[p]; }
   bool isBoundary(Index p) const { return (this->points_[p].flags & PointBoundary) != 0; }
   bool isPointAlive(Index p) const { return (this->points_[p].flags & PointAlive) != 0; }
   Index cellOfPoint(Index p) const { return this->points_[p].cell; }
 
-  /// Cells that share point p, reached over facets from one of them (also over kept facets, and
-  /// for surface points as well); `star` is overwritten. Allocates nothing once `star` has room.
+  /// Cells that share point p, found over facets from one of them; kept facets are crossed, and
+  /// surface points are allowed. Overwrites `star`. Allocates no memory once `star` is large
+  /// enough.
   void star(Index p, std::vector<Index>& star) const;
 
   /// Cells around the edge (a, b) of cell c, in ring order; D = 3 only. Returns true if the ring is
-  /// closed and crosses no kept facet; it then starts with c. Otherwise the list still holds, from
-  /// end to end, all cells that are reached without crossing a kept facet (acrossKept false) or the
-  /// surface (acrossKept true).
+  /// closed and crosses no kept facet; it then starts with c. Otherwise the list still contains,
+  /// from end to end, all cells that can be reached without crossing a kept facet (acrossKept
+  /// false) or the surface (acrossKept true).
   bool ring(Index c, Index a, Index b, bool acrossKept, std::vector<Index>& ring) const;
 
-  /// Everything that must hold, for tests and debugging: each broken invariant as a sentence,
-  /// empty if all is well. Symmetric adjacency, facets with at most two cells, kept facets marked on both
-  /// sides, cells of points, flags of points, no live cell with a dead point, positive
-  /// orientation where `requirePositive`.
+  /// Checks all invariants, for tests and debugging. Returns a sentence for each broken one; empty
+  /// if there is none. Checked are: symmetric adjacency, facets with at most two cells, kept facets
+  /// marked on both sides, cells of points, flags of points, no live cell with a dead point, and
+  /// positive orientation if `requirePositive`.
   std::vector<std::string> audit(bool requirePositive) const;
 
   /// Sum of signed volumes (areas) of the live cells.
@@ -251,7 +254,7 @@ private:
   std::vector<Cell> cells_;
   std::vector<CellData> cellData_;
   std::vector<Point> points_;
-  std::vector<Place> places_; // one per point slot, or none: nothing slides
+  std::vector<Place> places_;                     // one per point slot, or none: nothing slides
   std::vector<std::array<Index, D + 1>> patches_; // of the facets of each cell slot, or none
   Index inputPoints_ = 0;
   Index inputCells_ = 0;

@@ -23,8 +23,8 @@ using Vec = Eigen::Matrix<double, D, 1, Eigen::DontAlign>;
 template <int D>
 using Tensor = Eigen::Matrix<double, D, D, Eigen::DontAlign>;
 
-/// Point ids of a simplex: a triangle (D = 2) or a tetrahedron (D = 3). Positively oriented when
-/// det(x1 - x0, ..., xD - x0) > 0, which is VTK's convention.
+/// Point ids of a simplex: a triangle (D = 2) or a tetrahedron (D = 3). It is positively oriented
+/// if det(x1 - x0, ..., xD - x0) > 0, which is VTK's convention.
 template <int D>
 using Simplex = std::array<Index, D + 1>;
 
@@ -36,11 +36,20 @@ using Corners = std::array<Vec<D>, D + 1>;
 template <int D>
 using Facet = std::array<Index, D>;
 
-/// Local numbering. Facet i lies opposite to node i and is ordered such that
-/// (facet nodes, node i) is an even permutation of the simplex: replacing node i by a point on
-/// the same side of the facet gives a positively oriented simplex again.
-/// edgeFirst[e] is an even permutation of the simplex that begins with an edge: in the plane that of
-/// facet e, in space edges[e].
+/// Local numbering. Facet i is opposite to node i. (Facet nodes, node i) is an even permutation of
+/// the simplex: if a point on the same side of the facet replaces node i, the simplex is positive
+/// again.
+///
+///        2                  3          Facets of a triangle: 0 = (1 2), 1 = (2 0), 2 = (0 1).
+///       / \                /|\         Facets of a tetrahedron, seen from inside
+///       counter-clockwise:
+///     1/   \0             / | \        0 = (1 3 2), 1 = (0 2 3), 2 = (0 3 1), 3 = (0 1 2).
+///     /     \            0-- | --2
+///    0-------1            \ | /
+///        2                  1
+///
+/// edgeFirst[e] is an even permutation of the simplex that begins with an edge: in 2D that of facet
+/// e, in 3D edges[e].
 template <int D>
 struct Local;
 

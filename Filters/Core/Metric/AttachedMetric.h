@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file AttachedMetric.h
-/// The samples of a metric as values that follow the points of a mesh.
+/// The samples of a metric, as values that follow the points of a mesh.
 #ifndef meshopt_Metric_AttachedMetric_h
 #define meshopt_Metric_AttachedMetric_h
 

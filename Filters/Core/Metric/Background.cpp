@@ -14,7 +14,7 @@ namespace meshopt
 {
 namespace
 {
-/// How far out of a cell a point may be, as a weight, and still be taken as inside.
+/// How far outside of a cell a point may be, as a negative weight, and still count as inside.
 constexpr double slack = 1e-10;
 constexpr Index leafSize = 8;
 
@@ -30,8 +30,9 @@ double squaredDistanceToBox(const Vec<D>& low, const Vec<D>& high, const Vec<D>&
   return d2;
 }
 
-/// Sets the weights of the point nearest to x in the face of the simplex whose nodes are the bits
-/// of `face`; false if it is not in the face (a smaller face has it) or the face is degenerate.
+/// Sets the weights of the point nearest to x in a face of the simplex; `face` has a bit for each
+/// node. False if that point is not in the face (a smaller face has it), or if the face is
+/// degenerate.
 template <int D>
 bool projectOnFace(
   const Corners<D>& corners, const Vec<D>& x, unsigned face, std::array<double, D + 1>& w)
@@ -133,6 +134,7 @@ bool Background<D>::weights(Index c, const Vec<D>& x, std::array<double, D + 1>&
     Corners<D> part = corners;
     part[i] = x;
     w[i] = volumeDeterminant(part) / det;
+    // Barycentric weight: the part of the volume opposite to the node.
   }
   return true;
 }
@@ -143,6 +145,7 @@ Location<D> Background<D>::found(Index c, const std::array<double, D + 1>& w) co
   Location<D> at;
   at.cell = c;
   at.nodes = this->cells_[c].nodes;
+  // Rounding may have left small negative weights: clamp them, and restore the sum 1.
   double sum = 0.0;
   for (int i = 0; i <= D; ++i)
   {
@@ -165,6 +168,7 @@ Location<D> Background<D>::nearestInCell(Index c, const Vec<D>& x) const
     corners[i] = this->points_[this->cells_[c].nodes[i]];
   }
   Location<D> best;
+  // All faces are tried, from the nodes (one bit) to the cell itself (all bits).
   best.distance = std::numeric_limits<double>::infinity();
   for (unsigned face = 1; face < (2u << D); ++face)
   {
@@ -195,7 +199,7 @@ Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
   {
     return nowhere;
   }
-  // a straight walk crosses some n^(1/D) cells; far more are a circle
+  // A straight walk crosses about n^(1/D) cells; with far more it goes in circles.
   const int limit = 50 + 4 * static_cast<int>(std::pow(this->cells_.size(), 1.0 / D));
   Index c = hint >= 0 && hint < this->numberOfCells() ? hint : None;
   for (int step = 0; c != None && step < limit; ++step)
@@ -204,6 +208,7 @@ Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
     if (!this->weights(c, x, w))
     {
       break;
+      // Leave through the facet behind which x lies farthest.
     }
     const int i = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
     if (w[i] >= -slack)
@@ -292,7 +297,7 @@ template <int D>
 Location<D> Background<D>::searchTree(const Vec<D>& x) const
 {
   std::call_once(this->treeFlag_, [this] { this->buildTree(); });
-  // depth first, the nearer child first, until a cell contains x; ties to the lowest id
+  // Depth first, the nearer child first, until a cell contains x; ties to the lowest id.
   Location<D> best;
   best.distance = std::numeric_limits<double>::infinity();
   std::vector<Index> stack(1, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Background.h
-/// A frozen copy of a mesh in which points are found: the cell, and the weights of its nodes.
+/// A frozen copy of a mesh for locating points: the cell of a point, and the weights of its nodes.
 #ifndef meshopt_Metric_Background_h
 #define meshopt_Metric_Background_h
 
@@ -12,25 +12,25 @@
 
 namespace meshopt
 {
-/// Where a point is.
+/// The location of a point.
 template <int D>
 struct Location
 {
   Index cell = None;  ///< in the background; None only if the background has no usable cell
   Simplex<D> nodes{}; ///< its points
-  /// Barycentric weights: each in [0, 1], their sum 1 to rounding. For a point out of the mesh
-  /// those of the nearest point of the nearest cell.
+  /// Barycentric weights: each in [0, 1], with sum 1 up to rounding. For a point outside of the
+  /// mesh they are those of the nearest point of the nearest cell.
   std::array<double, D + 1> weights{};
   /// Distance to that cell; 0 if the point is in it.
   double distance = 0.0;
 };
 
-/// Copy of the points, cells and adjacency of a mesh as it is now, and the search in it. Immutable:
+/// A copy of the points, cells and adjacency of a mesh at this moment, with a search. Immutable:
 /// any number of threads may search at the same time.
 ///
-/// A search walks from a given cell over facets towards the point, which costs nothing where the
-/// point is near; where the walk leaves the mesh or runs in circles, a tree of bounding boxes is
-/// asked. The tree is built when it is needed for the first time (O(n log n)).
+/// A search walks from a given cell over facets towards the point, which is cheap if the point is
+/// near. If the walk leaves the mesh or goes in circles, a tree of bounding boxes is used. The tree
+/// is built when it is first needed (O(n log n)).
 template <int D>
 class Background
 {
@@ -39,19 +39,19 @@ public:
 
   /// Live cells are numbered without gaps, in the order of the mesh's slots.
   Index numberOfCells() const { return static_cast<Index>(this->cells_.size()); }
-  /// All point slots of the mesh, under the same ids.
+  /// All point slots of the mesh, with the same ids.
   Index numberOfPoints() const { return static_cast<Index>(this->points_.size()); }
   const Simplex<D>& nodes(Index cell) const { return this->cells_[cell].nodes; }
   const Vec<D>& point(Index p) const { return this->points_[p]; }
-  /// A cell that uses point p of the mesh, or None: the hint to begin with.
+  /// A cell that uses point p of the mesh, or None: a hint for locate().
   Index cellOfPoint(Index p) const
   {
     return p >= 0 && p < this->numberOfPoints() ? this->cellOfPoint_[p] : None;
   }
 
-  /// Finds x, beginning at cell `hint` (None: by the tree). Flat cells contain nothing. On a facet
-  /// between cells the one that the walk meets first is taken; both give the same interpolated
-  /// values to rounding. A point that is not finite gets cell None.
+  /// Finds x, starting at cell `hint` (None: with the tree). Flat cells contain nothing. On a facet
+  /// between cells, the one that the walk meets first is taken; both give the same interpolated
+  /// values up to rounding. For a point that is not finite, the cell is None.
   Location<D> locate(const Vec<D>& x, Index hint = None) const;
 
   /// Linear interpolation of values at points: exact for constants, to the last bit.

@@ -9,7 +9,7 @@ namespace meshopt
 {
 double logMeanLength(double la, double lb)
 {
-  if (la == lb) // 0 and infinity, too, whose ratio is no number
+  if (la == lb) // also 0 and infinity, whose ratio is not a number
   {
     return la;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file EdgeLengths.h
-/// How long the edges of a mesh are, measured in what is wanted.
+/// The lengths of the edges of a mesh, in units of the wanted lengths.
 #ifndef meshopt_Metric_EdgeLengths_h
 #define meshopt_Metric_EdgeLengths_h
 
@@ -11,8 +11,8 @@
 
 namespace meshopt
 {
-/// Length of edge (a, b) in the metric of its ends and in units of the length wanted there:
-/// (l_a - l_b) / ln(l_a / l_b), which is right where ln l is linear in between.
+/// Length of edge (a, b) in the metric of its ends and in units of the length wanted there: (l_a -
+/// l_b) / ln(l_a / l_b), which is exact if ln l is linear in between.
 template <int D>
 double edgeLength(const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, Index a, Index b);
 
@@ -23,7 +23,7 @@ double lengthIn(const Tensor<D>& m, const Vec<D>& e)
   return std::sqrt(e.dot(m * e));
 }
 
-/// Mean length of an edge that is la long by what one end wants, lb by the other.
+/// Mean length of an edge whose length is la in units of what one end wants, and lb of the other.
 double logMeanLength(double la, double lb);
 
 struct EdgeLengths
@@ -33,12 +33,13 @@ struct EdgeLengths
   long edges = 0;
   double share = 0.0; ///< of edges from 1 / sqrt 2 to sqrt 2; 0 if there are none
   double shortest = 0.0, longest = 0.0;
-  /// Bin k counts lengths from 2^(k / BinsPerOctave - Octaves) on; what is beyond is in the end bins.
+  /// Bin k counts lengths from 2^(k / BinsPerOctave - Octaves) on. Lengths beyond are in the end
+  /// bins.
   std::array<long, 2 * BinsPerOctave * Octaves> histogram{};
   /// Lower end of bin k.
   static double lowerEnd(std::size_t k);
 
-  /// Takes those of another mesh in.
+  /// Adds those of another mesh.
   void add(const EdgeLengths& other);
 };
 

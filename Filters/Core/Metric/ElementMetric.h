@@ -10,13 +10,13 @@
 
 namespace meshopt
 {
-/// What an element's size is measured against (2.2), and in which metric. One per element; frozen
-/// within one local solve.
+/// The size against which an element is measured (2.2), and the metric in which it is measured. One
+/// per element; frozen during one local solve.
 template <int D>
 struct ElementMetric
 {
   bool euclidean = true;
-  Tensor<D> map = Tensor<D>::Identity(); ///< M^(1/2): coordinates are mapped by it first
+  Tensor<D> map = Tensor<D>::Identity(); ///< M^(1/2): coordinates are first mapped by it
   double desiredSize = 0.0;              ///< h*, in the metric; used when beta > 0
 };
 }

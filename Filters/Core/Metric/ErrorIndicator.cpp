@@ -11,8 +11,8 @@ namespace meshopt
 {
 namespace
 {
-/// The density of elements h^-D that equal errors in all new elements ask for, at the points, up to
-/// the factor h*^-D; with errors relative to the greatest.
+/// The density of elements h^-D at the points that makes the errors of all new elements equal, up
+/// to the factor h*^-D. Errors are relative to the greatest.
 template <int D>
 std::vector<double> densities(
   const SimplexMesh<D>& mesh, const std::vector<double>& errors, double greatest, double power)
@@ -38,11 +38,11 @@ std::vector<double> densities(
   return sum;
 }
 
-/// h* such that the total error is `fraction` of the present one.
+/// The h* with which the total error is `fraction` of the present one.
 double sizeForError(
   const std::vector<double>& errors, double greatest, double fraction, double power, double order)
 {
-  double now = 0.0, then = 0.0; // squares, those of the new mesh with h* = 1
+  double now = 0.0, then = 0.0; // squares: now, and of the new mesh with h* = 1
   for (double error : errors)
   {
     const double e = error / greatest;

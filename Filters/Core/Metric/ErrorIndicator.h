@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ErrorIndicator.h
-/// Element sizes from an error indicator: the paper's first alternative for adaptation, where h* is
-/// defined at each point of the domain.
+/// Element sizes from an error indicator. This is the paper's first alternative for adaptation: h*
+/// is defined at each point of the domain.
 ///
 /// References: Buscaglia, Dari, Zavattieri (1996), section 5. Zienkiewicz, Zhu, "A simple error
 /// estimator and adaptive procedure for practical engineering analysis" (1987). Departure from the
-/// latter: sizes follow from the number of elements that is least for the error, each of which has
-/// then the same error in the *new* mesh.
+/// latter: the sizes give the lowest number of elements for the error; each element then has the
+/// same error in the *new* mesh.
 #ifndef meshopt_Metric_ErrorIndicator_h
 #define meshopt_Metric_ErrorIndicator_h
 
@@ -16,17 +16,17 @@ namespace meshopt
 {
 struct ErrorIndicatorOptions
 {
-  double desiredCount = 0.0; ///< elements, > 0 where desiredErrorFraction is 0
-  /// > 0: the number of elements is what makes the total error (root of the sum of squares) this
-  /// part of the present one.
+  double desiredCount = 0.0; ///< elements; > 0 if desiredErrorFraction is 0
+  /// If > 0, the number of elements is chosen to make the total error (root of the sum of squares)
+  /// this fraction of the present one.
   double desiredErrorFraction = 0.0;
-  /// The error goes with this power of the size: 1 for stresses and energy norms of linear
+  /// The error is proportional to this power of the size: 1 for stresses and energy norms of linear
   /// elements, 2 for their values in L2.
   double convergenceOrder = 1.0;
-  SizeLimits limits;            ///< without the anisotropy: sizes are the same in all directions
+  SizeLimits limits;            ///< without anisotropy: sizes are the same in all directions
   double countCorrection = 1.0; ///< as in SolutionMetricOptions
 
-  /// A sentence that says what is unusable; empty if all is fine.
+  /// A sentence about what is unusable; empty if all is fine.
   std::string check() const;
 };
 
@@ -38,13 +38,13 @@ struct ErrorIndicatorSizes
   bool isZero = false;         ///< no error anywhere: the sizes are the same everywhere
 };
 
-/// Sizes from the error of each cell, `errors` per cell of a mesh that has not been edited: norms
-/// over the cell, >= 0, whose squares add up over cells.
+/// Computes sizes from the error of each cell. `errors`: one per cell of a mesh that has not been
+/// edited; norms over the cell, >= 0, whose squares add up over cells.
 ///
-/// With h_K the edge of the regular simplex of the cell's volume and a the convergence order, the
-/// size is proportional to h_K error_K^(-2 / (2a + D)): the number of elements is then the least for
-/// their total error. At the points stands the mean density of elements of the cells around.
-/// Returns a sentence that names the first unusable cell or option, or an empty string.
+/// Let h_K be the edge of the regular simplex with the cell's volume, and a the convergence order.
+/// The size is proportional to h_K error_K^(-2 / (2a + D)), which gives the lowest number of
+/// elements for their total error. A point gets the mean density of elements of the cells around
+/// it. Returns a sentence about the first unusable cell or option, or an empty string.
 template <int D>
 std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double>& errors,
   const ErrorIndicatorOptions& options, ErrorIndicatorSizes& result);

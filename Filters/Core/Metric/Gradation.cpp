@@ -11,12 +11,13 @@ namespace meshopt
 {
 namespace
 {
-/// Part of a metric that may be missing: without it the last digits would go round for ever.
+/// The fraction of a metric that may be missing: without it the last digits would never settle.
 constexpr double slack = 1e-3;
-/// Never reached in practice: a sweep carries a change through the mesh.
+/// Never reached in practice: one sweep carries a change through the mesh.
 constexpr int maximumNumberOfSweeps = 1000;
 
-/// True if a (1 + slack) - b is positive definite: Cholesky by hand, as most edges pass here.
+/// True if a (1 + slack) - b is positive definite. Cholesky by hand, since most edges pass this
+/// test.
 bool isAtLeast(const Tensor<2>& a, const Tensor<2>& b)
 {
   const Tensor<2> d = (1.0 + slack) * a - b;
@@ -42,10 +43,11 @@ Tensor<D> intersection(const Tensor<D>& a, const Tensor<D>& b)
   using Matrix = Eigen::Matrix<double, D, D>;
   const Eigen::LLT<Matrix> cholesky{ Matrix(a) };
   const Matrix l = cholesky.matrixL();
-  // b in coordinates where a is the identity
+  // b in the coordinates in which a is the identity
   Matrix c = cholesky.matrixL().solve(Matrix(b));
   c.transposeInPlace();
   c = cholesky.matrixL().solve(c).eval();
+  // In these coordinates the intersection takes the larger of 1 and each eigenvalue of b.
   SymmetricEigen<D> e = SymmetricEigen<D>::of(Tensor<D>(0.5 * (c + c.transpose())));
   e.values = e.values.cwiseMax(1.0);
   const Matrix q = l * Matrix(e.vectors);
@@ -66,7 +68,7 @@ int limitGradation(const SimplexMesh<D>& mesh, const PointGraph& graph, double g
   std::vector<Tensor<D>>& metrics)
 {
   const Index n = graph.numberOfPoints();
-  std::vector<std::uint8_t> changed(n, 1); // since its neighbours were last held against it
+  std::vector<std::uint8_t> changed(n, 1); // since its neighbours were last compared with it
   bool again = true;
   int sweeps = 0;
   for (; again && sweeps < maximumNumberOfSweeps; ++sweeps)

@@ -3,7 +3,7 @@
 /// A limit on how fast a metric may change from point to point.
 ///
 /// Reference: Alauzet, "Size gradation control of anisotropic meshes" (2010): growth that is
-/// homogeneous in the metric. The loop over edges here goes on until nothing changes, not for a
+/// homogeneous in the metric. Departure: the loop over edges runs until nothing changes, not for a
 /// fixed number of passes.
 #ifndef meshopt_Metric_Gradation_h
 #define meshopt_Metric_Gradation_h
@@ -14,21 +14,21 @@
 
 namespace meshopt
 {
-/// The metric whose unit ball is the largest in both unit balls, along the axes that both have in
-/// common (simultaneous reduction): at least `a` and at least `b` in every direction, to rounding.
-/// Both symmetric positive definite.
+/// The metric whose unit ball is the largest inside both unit balls, along the axes that both have
+/// in common (simultaneous reduction). It is at least `a` and at least `b` in every direction, up
+/// to rounding. Both must be symmetric positive definite.
 template <int D>
 Tensor<D> intersection(const Tensor<D>& a, const Tensor<D>& b);
 
-/// What the metric `m` of a point allows at the other end of an edge: lengths grow by the factor
-/// 1 + l ln(gradation), where l is the length of the edge in m.
+/// The metric that the metric `m` of a point allows at the other end of an edge: lengths grow by
+/// the factor 1 + l ln(gradation), where l is the length of the edge in m.
 template <int D>
 Tensor<D> grown(const Tensor<D>& m, const Vec<D>& edge, double gradation);
 
-/// Makes metrics stronger until along each edge, both ways, the metric at one end is at least what
-/// the other end's allows. `metrics`, one per point slot, are such that the wanted edge length is 1;
-/// `gradation` > 1 is the ratio of the lengths of neighbouring edges, about. What is missing at the
-/// end is less than 1e-3 of the metric. Deterministic. Returns the number of sweeps over the points.
+/// Makes metrics stronger until, along each edge and both ways, the metric at one end is at least
+/// what the other end allows. `metrics`: one per point slot, in which the wanted edge length is 1.
+/// `gradation` > 1: about the ratio of the lengths of neighbouring edges. At the end less than 1e-3
+/// of a metric is missing. Deterministic. Returns the number of sweeps over the points.
 template <int D>
 int limitGradation(const SimplexMesh<D>& mesh, const PointGraph& graph, double gradation,
   std::vector<Tensor<D>>& metrics);

@@ -35,6 +35,7 @@ struct BasisGradients
       this->length = std::max(this->length, (x[e[0]] - x[e[1]]).norm());
     }
     this->volume = signedVolume(x);
+    // Relative to the longest edge, so that the test does not depend on units.
     this->isFlat = !(std::abs(this->volume) > 1e-14 * std::pow(this->length, D));
     if (!this->isFlat)
     {
@@ -49,7 +50,7 @@ struct BasisGradients
   }
 };
 
-/// Hessians by (5.4), each the symmetric tensor's D (D + 1) / 2 numbers in a row, for all points.
+/// Hessians by (5.4) at all points. Each is a row of the symmetric tensor's D (D + 1) / 2 numbers.
 template <int D>
 class LumpedMassRecovery
 {
@@ -67,6 +68,7 @@ public:
 
   std::string run(std::vector<Tensor<D>>& hessians)
   {
+    // First, since integrate() numbers these points as unknowns.
     this->markBoundary();
     this->integrate();
     std::string error = this->findUnreached();
@@ -126,6 +128,7 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
     return;
   }
   const Simplex<D>& nodes = this->mesh_.nodes(c);
+  // Lumped mass: each node gets an equal part of the cell.
   for (Index p : nodes)
   {
     mass[p] += std::abs(basis.volume) / (D + 1);
@@ -139,6 +142,7 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
     {
       gradient += (value(i) - value(0)) * basis.of[i];
     }
+    // (5.4), symmetrized: minus the integral of (du / dx_a) (dphi / dx_b), constant in the cell.
     for (int i = 0; i <= D; ++i)
     {
       double* row = &this->rows_(nodes[i], k * Numbers);
@@ -154,8 +158,8 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
   }
 }
 
-/// The interior points' Hessians; boundary points, and those whose cells are all flat, get numbers
-/// as unknowns.
+/// Computes the Hessians of interior points. Boundary points, and points whose cells are all flat,
+/// become unknowns and get numbers.
 template <int D>
 void LumpedMassRecovery<D>::integrate()
 {
@@ -171,6 +175,7 @@ void LumpedMassRecovery<D>::integrate()
   {
     if (this->mesh_.isPointAlive(p) && (this->unknown_[p] != None || mass[p] == 0.0))
     {
+      // The weak form lacks its boundary term there, so these sums are of no use.
       this->unknown_[p] = this->numberOfUnknowns_++;
       this->rows_.row(p).setZero();
     }
@@ -181,7 +186,8 @@ void LumpedMassRecovery<D>::integrate()
   }
 }
 
-/// Every part of the mesh needs an interior point: there is nothing to extrapolate from otherwise.
+/// Finds a point in a part of the mesh without interior points: there is nothing to extrapolate
+/// from.
 template <int D>
 std::string LumpedMassRecovery<D>::findUnreached() const
 {
@@ -222,8 +228,8 @@ std::string LumpedMassRecovery<D>::findUnreached() const
   return std::string();
 }
 
-/// Minimizes int |grad H|^2 over the unknown values. Where a cell is flat, plain differences
-/// along its edges stand for the integral, so that all unknowns are tied to something.
+/// Minimizes int |grad H|^2 over the unknown values. In a flat cell, plain differences along its
+/// edges replace the integral, so that every unknown is tied to something.
 template <int D>
 void LumpedMassRecovery<D>::extrapolate()
 {
@@ -243,6 +249,7 @@ void LumpedMassRecovery<D>::extrapolate()
       continue;
     }
     const BasisGradients<D> basis(this->mesh_.corners(c));
+    // Of the same magnitude as the integral: |grad|^2 times volume is a length to the power D - 2.
     const double difference = basis.length > 0.0 ? std::pow(basis.length, D - 2) : 1.0;
     for (int i = 0; i <= D; ++i)
     {
@@ -257,6 +264,7 @@ void LumpedMassRecovery<D>::extrapolate()
         }
         else
         {
+          // Known values go to the right-hand side.
           right.row(row) -= entry * this->rows_.row(nodes[j]);
         }
       }
@@ -264,6 +272,7 @@ void LumpedMassRecovery<D>::extrapolate()
   }
   Eigen::SparseMatrix<double> matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
+  // Regular, since every unknown is connected to an interior point: see findUnreached().
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
   const Eigen::MatrixXd solution = solver.solve(right);
   for (std::size_t p = 0; p < this->unknown_.size(); ++p)

@@ -11,15 +11,15 @@ namespace meshopt
 {
 namespace
 {
-/// Numbers of a quadratic: constant, slopes, second derivatives.
+/// Coefficients of a quadratic: constant, slopes, second derivatives.
 template <int D>
 constexpr int Unknowns = 1 + D + D*(D + 1) / 2;
-/// More points than unknowns, so that noise is evened out; what a regular interior patch has.
+/// More points than unknowns, so that noise is averaged out: the size of a regular interior patch.
 template <int D>
 constexpr std::size_t WantedPoints = D == 2 ? 7 : 14;
 
-/// Of the least to the greatest diagonal entry of the triangular factor: what is well determined,
-/// and what is just about.
+/// Ratio of the least to the greatest diagonal entry of the triangular factor: for a fit that is
+/// well determined, and for one that is just determined.
 constexpr double goodRank = 1e-3, leastRank = 1e-7;
 
 template <int D>
@@ -35,7 +35,7 @@ public:
   {
   }
 
-  /// Hessians of all components at p; false if the part of the mesh around p has too few points.
+  /// Hessians of all components at p. False if the part of the mesh around p has too few points.
   bool at(Index p, Tensor<D>* hessians)
   {
     this->patch_.assign(1, p);
@@ -46,6 +46,7 @@ public:
     {
       more = this->addRing(p);
     }
+    // Larger patches smooth more, so they are used only as long as the fit is badly determined.
     bool done = this->fit(goodRank, hessians);
     while (!done && more)
     {
@@ -85,7 +86,7 @@ private:
     {
       return false;
     }
-    // coordinates z in which the patch is as wide as long: x - x_p = scale z
+    // Coordinates z in which the patch is as wide as it is long: x - x_p = scale z.
     Eigen::Matrix<double, D, D> spread = Eigen::Matrix<double, D, D>::Zero();
     const Vec<D> centre = this->mesh_.point(this->patch_[0]);
     for (Index q : this->patch_)
@@ -122,6 +123,7 @@ private:
           h(a, b) = h(b, a) = solution(row++, i);
         }
       }
+      // Back from z to x: H = L^-T h L^-1.
       scale.matrixU().solveInPlace(h);
       h.transposeInPlace();
       scale.matrixU().solveInPlace(h);
@@ -148,6 +150,7 @@ private:
         this->columns_(k, column++) = (a == b ? 0.5 : 1.0) * z[a] * z[b];
       }
     }
+    // Differences to p, so that a large constant costs no digits.
     const std::size_t stride = static_cast<std::size_t>(this->components_);
     for (int i = 0; i < this->components_; ++i)
     {
@@ -159,8 +162,8 @@ private:
   const std::vector<double>& values_;
   int components_;
   PointGraph graph_;
-  std::vector<Index> seen_;  ///< the last patch that a point was in
-  std::vector<Index> patch_; ///< the point itself first, then ring by ring
+  std::vector<Index> seen_;  ///< the last patch that contained the point
+  std::vector<Index> patch_; ///< first the point itself, then ring by ring
   std::size_t ringBegin_ = 0;
   Columns columns_;
   Eigen::MatrixXd right_;
@@ -182,9 +185,9 @@ std::string recoverByLeastSquares(const SimplexMesh<D>& mesh, const std::vector<
       std::ostringstream text;
       text
         << "The Hessian at point " << p << " cannot be recovered: "
-        << Unknowns<
-             D> << " points that do not lie on one curve or surface of second degree are needed, and "
-        << "the part of the mesh it belongs to has no such points.";
+        << Unknowns<D>
+        << " points that do not lie on one curve or surface of second degree are needed, and the "
+           "part of the mesh it belongs to has no such points.";
       return text.str();
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file LeastSquaresHessian.h
-/// Hessians by fitting quadratics over patches; see HessianRecovery.h, which is the door to it.
+/// Hessians by fitting quadratics over patches. The entry point is HessianRecovery.h.
 #ifndef meshopt_Metric_LeastSquaresHessian_h
 #define meshopt_Metric_LeastSquaresHessian_h
 
@@ -11,10 +11,10 @@
 
 namespace meshopt
 {
-/// As recoverHessians() with Recovery::LeastSquares. A patch is the point with its neighbours, and
-/// their neighbours in turn until there are enough points (2D: 7, 3D: 14) and they determine a
-/// quadratic well. Coordinates are scaled by the spread of the patch in its principal directions,
-/// so that stretched patches are fitted as well as round ones.
+/// The same as recoverHessians() with Recovery::LeastSquares. A patch is the point with its
+/// neighbours, and further layers of neighbours until there are enough points (2D: 7, 3D: 14) and
+/// they determine a quadratic well. Coordinates are scaled by the spread of the patch in its
+/// principal directions, so that stretched patches are fitted as well as round ones.
 template <int D>
 std::string recoverByLeastSquares(const SimplexMesh<D>& mesh, const std::vector<double>& values,
   int components, std::vector<Tensor<D>>& hessians);

@@ -13,9 +13,9 @@ namespace meshopt
 {
 namespace
 {
-/// Finds the zero of a falling function of ln h, to `tolerance` in the value: steps that would be
-/// right without limits until it lies between two, then regula falsi (the Illinois variant).
-/// `highest` bounds ln h.
+/// Finds the zero of a falling function of ln h, to `tolerance` in its value. First come steps that
+/// would be exact without limits, until the zero lies between two of them; then regula falsi (the
+/// Illinois variant). `highest` bounds ln h.
 template <class F>
 double findZero(F&& value, double start, double highest, double slope, double tolerance)
 {
@@ -33,6 +33,7 @@ double findZero(F&& value, double start, double highest, double slope, double to
     other = x;
     otherY = y;
     x = std::min(highest, x + stretch * y / slope);
+    // Limits make the function flatter than `slope`: longer and longer steps make up for that.
     y = value(x);
     stretch *= 1.5;
     ++evaluations;
@@ -134,7 +135,7 @@ double MetricScaling<D>::countFromVolume(double volume) const
   return regularElementsPerVolume<D> * this->correction_ * volume;
 }
 
-/// Elements of a uniform mesh of edge h.
+/// Number of elements of a uniform mesh with edge h.
 template <int D>
 double MetricScaling<D>::uniformCount(double h) const
 {
@@ -184,6 +185,7 @@ void MetricScaling<D>::makeUnit(double h)
     limitGradation(this->mesh_, this->graph_, this->limits_.gradation, this->unit_);
     for (std::size_t p = 0; p < this->unit_.size(); ++p)
     {
+      // The gradation may overstep the limits of a point a little.
       SymmetricEigen<D> e = SymmetricEigen<D>::of(this->unit_[p]);
       const Vec<D> values = this->limited(e.values, 1.0);
       if (!values.isApprox(e.values, 1e-12))
@@ -212,8 +214,9 @@ ScaledMetric<D> MetricScaling<D>::withCount(double count)
   const double most = this->limits_.minimumSize > 0.0
     ? this->uniformCount(this->limits_.minimumSize)
     : std::numeric_limits<double>::infinity();
+  // Slightly inside the range that the limits allow, so that there is a zero to find.
   const double goal = std::max(fewest * 1.0001, std::min(most * 0.9999, count));
-  // everything is at the maximum size there, whatever h* is beyond
+  // At this h* everything has the maximum size, and so it has at any greater one.
   const double highest = std::log(this->maximumSize_ * std::sqrt(this->greatest_));
   if (!(most > 1.001 * fewest))
   {
@@ -221,6 +224,7 @@ ScaledMetric<D> MetricScaling<D>::withCount(double count)
     uniform.isCountReached = std::abs(count - fewest) <= 0.001 * fewest;
     return uniform;
   }
+  // First without gradation, which is much cheaper; its zero is the start of the other search.
   double x = findZero([&](double lnH) { return std::log(this->predict(std::exp(lnH)) / goal); },
     highest, highest, D, 1e-4);
   if (this->limits_.gradation > 1.0)

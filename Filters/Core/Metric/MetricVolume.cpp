@@ -8,9 +8,9 @@ namespace meshopt
 {
 namespace
 {
-/// exp[a_0, ..., a_{n-1}] of ascending numbers, none above 0. Where they are close the recursion of
-/// divided differences would cancel: there by the series sum_k h_k / (n - 1 + k)! around their mean,
-/// h_k the complete homogeneous symmetric polynomials.
+/// The divided difference exp[a_0, ..., a_{n-1}] of ascending numbers, none above 0. For close
+/// numbers the recursion of divided differences would cancel. There the series sum_k h_k / (n - 1 +
+/// k)! around their mean is used, with h_k the complete homogeneous symmetric polynomials.
 double dividedDifference(const double* a, int n)
 {
   const double spread = a[n - 1] - a[0];
@@ -32,7 +32,7 @@ double dividedDifference(const double* a, int n)
   {
     factorial *= i;
   }
-  // h[i]: the polynomial of the present degree in the first i + 1 numbers
+  // h[i]: the polynomial of the current degree in the first i + 1 numbers
   double h[4] = { 1.0, 1.0, 1.0, 1.0 };
   double sum = 1.0 / factorial;
   for (int k = 1; k <= 16; ++k)
@@ -54,6 +54,7 @@ double meanOfExponential(const std::array<double, D + 1>& a)
 {
   std::array<double, D + 1> sorted = a;
   std::sort(sorted.begin(), sorted.end());
+  // Relative to the greatest, so that nothing overflows.
   const double greatest = sorted[D];
   for (double& value : sorted)
   {

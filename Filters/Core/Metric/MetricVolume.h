@@ -10,19 +10,19 @@
 
 namespace meshopt
 {
-/// Mean of exp(f) over a simplex for the linear f with values a at its nodes:
-/// D! exp[a_0, ..., a_D], a divided difference. To some 1e-13 of itself.
+/// Mean of exp(f) over a simplex, for the linear f with values a at its nodes: D! exp[a_0, ...,
+/// a_D], a divided difference. Relative error about 1e-13.
 template <int D>
 double meanOfExponential(const std::array<double, D + 1>& a);
 
-/// int sqrt(det M) over the mesh for the log-Euclidean interpolation of M, which is what NodalMetric
-/// samples: exact, where the paper's (5.3) takes one value per cell. `halfLogDeterminants` holds
-/// ln(det M) / 2 per point slot. Volumes count without their sign.
+/// int sqrt(det M) over the mesh, with log-Euclidean interpolation of M as in NodalMetric. This is
+/// exact, while the paper's (5.3) uses one value per cell. `halfLogDeterminants` holds ln(det M) /
+/// 2 per point slot. Volumes count without their sign.
 template <int D>
 double metricVolume(const SimplexMesh<D>& mesh, const std::vector<double>& halfLogDeterminants);
 
-/// Elements of edge 1 that fill the volume 1 if all are regular: 4 / sqrt(3), 6 sqrt(2). (Regular
-/// tetrahedra do not fill space; it is an estimate.)
+/// Number of regular elements of edge 1 per unit of volume: 4 / sqrt(3), 6 sqrt(2). (An estimate:
+/// regular tetrahedra do not fill space.)
 template <int D>
 constexpr double regularElementsPerVolume = D == 2 ? 2.3094010767585030 : 8.4852813742385703;
 

@@ -100,7 +100,7 @@ NodalMetric<D> NodalMetric<D>::raised(
   const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const
 {
   NodalMetric result = *this;
-  if (!result.background_) // one value for all points so far
+  if (!result.background_) // so far one value for all points
   {
     result.background_ = std::make_shared<const Background<D>>(mesh);
     result.values_.resize(mesh.numberOfPointSlots());
@@ -204,7 +204,7 @@ Tensor<D> NodalMetric<D>::unitTensor(Index p) const
   {
     m = this->constantMap_ * this->constantMap_;
   }
-  if (!this->hasSizes_ && this->constantSize_ > 0.0) // exact where it can be
+  if (!this->hasSizes_ && this->constantSize_ > 0.0) // exact if possible
   {
     return m / (this->constantSize_ * this->constantSize_);
   }

@@ -6,8 +6,8 @@
 
 #include "Mesh/SimplexMesh.h"
 #include "Metric/Background.h"
-#include "Metric/SizeFloor.h"
 #include "Metric/ElementMetric.h"
+#include "Metric/SizeFloor.h"
 
 #include <memory>
 #include <string>
@@ -22,52 +22,51 @@ enum class NodalValues
   Tensors
 };
 
-/// The field lives on the *background*: a copy of the input mesh with the values the user gave at
-/// its points. At the points of the mesh being optimized it is sampled by linear interpolation (of
-/// log h*, and of log M: log-Euclidean), again whenever a point moves or comes, so that it does
-/// not drift. Without sizes and without tensors it is trivial and costs nothing.
+/// The field is defined on the *background*: a copy of the input mesh with the user's values at its
+/// points. At the points of the optimized mesh it is sampled by linear interpolation (of log h*,
+/// and of log M: log-Euclidean). It is sampled again whenever a point moves or is added, so that it
+/// does not drift. Without sizes and tensors it is trivial and costs nothing.
 ///
-/// Copies share the background. Different points may be resampled by different threads if there is
-/// room for them (see reserve()).
+/// Copies share the background. Different threads may resample different points if there is room
+/// for these (see reserve()).
 template <int D>
 class NodalMetric
 {
 public:
-  /// What is stored for a point; to be taken and put back where a move is undone.
+  /// The values stored for a point; they are restored if a move is undone.
   struct Sample
   {
     double logSize = 0.0;
     Tensor<D> logTensor = Tensor<D>::Zero();
-    Index hint = None; ///< cell of the background where the point was found last
+    Index hint = None; ///< background cell where the point was last found
   };
 
   /// Trivial: Euclidean, h* the same everywhere.
   explicit NodalMetric(double desiredSize = 0.0) { this->constantSize_ = desiredSize; }
 
-  /// Values at the points of `background` (which is copied): sizes empty or one per input point, >
-  /// 0; tensors empty or one per input point, symmetric positive definite, in 1 / unit of length
-  /// squared. Returns a sentence naming the first unusable value, or an empty string; after an
-  /// error nothing has changed. Points that no cell uses may have any value.
-  /// `blamed`, where not null, is told which of the two the sentence is about.
+  /// Sets values at the points of `background` (which is copied). Sizes: empty or one per input
+  /// point, > 0. Tensors: empty or one per input point, symmetric positive definite, in 1 / unit of
+  /// length squared. Returns an empty string, or a sentence about the first unusable value; then
+  /// nothing has changed. Points that no cell uses may have any value. `blamed`, if not null,
+  /// receives which of the two the sentence is about.
   std::string set(const SimplexMesh<D>& background, const std::vector<double>& sizes,
     const std::vector<Tensor<D>>& tensors, NodalValues* blamed = nullptr);
 
-  /// One tensor for all points; same error.
+  /// Sets one tensor for all points; errors as for set().
   std::string setConstant(const Tensor<D>& tensor);
 
   bool isTrivial() const { return this->values_.empty() && !this->hasConstant_; }
   bool hasSizes() const { return this->hasSizes_; }
 
-  /// Samples the background at x and stores the values for point p (moved or new). Does nothing
-  /// where the field does not vary. Points out of the background take the nearest cell's clamped
-  /// value. `near` is a point whose neighbourhood x is in, for new points: it makes the search
-  /// short.
+  /// Samples the background at x and stores the values for point p (moved or new). Does nothing if
+  /// the field does not vary. Points outside of the background get the clamped values of the
+  /// nearest cell. `near`, for new points: a point near x, which makes the search short.
   void resample(Index p, const Vec<D>& x, Index near = None);
 
   /// Makes room for points 0 ... n - 1; needed before several threads resample new points.
   void reserve(Index n);
 
-  /// Values of point p as they are, to be put back by setSample() where a move is undone.
+  /// Present values of point p, to be restored by setSample() if a move is undone.
   Sample sample(Index p) const
   {
     return p < static_cast<Index>(this->values_.size()) ? this->values_[p] : Sample();
@@ -80,7 +79,7 @@ public:
     }
   }
 
-  /// The metric and h* of an element: from the mean of the logarithms at its nodes.
+  /// The metric and h* of an element, from the mean of the logarithms at its nodes.
   ElementMetric<D> element(const Simplex<D>& nodes) const
   {
     ElementMetric<D> m;
@@ -92,17 +91,17 @@ public:
     return m;
   }
 
-  /// The same field with h* raised to what `floor` says, at the points of `mesh` and wherever it is sampled
-  /// from then on. There must be sizes.
+  /// The same field with h* raised to at least `floor`, at the points of `mesh` and wherever it is
+  /// sampled from now on. Sizes must be given.
   NodalMetric raised(const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const;
   bool isRaised() const { return this->floor_ != nullptr; }
 
-  /// M / h*^2 at point p as it was sampled: in it, edges of the wanted length have length 1. The
-  /// identity where neither a size nor a metric is given.
+  /// M / h*^2 at point p as sampled: edges of the wanted length have length 1 in it. The identity
+  /// if neither a size nor a metric is given.
   Tensor<D> unitTensor(Index p) const;
 
-  /// The number of regular elements whose edges have the wanted length that fill `mesh` (5.3); it is
-  /// to be the one that the values were given for.
+  /// The number of regular elements with edges of the wanted length that fill `mesh` (5.3). This
+  /// must be the mesh for which the values were given.
   double predictedNumberOfElements(const SimplexMesh<D>& mesh) const;
 
 private:

@@ -28,7 +28,7 @@ template <int D>
 PointGraph PointGraph::of(const SimplexMesh<D>& mesh)
 {
   const Index n = mesh.numberOfPointSlots();
-  // with repetitions first: an edge stands there once for each cell around it
+  // First with repetitions: an edge appears once for each cell around it.
   std::vector<std::size_t> start(static_cast<std::size_t>(n) + 1, 0);
   forEachEdge(mesh, [&start](Index p, Index) { ++start[p + 1]; });
   for (Index p = 0; p < n; ++p)

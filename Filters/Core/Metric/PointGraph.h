@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file PointGraph.h
-/// Which points of a mesh share an edge.
+/// The graph of points that share an edge.
 #ifndef meshopt_Metric_PointGraph_h
 #define meshopt_Metric_PointGraph_h
 
@@ -10,11 +10,11 @@
 
 namespace meshopt
 {
-/// Neighbours of all points in one array: those of point p are ids[first[p]] ... ids[first[p + 1]
-/// - 1], ascending. Points that no cell uses have none.
+/// Neighbours of all points in one array. Those of point p are ids[first[p]] ... ids[first[p + 1] -
+/// 1], ascending. Points that no cell uses have none.
 struct PointGraph
 {
-  std::vector<Index> first; ///< one per point slot, and one more
+  std::vector<Index> first; ///< one per point slot, plus one
   std::vector<Index> ids;
 
   Index numberOfPoints() const { return static_cast<Index>(this->first.size()) - 1; }

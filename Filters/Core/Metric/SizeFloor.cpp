@@ -10,8 +10,8 @@ namespace meshopt
 {
 namespace
 {
-/// Sizes fall by this part of the distance: to about half from one layer of triangles to the next. Their
-/// shape then still is over .6.
+/// Sizes fall by this fraction of the distance: to about half from one layer of triangles to the
+/// next. The shape of such triangles is still above 0.6.
 constexpr double Fall = 0.7;
 constexpr double MostBins = 50.0; // per edge
 }
@@ -20,7 +20,7 @@ template <int D>
 SizeFloor<D>::SizeFloor(std::vector<Edge> edges, double least)
   : edges_(std::move(edges))
 {
-  std::vector<Vec<D>> low, high; // of the boxes beyond which the edges ask for less than `least`
+  std::vector<Vec<D>> low, high; // boxes outside of which the edges require less than `least`
   double sum = 0.0;
   for (const Edge& e : this->edges_)
   {
@@ -32,7 +32,7 @@ SizeFloor<D>::SizeFloor(std::vector<Edge> edges, double least)
   }
   const double n = static_cast<double>(this->edges_.size());
   this->width_ = sum > 0.0 ? 0.5 * sum / n : 1.0;
-  while (this->countBins(low, high) > MostBins * (n + 1.0)) // edges of very different lengths
+  while (this->countBins(low, high) > MostBins * (n + 1.0)) // if edges differ much in length
   {
     this->width_ *= 2.0;
   }
@@ -85,6 +85,7 @@ double SizeFloor<D>::at(const Vec<D>& x) const
   for (std::size_t k = 0; found != this->bins_.end() && k < found->second.size(); ++k)
   {
     const Edge& e = this->edges_[found->second[k]];
+    // The nearest point of the edge, in the metric of the edge.
     const Vec<D> along = e.b - e.a, mapped = e.metric * along;
     const double part = std::clamp(mapped.dot(x - e.a) / (e.size * e.size), 0.0, 1.0);
     const Vec<D> away = x - e.a - part * along;

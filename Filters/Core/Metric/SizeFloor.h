@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file SizeFloor.h
-/// The least size that can be had around edges that stay as they are.
+/// The lowest size that can be reached around edges that stay as they are.
 #ifndef meshopt_Metric_SizeFloor_h
 #define meshopt_Metric_SizeFloor_h
 
@@ -12,8 +12,8 @@
 
 namespace meshopt
 {
-/// Beside an edge nothing much smaller than itself is any good; away from it sizes fall by a part of
-/// the distance, as fast as good triangles can follow. Immutable.
+/// Beside an edge no element much smaller than the edge is good. Away from it, sizes fall by a
+/// fraction of the distance, as fast as good triangles can follow. Immutable.
 template <int D>
 class SizeFloor
 {
@@ -21,14 +21,14 @@ public:
   struct Edge
   {
     Vec<D> a, b;
-    Tensor<D> metric; ///< in which its length, and distances from it, are measured
-    double size;      ///< its length in it
+    Tensor<D> metric; ///< for its length, and for distances from it
+    double size;      ///< its length in the metric
   };
 
-  /// `least`: sizes from which on a floor does not matter.
+  /// `least`: floors below this size do not matter.
   SizeFloor(std::vector<Edge> edges, double least);
 
-  /// The greatest that any of the edges asks for at x; at most 0 far from all.
+  /// The greatest size that any of the edges requires at x; at most 0 far from all of them.
   double at(const Vec<D>& x) const;
 
 private:

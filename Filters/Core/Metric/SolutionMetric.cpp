@@ -11,8 +11,9 @@ namespace meshopt
 {
 namespace
 {
-/// True if the second difference along every edge is no more than what rounding makes of values of
-/// this magnitude. (Along edges: on a stretched mesh the noise is far greater across than along.)
+/// True if the second difference along every edge is no more than the rounding error of values of
+/// this magnitude. (Along edges, since on a stretched mesh the noise is far greater across than
+/// along.)
 template <int D>
 bool isLinearField(const SimplexMesh<D>& mesh, const std::vector<double>& values, int components,
   const std::vector<SymmetricEigen<D>>& metric, double precision)
@@ -38,8 +39,8 @@ bool isLinearField(const SimplexMesh<D>& mesh, const std::vector<double>& values
   return !(curvature > 500.0 * precision * magnitude);
 }
 
-/// Multiplies by det^(-1 / (2p + D)). Eigenvalues are first raised to what the greatest possible
-/// edge asks for (at the h* of the unscaled metric): 0 has no such power.
+/// Multiplies by det^(-1 / (2p + D)). Eigenvalues are first raised to what the longest possible
+/// edge requires (at the h* of the unscaled metric), since 0 has no such power.
 template <int D>
 void scaleForNorm(const SimplexMesh<D>& mesh, const SolutionMetricOptions& options,
   std::vector<SymmetricEigen<D>>& metric)
@@ -59,7 +60,7 @@ void scaleForNorm(const SimplexMesh<D>& mesh, const SolutionMetricOptions& optio
 
 namespace
 {
-/// Solutions of 1e-300, or of 1e300, have derivatives that a double cannot hold.
+/// Derivatives of solutions of magnitude 1e-300 or 1e300 do not fit into a double.
 template <int D>
 std::string checkRange(const SimplexMesh<D>& mesh, const SolutionMetric<D>& metric)
 {
@@ -96,13 +97,13 @@ SymmetricEigen<D> combinedHessian(const Tensor<D>* hessians, int components)
   SymmetricEigen<D> e;
   if (components == 1)
   {
-    // not by way of the square, which would lose half of the digits of the lesser eigenvalues
+    // Not as the root of the square: that would lose half of the digits of the smaller eigenvalues.
     e = SymmetricEigen<D>::of(hessians[0]);
     e.values = e.values.cwiseAbs();
   }
   else
   {
-    double scale = 0.0; // squares must neither overflow nor vanish
+    double scale = 0.0; // squares must neither overflow nor underflow
     for (int i = 0; i < components; ++i)
     {
       scale = std::max(scale, hessians[i].cwiseAbs().maxCoeff());

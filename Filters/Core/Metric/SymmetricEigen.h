@@ -17,8 +17,8 @@ struct SymmetricEigen
   Tensor<D> vectors = Tensor<D>::Identity(); ///< Q: orthonormal columns
   Vec<D> values = Vec<D>::Zero();            ///< ascending
 
-  /// `m` must be finite; of its two halves the lower one is read. Safe for all magnitudes: m is
-  /// scaled first.
+  /// `m` must be finite; only its lower half is read. Safe for all magnitudes, since m is scaled
+  /// first.
   static SymmetricEigen of(const Tensor<D>& m)
   {
     SymmetricEigen e;

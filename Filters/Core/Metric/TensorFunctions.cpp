@@ -10,7 +10,8 @@ namespace meshopt
 {
 namespace
 {
-/// (2^-k, k): so often a tensor of that norm is halved for the series, which wants one of at most 1/2.
+/// (2^-k, k): a tensor of this norm is halved k times, since the series needs a norm of at most
+/// 1/2.
 std::pair<double, int> halvings(double norm)
 {
   std::pair<double, int> result(1.0, 0);
@@ -22,9 +23,10 @@ std::pair<double, int> halvings(double norm)
   return result;
 }
 
-/// exp(a) of a symmetric tensor without trace, scaled down and squared again. By Cayley and Hamilton
-/// a^3 = p a + q, p = tr(a^2) / 2, q = det(a): every power is x + y a + z a^2, so that the series and
-/// the squarings are of three numbers. Asked for each cell that is tried: no eigenvalues, no division.
+/// exp(a) of a symmetric tensor without trace, by scaling and squaring. By Cayley and Hamilton a^3
+/// = p a + q, p = tr(a^2) / 2, q = det(a). So every power is x + y a + z a^2, and the series and
+/// the squarings work on three numbers. It is called for each cell that is tried, so it uses no
+/// eigenvalues and no division.
 Tensor<3> exponentialWithoutTrace(const Tensor<3>& symmetric)
 {
   static constexpr double inverseFactorials[] = { 1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120,
@@ -64,7 +66,7 @@ Tensor<3> exponentialWithoutTrace(const Tensor<3>& symmetric)
   return e;
 }
 
-/// The same in 2D: a^2 = w^2, so that exp(a) = cosh(w) + a sinh(w) / w.
+/// The same in 2D: a^2 = w^2, so exp(a) = cosh(w) + a sinh(w) / w.
 Tensor<2> exponentialWithoutTrace(const Tensor<2>& symmetric)
 {
   const auto [scale, squarings] = halvings(symmetric.norm());
@@ -90,6 +92,7 @@ Tensor<2> exponentialWithoutTrace(const Tensor<2>& symmetric)
 template <int D>
 Tensor<D> exponential(const Tensor<D>& l)
 {
+  // The trace is split off: it commutes with everything, and what remains needs fewer squarings.
   const double mean = l.trace() / D;
   const Tensor<D> a = l - mean * Tensor<D>::Identity();
   return std::exp(mean) * exponentialWithoutTrace(a);
@@ -99,7 +102,7 @@ template <int D>
 bool logarithm(const Tensor<D>& m, Tensor<D>& l)
 {
   double norm = m.norm();
-  if (!(norm > 1e-150 && norm < 1e150) && m.allFinite()) // squares vanish or overflow
+  if (!(norm > 1e-150 && norm < 1e150) && m.allFinite()) // its square may underflow or overflow
   {
     norm = m.cwiseAbs().maxCoeff();
   }
@@ -107,8 +110,8 @@ bool logarithm(const Tensor<D>& m, Tensor<D>& l)
   {
     return false;
   }
-  // scaled, so that neither very large nor very small tensors overflow in the eigenvalue iteration;
-  // in 2D with a third direction of its own
+  // Scaled, so that neither very large nor very small tensors overflow in the eigenvalue iteration.
+  // In 2D there is a third direction that does not interact.
   Eigen::Matrix3d scaled = Eigen::Matrix3d::Identity();
   scaled.topLeftCorner<D, D>() = 0.5 * (m + m.transpose()) / norm;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scaled);

@@ -11,14 +11,14 @@
 
 namespace meshopt
 {
-/// exp(l) of a symmetric tensor; symmetric to the last bit. By Taylor series of l without its
-/// trace, scaled and squared: relative error some 1e-15 times the norm of l, and several times
-/// faster than eigenvalues.
+/// exp(l) of a symmetric tensor; symmetric to the last bit. Taylor series of l without its trace,
+/// scaled and squared. The relative error is some 1e-15 times the norm of l. Several times faster
+/// than by eigenvalues.
 template <int D>
 Tensor<D> exponential(const Tensor<D>& l);
 
 /// ln(m) of a symmetric positive definite tensor. Returns false, with `l` unchanged, if m is not
-/// one: not finite, not symmetric (to 1e-9 of its norm), or an eigenvalue is not positive (to 1e-15
+/// finite, not symmetric (to 1e-9 of its norm), or has an eigenvalue that is not positive (to 1e-15
 /// of the greatest).
 template <int D>
 bool logarithm(const Tensor<D>& m, Tensor<D>& l);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file BoundaryChange.h
-/// The changes of a cell that the boundary takes part in (figure 1 of the paper): its nodes slide
-/// along the curves that it follows, go and come.
+/// Changes at a cell that involve the boundary (figure 1 of the paper): boundary nodes slide along
+/// the curves that the boundary follows, vanish, or are added.
 #ifndef meshopt_Operations_BoundaryChange_h
 #define meshopt_Operations_BoundaryChange_h
 
@@ -19,7 +19,7 @@ class BoundaryChange
 {
 public:
   static constexpr int level = Level::Topology;
-  static constexpr bool addsCells = false; // those that do look themselves
+  static constexpr bool addsCells = false; // split() itself asks the budget
   static bool isOn(const Switches&) { return true; }
 
   bool improve(Judge<D, Shape>& judge, Index t, int level)
@@ -39,8 +39,8 @@ public:
         return true;
       }
     }
-    for (int e = 0; e < Local<D>::numberOfEdges && level >= Level::Insertion &&
-         judge.switches().insertNodes;
+    for (int e = 0;
+         e < Local<D>::numberOfEdges && level >= Level::Insertion && judge.switches().insertNodes;
          ++e)
     {
       if (this->split(judge, t, e))
@@ -52,8 +52,8 @@ public:
   }
 
 private:
-  static constexpr int SearchSteps = 14;        ///< along a curve: to a thousandth of the range
-  static constexpr double FarthestSlide = 0.8; ///< part of the way to a neighbour
+  static constexpr int SearchSteps = 14;       ///< along a curve: to 1/1000 of the range
+  static constexpr double FarthestSlide = 0.8; ///< fraction of the way to a neighbour
 
   bool slide(Judge<D, Shape>& judge, Index v)
   {
@@ -76,6 +76,7 @@ private:
     const auto quality = [&](double u)
     { return this->problem_.evaluate(judge.surface()->at(place.part, u)); };
     double now = Proposal<D>::Never;
+    // A sliding node has one degree of freedom: a line search replaces the solver of free nodes.
     place.parameter = goldenSection(s + FarthestSlide * (range->low - s),
       s + FarthestSlide * (range->high - s), SearchSteps, quality, now);
     const bool better = now > judge.required(old);
@@ -84,8 +85,7 @@ private:
     {
       return false;
     }
-    this->proposal_.moves.push_back(
-      { v, judge.surface()->at(place.part, place.parameter), place });
+    this->proposal_.moves.push_back({ v, judge.surface()->at(place.part, place.parameter), place });
     this->proposal_.oldWorst = this->proposal_.least = old;
     this->proposal_.newWorst = now;
     return judge.accept(this->proposal_);
@@ -100,22 +100,22 @@ private:
     }
     const auto range = judge.surface()->range(judge.mesh(), this->star_, v);
     bool done = false;
+    // The node can join either of its two neighbours on the curve.
     for (std::size_t k = 0; k < 2 && range && !done; ++k)
     {
-      done =
-        proposeContraction(
-          judge.editor(), judge.surface(), v, range->ends[k], this->proposal_) &&
+      done = proposeContraction(
+               judge.editor(), judge.surface(), v, range->ends[k], this->proposal_) &&
         this->offer(judge);
     }
     judge.count(Operation::EdgeContraction, done);
     return done;
   }
 
-  /// Divides edge e of cell t, if it is on a curve, where that is best for this cell; what the other
-  /// cells have to say is seen by the judge.
+  /// Divides edge e of cell t, if it is on a curve, at the place that is best for this cell. The
+  /// judge then looks at the other cells of the edge.
   bool split(Judge<D, Shape>& judge, Index t, int e)
   {
-    constexpr long comes = D == 2 ? 2 : 6; // cells, or more
+    constexpr long comes = D == 2 ? 2 : 6; // cells added, at least
     const SimplexMesh<D>& mesh = judge.mesh();
     const auto& local = Local<D>::edgeFirst[e];
     const Index a = mesh.nodes(t)[local[0]], b = mesh.nodes(t)[local[1]];
@@ -131,6 +131,7 @@ private:
     bool done = p != None;
     if (done)
     {
+      // The curve decides where the node is, not the chord: the boundary stays on the curve.
       judge.editor().movePoint(p, x, a);
       judge.editor().setPlace(p, { Freedom::Curve, span->part, s });
       done = proposeSplit(judge.editor(), judge.surface(), t, a, b, p, this->proposal_) &&
@@ -141,7 +142,7 @@ private:
     return done;
   }
 
-  /// Where on the span the worse half of cell t is best.
+  /// The parameter on the span for which the worse of the two halves of cell t is best.
   double bestParameter(const Judge<D, Shape>& judge, Index t, int e, const Span& span) const
   {
     const SimplexMesh<D>& mesh = judge.mesh();
@@ -162,7 +163,7 @@ private:
     return goldenSection(span.from, span.to, SearchSteps, quality, best);
   }
 
-  /// Makes the change if the worst of its cells is better than what was there.
+  /// Makes the change if its worst cell is better than the worst cell before.
   bool offer(Judge<D, Shape>& judge)
   {
     this->proposal_.least = judge.required(this->proposal_.oldWorst);

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Cavity.h
-/// The best cavity around a seed cell for a new node: the set of cells that is taken out, and
-/// whose boundary is joined to the node.
+/// The best cavity around a seed cell for a new node: a set of cells to remove, whose boundary is
+/// joined to the node.
 ///
-/// Grown like a minimum spanning tree: the boundary facet that makes the worst element with the
-/// node is opened, and the cell behind it is taken in, again and again; the prefix with the largest worst
-/// quality is remembered. Among all cavities that contain the seed and cross no kept facet, the
-/// best prefix maximizes the worst quality of the new elements: if a prefix P has a boundary facet
-/// of quality <= c, then any larger cavity either takes in the cell behind it or has that facet on
-/// its own boundary. A positive worst quality makes the cavity star-shaped around the node.
-/// O(k log k) for k cells.
+/// It is grown like a minimum spanning tree. Again and again, the boundary facet that makes the
+/// worst element with the node is opened, and the cell behind it is taken in. The prefix of this
+/// sequence with the largest worst quality is remembered. Among all cavities that contain the seed
+/// and cross no kept facet, this prefix maximizes the worst quality of the new elements. Proof: if
+/// a prefix P has a boundary facet of quality <= c, then a larger cavity either takes in the cell
+/// behind it or has that facet on its own boundary. A positive worst quality makes the cavity
+/// star-shaped around the node. O(k log k) for k cells.
 #ifndef meshopt_Operations_Cavity_h
 #define meshopt_Operations_Cavity_h
 
+#include "Edit/QualityModel.h"
+#include "Mesh/KeptEdges.h"
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
-#include "Edit/QualityModel.h"
 
 #include <algorithm>
 
@@ -28,18 +29,18 @@ public:
   struct Limits
   {
     int cells = 80;    ///< greatest number of cells taken in
-    int swallowed = 1; ///< greatest number of free points that may vanish; none that is fixed
+    int swallowed = 1; ///< most free points that may vanish; others never may
   };
 
-  /// Grows the cavity of cell `seed` for a node with id p at x (p need not be used by a cell).
-  /// Returns the worst quality of the new elements, -infinity if there is no cavity at all.
+  /// Grows the cavity of cell `seed` for a node with id p at x (no cell need use p). Returns the
+  /// worst quality of the new elements; -infinity if there is no cavity.
   double grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index seed, Index p,
     const Vec<D>& x, const Limits& limits);
 
   /// The cells of the best prefix.
   const std::vector<Index>& cells() const { return this->cells_; }
   double oldWorst() const { return this->oldWorst_; }
-  /// Boundary facets of the best prefix, ordered such that (facet, node) is positive.
+  /// Boundary facets of the best prefix. The tetrahedron (facet, node) is positive.
   const std::vector<Facet<D>>& facets() const { return this->facets_; }
 
 private:
@@ -59,11 +60,10 @@ private:
   {
     Vec<D> x;
     double weight;
-    int facets = 0; // of the boundary that contain it
+    int facets = 0; // number of boundary facets that contain it
   };
 
   bool take(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, int limit);
-  bool closesKeptEdge(const MeshEditor<D>& editor, Index c) const;
   double quality(const QualityModel<D, Shape>& model, const Facet<D>& f, const int* numbers);
   void finish(MeshEditor<D>& editor);
 
@@ -85,6 +85,7 @@ double Cavity<D, Shape>::quality(
 {
   if constexpr (QualityModel<D, Shape>::HasSum)
   {
+    // The same quality as below, but each edge to the new node is measured only once.
     if (model.fast())
     {
       const PointData &a = this->points_[numbers[0]], &b = this->points_[numbers[1]];
@@ -112,40 +113,7 @@ double Cavity<D, Shape>::quality(
   return model(cell);
 }
 
-/// True if all cells around a kept edge of cell c are in the cavity now: the edge would vanish.
-template <int D, class Shape>
-bool Cavity<D, Shape>::closesKeptEdge(const MeshEditor<D>& editor, [[maybe_unused]] Index c) const
-{
-  const SimplexMesh<D>& mesh = editor.mesh();
-  for (int e = 0; D == 3 && mesh.hasConstrainedEdges() && e < Local<D>::numberOfEdges; ++e)
-  {
-    if (!mesh.isEdgeConstrained(c, e))
-    {
-      continue;
-    }
-    const Index a = mesh.nodes(c)[Local<D>::edges[e][0]], b = mesh.nodes(c)[Local<D>::edges[e][1]];
-    Index current = c, back = None; // the facet of `current` that was come in by
-    do
-    {
-      int exit = 0;
-      while (mesh.nodes(current)[exit] == a || mesh.nodes(current)[exit] == b ||
-        mesh.handle(current, exit) == back)
-      {
-        ++exit;
-      }
-      back = mesh.isConstrained(current, exit) ? None : mesh.adjacent(current, exit);
-      current = back == None ? None : mesh.cellOf(back);
-    } while (current != None && current != c && editor.owns(current) &&
-      editor.isMarked(current, this->mark_));
-    if (current == c)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Takes cell c in. False if that would make points or edges vanish that must not.
+/// Takes cell c into the cavity. False if points or edges would then vanish that must not.
 template <int D, class Shape>
 bool Cavity<D, Shape>::take(
   MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, int limit)
@@ -177,6 +145,8 @@ bool Cavity<D, Shape>::take(
     {
       numbers[k] = local[Local<D>::facets[i][k]];
     }
+    // A facet of which both cells are inside is no boundary facet any more. It remains in the heap:
+    // grow() drops it later.
     if (h != None && !mesh.isConstrained(c, i) && editor.owns(mesh.cellOf(h)) &&
       editor.isMarked(mesh.cellOf(h), this->mark_))
     {
@@ -193,10 +163,12 @@ bool Cavity<D, Shape>::take(
     this->heap_.push_back({ this->quality(model, mesh.facet(c, i), numbers), c, i });
     std::push_heap(this->heap_.begin(), this->heap_.end());
   }
-  if (this->closesKeptEdge(editor, c))
+  if (enclosesKeptEdge(mesh, c,
+        [&](Index other) { return editor.owns(other) && editor.isMarked(other, this->mark_); }))
   {
     return false;
   }
+  // A point that no boundary facet contains would vanish with the cavity.
   for (int i = 0; i <= D; ++i)
   {
     if (this->points_[local[i]].facets == 0)
@@ -229,7 +201,7 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
   bool more = this->take(editor, model, seed, limits.swallowed);
   while (more)
   {
-    // facets that meanwhile lie inside are dropped when they come up
+    // Facets that lie inside by now are dropped when they come to the top.
     while (true)
     {
       const Front& top = this->heap_.front();
@@ -243,11 +215,13 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
       this->heap_.pop_back();
     }
     const Front top = this->heap_.front();
+    // The worst facet on the boundary is the worst quality of the whole prefix.
     if (top.q > best)
     {
       best = top.q;
       bestSize = this->cells_.size();
     }
+    // The worst facet cannot be opened: no larger cavity can be better than the best so far.
     const Index h = mesh.adjacent(top.cell, top.facet);
     if (h == None || mesh.isConstrained(top.cell, top.facet) || !editor.owns(mesh.cellOf(h)) ||
       static_cast<int>(this->cells_.size()) >= limits.cells)
@@ -261,11 +235,12 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
   return best;
 }
 
-/// Collects the boundary of the best prefix, and the worst of what it takes out.
+/// Collects the boundary of the best prefix, and the worst quality of its cells.
 template <int D, class Shape>
 void Cavity<D, Shape>::finish(MeshEditor<D>& editor)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
+  // A new mark, since the growth may have marked cells beyond the best prefix.
   const std::uint32_t inside = editor.newMark();
   this->oldWorst_ = std::numeric_limits<double>::infinity();
   for (Index c : this->cells_)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ClusterMotion.h
-/// Several nodes move at once: those around a cell each of which is where it should be as long as the
-/// others stay.
+/// Moves several nodes around a cell at once. Helps where each node alone is already at its best
+/// place.
 #ifndef meshopt_Operations_ClusterMotion_h
 #define meshopt_Operations_ClusterMotion_h
 
@@ -11,8 +11,8 @@
 
 namespace meshopt
 {
-/// Moves the nodes of the cluster of cell t with neighbours of order 1 (section 2.2), less those of
-/// cells that are worse than t: those, held by a cap perhaps, would stop everything.
+/// Moves the nodes of the cluster of cell t with neighbours of order 1 (section 2.2), except nodes
+/// of cells that are worse than t. Those cells may be at a cap, and would then block every gain.
 template <int D, class Shape>
 class ClusterMotion
 {
@@ -39,6 +39,8 @@ public:
     this->readMetrics(judge);
     const double now = this->problem_.maximize(this->cluster_, judge.model().quality,
       this->metrics_, judge.enough(old), 0.5 * judge.gain(old));
+    // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
+    // the nodes must also lie among their neighbours.
     bool better = now > judge.required(old) && (now > 0.0 || this->cluster_.isAmidPoints());
     if (better)
     {
@@ -57,7 +59,7 @@ public:
   }
 
 private:
-  /// One for each cell of the cluster, or one for all.
+  /// One metric for each cell of the cluster, or one for all.
   void readMetrics(const Judge<D, Shape>& judge)
   {
     const QualityModel<D, Shape>& model = judge.model();

@@ -7,7 +7,8 @@ namespace meshopt
 {
 namespace
 {
-/// Kept facets and edges at v go; those that u has not get it in place of v.
+/// Kept facets and edges at v vanish. Those that do not contain u appear again with u in place of
+/// v.
 template <int D>
 void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
 {
@@ -66,6 +67,7 @@ bool proposeContraction(
   }
   for (Index c : proposal.cavity)
   {
+    // Cells with both points collapse; all others survive with u in place of v.
     if (mesh.localIndex(c, u) < 0)
     {
       proposal.cells.push_back(exchanged(mesh.nodes(c), v, u));
@@ -76,8 +78,6 @@ bool proposeContraction(
   return !proposal.cells.empty();
 }
 
-template bool proposeContraction<2>(
-  MeshEditor<2>&, const Surface<2>*, Index, Index, Proposal<2>&);
-template bool proposeContraction<3>(
-  MeshEditor<3>&, const Surface<3>*, Index, Index, Proposal<3>&);
+template bool proposeContraction<2>(MeshEditor<2>&, const Surface<2>*, Index, Index, Proposal<2>&);
+template bool proposeContraction<3>(MeshEditor<3>&, const Surface<3>*, Index, Index, Proposal<3>&);
 }

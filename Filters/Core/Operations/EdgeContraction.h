@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file EdgeContraction.h
-/// A node goes: its neighbour takes its place in all cells; also on the surface where that may be
-/// remeshed.
+/// Contracts an edge: a node vanishes, and its neighbour takes its place in all cells. Also on the
+/// surface, where that may be remeshed.
 #ifndef meshopt_Operations_EdgeContraction_h
 #define meshopt_Operations_EdgeContraction_h
 
@@ -10,9 +10,10 @@
 
 namespace meshopt
 {
-/// Proposes that point v goes and its neighbour u takes its place. Topology only: whether the result
-/// is any good is the judge's to see. False if v must stay: it is held and `surface` does not let it
-/// join u (null: never), or one of its cells is not the editor's. The cost goes with the star of v.
+/// Proposes that point v vanishes and its neighbour u takes its place. Topology only: the judge
+/// decides whether the result is good. False if v must stay: if it is not free and `surface` does
+/// not let it join u (null: never), or if the editor does not own one of its cells. The cost is
+/// proportional to the star of v.
 template <int D>
 bool proposeContraction(
   MeshEditor<D>& editor, const Surface<D>* surface, Index v, Index u, Proposal<D>& proposal);

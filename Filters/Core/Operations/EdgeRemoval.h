@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file EdgeRemoval.h
-/// Removes an edge: the ring of points around it is triangulated anew in the best way, and both ends
-/// of the edge are joined to the triangles. (The paper's edge cluster to a ring node is the special
-/// case of a fan.) In 2D: the swap of an edge. On a surface that takes part the ring is open: from a
-/// facet of the surface to the next one, and these two are swapped.
+/// Removes an edge: the ring of points around it is triangulated in the best way, and both ends of
+/// the edge are joined to the triangles. (The paper's edge cluster to a ring node is the special
+/// case of a fan.) In 2D this is the swap of an edge. Where the surface may be remeshed, the ring
+/// can be open: it then runs from one facet of the surface to the next, and these two facets are
+/// swapped.
 ///
-/// Reference: G. T. Klincsek, Minimal triangulations of polygonal domains (1980), with the sum
-/// replaced by the minimum: D[i][j] = max over k of min(D[i][k], D[k][j], both tetrahedra on the
-/// triangle i k j). O(n^3) qualities at most for a ring of n; pruned by what must be beaten.
+///      r3 ---- r2        r3 ---- r2       The ring seen from high along the edge (o), before and
+///      | \   / |         | \     |        after. Each new triangle is joined to low and to high:
+///      |   o   |         |   \   |        here (r0 r1 r3) and (r1 r2 r3).
+///      | /   \ |         |     \ |
+///      r0 ---- r1        r0 ---- r1
+///
+/// Reference: G. T. Klincsek, Minimal triangulations of polygonal domains (1980), with the minimum
+/// in place of the sum: D[i][j] = max over k of min(D[i][k], D[k][j], both tetrahedra on the
+/// triangle i k j). At most O(n^3) qualities for a ring of n points, pruned by the quality that
+/// must be exceeded.
 #ifndef meshopt_Operations_EdgeRemoval_h
 #define meshopt_Operations_EdgeRemoval_h
 
@@ -26,25 +34,25 @@ public:
   static constexpr int MaximumRing = 12;
 
   /// Tries to remove edge e (local number) of cell t. Returns the worst quality of the best
-  /// refilling if it is above `above` and above the worst of the ring, else -infinity; then also if
-  /// the edge must stay: kept, at a surface that `surface` does not let be swapped there (null: never),
-  /// ring too large, not owned.
+  /// refilling if it is above `above` and above the worst of the ring, else -infinity. It is
+  /// -infinity also if the edge must stay: if it is kept, is on a surface where `surface` allows no
+  /// swap (null: never), has too large a ring, or has cells that the editor does not own.
   double propose(const MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index t, int e,
     double above, const Surface<D>* surface = nullptr);
 
-  /// The worst quality of the ring of the last propose() that found a ring.
+  /// The worst quality in the ring of the last propose() that found a ring.
   double ringWorst() const { return this->ringWorst_; }
   const std::vector<Index>& cavity() const { return this->cavity_; }
   /// The cells of the last successful propose().
   void cells(std::vector<Simplex<D>>& cells) const;
-  /// The same with all that a proposal says of what goes and comes.
+  /// The same as a proposal, with the kept facets and edges that change.
   void fill(Proposal<D>& proposal, const SimplexMesh<D>& mesh) const;
 
 private:
   static constexpr double Never = -std::numeric_limits<double>::infinity();
 
-  /// A cell of the ring, with local numbers of its nodes: the edge's, then those of two ring points,
-  /// such that the next cell of the ring is opposite to the third.
+  /// A cell of the ring with local numbers of its nodes: first the ends of the edge, then two ring
+  /// points. The next cell of the ring is opposite to the third node.
   struct Start
   {
     Index cell;
@@ -77,8 +85,7 @@ private:
   int split_[MaximumRing][MaximumRing];
 };
 
-/// In the plane: both cells of the edge, which lies opposite to a node; that and the node across are
-/// the ring.
+/// In 2D: the cavity is the two cells of the edge; the ring is the two nodes opposite to it.
 template <int D, class Shape>
 bool EdgeRemoval<D, Shape>::gatherPair(const MeshEditor<D>& editor, Index t, int e)
 {
@@ -100,7 +107,7 @@ bool EdgeRemoval<D, Shape>::gatherPair(const MeshEditor<D>& editor, Index t, int
   return true;
 }
 
-/// In space: the cells around the edge from the start on, and their ring points.
+/// In 3D: collects the cells around the edge, beginning with the start, and their ring points.
 template <int D, class Shape>
 typename EdgeRemoval<D, Shape>::Ring EdgeRemoval<D, Shape>::gatherRing(
   const MeshEditor<D>& editor, const Start& start)
@@ -135,7 +142,7 @@ typename EdgeRemoval<D, Shape>::Ring EdgeRemoval<D, Shape>::gatherRing(
     current = next;
     if (newcomer == this->ring_[0])
     {
-      // closed if the way on leads back to the start
+      // closed if the next facet leads back to the start
       const Index back = mesh.adjacent(current, exit);
       const bool isClosed = back != None && !mesh.isConstrained(current, exit) &&
         mesh.cellOf(back) == start.cell;
@@ -149,7 +156,8 @@ typename EdgeRemoval<D, Shape>::Ring EdgeRemoval<D, Shape>::gatherRing(
   }
 }
 
-/// From one facet of the outer surface to the next: back from the start to the first, then all the way.
+/// From one facet of the outer surface to the next: goes back from the start to the first facet,
+/// then all the way to the other.
 template <int D, class Shape>
 bool EdgeRemoval<D, Shape>::gatherOpenRing(
   const MeshEditor<D>& editor, Start start, const Surface<D>& surface)
@@ -174,7 +182,8 @@ bool EdgeRemoval<D, Shape>::gatherOpenRing(
   {
     return false;
   }
-  // the last cell has the surface opposite to the ring point before its last
+  // The facet of the surface is opposite to the second last ring point. It must be the outer
+  // surface: a facet between regions has cells on both sides, and both would have to change.
   const Index last = this->cavity_.back();
   this->isOpen_ = mesh.adjacent(last, mesh.localIndex(last, this->ring_[this->n_ - 2])) == None;
   return this->isOpen_ &&
@@ -221,6 +230,7 @@ void EdgeRemoval<D, Shape>::weigh(const QualityModel<D, Shape>& model)
     {
       return;
     }
+    // Every length is needed for many triangles: measure each only once.
     for (int i = 0; i < this->n_; ++i)
     {
       this->weightLow_[i] = EdgeSum<Shape>::weight((this->x_[i] - this->xLow_).squaredNorm());
@@ -233,8 +243,8 @@ void EdgeRemoval<D, Shape>::weigh(const QualityModel<D, Shape>& model)
   }
 }
 
-/// The worse of the two tetrahedra on triangle (i, k, j), i < k < j; the second is not looked at
-/// if the first is not above.
+/// The worse of the two tetrahedra on triangle (i, k, j), i < k < j. The second is not measured if
+/// the first is not above `above`.
 template <int D, class Shape>
 double EdgeRemoval<D, Shape>::pair(
   const QualityModel<D, Shape>& model, int i, int k, int j, double above) const
@@ -275,6 +285,7 @@ double EdgeRemoval<D, Shape>::triangulate(const QualityModel<D, Shape>& model, d
 {
   this->weigh(model);
   const int n = this->n_;
+  // Two neighbours on the ring need no triangle between them.
   for (int i = 0; i + 1 < n; ++i)
   {
     this->best_[i][i + 1] = std::numeric_limits<double>::infinity();
@@ -288,6 +299,8 @@ double EdgeRemoval<D, Shape>::triangulate(const QualityModel<D, Shape>& model, d
       this->split_[i][j] = -1;
       for (int k = i + 1; k < j; ++k)
       {
+        // Only what exceeds the best so far counts: most triangles are pruned before they are
+        // measured.
         const double parts = std::min(this->best_[i][k], this->best_[k][j]);
         if (!(parts > best))
         {
@@ -307,9 +320,8 @@ double EdgeRemoval<D, Shape>::triangulate(const QualityModel<D, Shape>& model, d
 }
 
 template <int D, class Shape>
-double EdgeRemoval<D, Shape>::propose(
-  const MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index t, int e, double above,
-  const Surface<D>* surface)
+double EdgeRemoval<D, Shape>::propose(const MeshEditor<D>& editor,
+  const QualityModel<D, Shape>& model, Index t, int e, double above, const Surface<D>* surface)
 {
   if (!this->gather(editor, t, e, surface))
   {
@@ -371,11 +383,13 @@ void EdgeRemoval<D, Shape>::fill(Proposal<D>& proposal, const SimplexMesh<D>& me
   {
     if (this->isOpen_)
     {
+      // The two facets of the surface at the edge are exchanged for the two at the new diagonal.
       const Index first = this->ring_[0], last = this->ring_[this->n_ - 1];
       const Index c = this->cavity_[0];
       const Index patch = mesh.patch(c, mesh.localIndex(c, this->ring_[1]));
       proposal.kept.clear();
-      proposal.kept.gone = { { this->low_, this->high_, first }, { this->low_, this->high_, last } };
+      proposal.kept.gone = { { this->low_, this->high_, first },
+        { this->low_, this->high_, last } };
       proposal.kept.come = { { first, last, this->low_ }, { first, last, this->high_ } };
       proposal.kept.patches.assign(2, patch);
       proposal.kept.regions.assign(proposal.cells.size(), mesh.region(c));

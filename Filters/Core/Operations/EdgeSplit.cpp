@@ -9,10 +9,10 @@ namespace meshopt
 {
 namespace
 {
-/// The cells around the edge; whether all are there and the editor's. `isKept`: a kept facet or the
-/// caller's wish keeps the edge.
-bool cellsAround(const MeshEditor<2>& editor, Index t, Index a, Index b, std::vector<Index>& cells,
-  bool& isKept)
+/// Collects the cells around the edge. Returns whether the editor owns all of them. `isKept`: the
+/// edge is part of a kept facet, or kept by itself.
+bool cellsAround(
+  const MeshEditor<2>& editor, Index t, Index a, Index b, std::vector<Index>& cells, bool& isKept)
 {
   const SimplexMesh<2>& mesh = editor.mesh();
   const int i = 3 - mesh.localIndex(t, a) - mesh.localIndex(t, b);
@@ -26,8 +26,8 @@ bool cellsAround(const MeshEditor<2>& editor, Index t, Index a, Index b, std::ve
   return h == None || editor.owns(mesh.cellOf(h));
 }
 
-bool cellsAround(const MeshEditor<3>& editor, Index t, Index a, Index b, std::vector<Index>& cells,
-  bool& isKept)
+bool cellsAround(
+  const MeshEditor<3>& editor, Index t, Index a, Index b, std::vector<Index>& cells, bool& isKept)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
   int edge = 0;
@@ -38,6 +38,7 @@ bool cellsAround(const MeshEditor<3>& editor, Index t, Index a, Index b, std::ve
     ++edge;
   }
   isKept = mesh.isEdgeConstrained(t, edge);
+  // The ring ends at a kept facet: the edge lies in it. Collect the cells on all sides.
   if (!mesh.ring(t, a, b, false, cells))
   {
     isKept = true;
@@ -46,7 +47,7 @@ bool cellsAround(const MeshEditor<3>& editor, Index t, Index a, Index b, std::ve
   return std::all_of(cells.begin(), cells.end(), [&](Index c) { return editor.owns(c); });
 }
 
-/// Kept facets and edges that have a and b are divided, too.
+/// Kept facets and edges that contain a and b are divided, too.
 template <int D>
 void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<D>& p)
 {

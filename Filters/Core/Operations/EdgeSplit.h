@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file EdgeSplit.h
-/// Divides an edge by a new node, also one of the surface where that may be remeshed.
+/// Divides an edge by a new node; also an edge of the surface, where that may be remeshed.
 #ifndef meshopt_Operations_EdgeSplit_h
 #define meshopt_Operations_EdgeSplit_h
 
@@ -10,9 +10,9 @@
 namespace meshopt
 {
 /// Proposes that all cells around edge (a, b) of cell t are divided by the new point m. Topology
-/// only: whether the result is any good is the judge's to see. False if the edge must stay: it is
-/// kept and `surface` does not let it be divided (null: never), or one of the cells is not the
-/// editor's. The cost goes with the cells around the edge.
+/// only: the judge decides whether the result is good. False if the edge must stay: if it is kept
+/// and `surface` does not let it be divided (null: never), or if the editor does not own one of the
+/// cells. The cost is proportional to the number of cells around the edge.
 template <int D>
 bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index t, Index a, Index b,
   Index m, Proposal<D>& proposal);

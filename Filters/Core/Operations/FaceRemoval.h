@@ -4,8 +4,8 @@
 #ifndef meshopt_Operations_FaceRemoval_h
 #define meshopt_Operations_FaceRemoval_h
 
-#include "Mesh/MeshEditor.h"
 #include "Edit/QualityModel.h"
+#include "Mesh/MeshEditor.h"
 
 #include <algorithm>
 
@@ -46,7 +46,7 @@ public:
     return worst;
   }
 
-  /// The worst quality of the two cells of the last propose().
+  /// The worse quality of the two cells of the last propose().
   double oldWorst() const { return this->worst_; }
   const std::vector<Index>& cavity() const { return this->cavity_; }
   const std::vector<Simplex<3>>& cells() const { return this->cells_; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file LookAhead.h
-/// Several changes that pay only together: a node comes even without gain, then what that has spoiled
-/// is improved, worst first. Kept if all that was touched ends better than the cell that started it;
-/// otherwise undone, bit for bit.
+/// Several changes that gain only together: a node is inserted even without gain, then the cells
+/// that became worse are improved, worst first. The whole is kept if all cells concerned end up
+/// better than the cell that started it. Otherwise it is undone, bit for bit.
 #ifndef meshopt_Operations_LookAhead_h
 #define meshopt_Operations_LookAhead_h
 
@@ -20,7 +20,8 @@ public:
   static constexpr bool addsCells = true;
   static bool isOn(const Switches& switches) { return switches.lookAhead && switches.insertNodes; }
 
-  /// Improves one cell by the other operations at a level; true if that helped. Set before improve().
+  /// Improves one cell by the other operations at a level; true if that helped. Must be set before
+  /// improve() is called.
   using Improve = std::function<bool(Index t, int level)>;
   void setImprove(Improve improve) { this->improve_ = std::move(improve); }
 
@@ -40,8 +41,8 @@ public:
   }
 
 private:
-  static constexpr int Operations = 30, ManyOperations = 120; ///< at most, after the insertion
-  static constexpr double Promising = 0.3; ///< of the old quality: what the insertion must have at least
+  static constexpr int Operations = 30, ManyOperations = 120; ///< most tries after the insertion
+  static constexpr double Promising = 0.3; ///< least quality at first, relative to the old one
 
   bool tryFrom(Judge<D, Shape>& judge, Index t, Vec<D>& seed, double old, bool isLong)
   {
@@ -50,9 +51,11 @@ private:
     std::vector<Index> affected;
     judge.start();
     if (p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&
+      // changed() is overwritten by every further operation: keep it.
       this->insertion_.fill(judge, p, seed))
     {
       affected = judge.changed();
+      // keepsGuard() asks only here: in between, single changes may make cells bad.
       if (this->settle(judge, affected, judge.required(old), isLong) && judge.keepsGuard(mark))
       {
         judge.commit(mark);
@@ -65,7 +68,8 @@ private:
     return false;
   }
 
-  /// Improves the affected cells, worst first, until all are above the goal; false if some cannot be.
+  /// Improves the affected cells, worst first, until all are above the goal. False if one of them
+  /// cannot be improved.
   bool settle(Judge<D, Shape>& judge, std::vector<Index>& affected, double goal, bool isLong)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
@@ -86,10 +90,12 @@ private:
       {
         return true;
       }
+      // One cell that cannot be improved is enough to fail: the goal is for all.
       if (left == 0 || !this->improve_(worst, level))
       {
         return false;
       }
+      // Sorted and unique, since the operations often change the same cells again.
       affected.insert(affected.end(), judge.changed().begin(), judge.changed().end());
       std::sort(affected.begin(), affected.end());
       affected.erase(std::unique(affected.begin(), affected.end()), affected.end());

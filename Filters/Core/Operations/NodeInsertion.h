@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file NodeInsertion.h
-/// A node comes into a cell: the best cavity around it is emptied, and filled from the node, which
-/// has been put at its best place there.
+/// Inserts a node into a cell: the best cavity around the node is emptied and filled from the node,
+/// which is put at its best place there.
 #ifndef meshopt_Operations_NodeInsertion_h
 #define meshopt_Operations_NodeInsertion_h
 
@@ -36,17 +36,19 @@ public:
     return done;
   }
 
-  /// Where a new node of cell t may begin: the best apexes of its kept facets and half way there, its
-  /// barycentre, those of its facets, and the midpoints of its edges; the latter pulled in by 10 %.
+  /// Places where a new node of cell t may start: for each kept facet its best apex and the point
+  /// half way there; the barycentre; the barycentres of the facets; the midpoints of the edges. The
+  /// last two are pulled inwards by 10 %.
   static void findSeeds(const SimplexMesh<D>& mesh, Index t, std::vector<Vec<D>>& seeds);
 
-  /// Finds the cavity for point p, which no cell uses yet, if it starts at x and is then put at its
-  /// best place; x becomes that. Again from there if that has not gained, and `needsGain`. Returns the
-  /// worst quality of the new cells, Never if there is no cavity. Within a transaction.
+  /// Finds the cavity of point p (which no cell uses yet) if it starts at x, then moves it to its
+  /// best place, which is returned in x. If `needsGain` and there is no gain, a second round starts
+  /// at the new place. Returns the worst quality of the new cells; Never if there is no cavity.
+  /// Call it within a transaction.
   double find(Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x, bool needsGain);
-  /// The worst quality in the cavity found last.
+  /// The worst quality in the cavity of the last find().
   double oldWorst() const { return this->cavity_.oldWorst(); }
-  /// Fills the cavity found last from p at x, whatever the gain.
+  /// Fills the cavity of the last find() from p at x, whether or not that gains.
   bool fill(Judge<D, Shape>& judge, Index p, const Vec<D>& x);
 
 private:
@@ -54,7 +56,7 @@ private:
     const typename Judge<D, Shape>::Mark& start);
   void loadCavity(const Judge<D, Shape>& judge, Index p);
 
-  static constexpr double Hopeless = 0.5; ///< of the old worst: a second round gains little
+  static constexpr double Hopeless = 0.5; ///< part of the old worst: below it, no second round
   static constexpr int Rounds = 2;
 
   Proposal<D> proposal_;
@@ -136,6 +138,7 @@ double NodeInsertion<D, Shape>::find(
   {
     judge.editor().movePoint(p, x, judge.mesh().nodes(t)[0]);
     typename Cavity<D, Shape>::Limits limits;
+    // If no nodes may be removed, none may vanish inside the cavity either.
     limits.swallowed = judge.mayRemoveNodes() ? limits.swallowed : 0;
     q = this->cavity_.grow(judge.editor(), judge.model(), t, p, x, limits);
     if (!(q > 0.0))
@@ -171,8 +174,8 @@ bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Vec<D>
 }
 
 template <int D, class Shape>
-bool NodeInsertion<D, Shape>::tryGain(Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x,
-  const typename Judge<D, Shape>::Mark& start)
+bool NodeInsertion<D, Shape>::tryGain(
+  Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x, const typename Judge<D, Shape>::Mark& start)
 {
   const double q = this->find(judge, t, p, x, true);
   const double required = judge.required(this->cavity_.oldWorst());
@@ -180,7 +183,8 @@ bool NodeInsertion<D, Shape>::tryGain(Judge<D, Shape>& judge, Index t, Index p, 
   {
     return false;
   }
-  // The search took the metric where the node was, and no notice of the floor: a second look.
+  // The search used the metric of the node's first place, and ignored the floor of the weights. So
+  // the true qualities are checked after the change.
   const bool isExact = judge.model().plain && !judge.model().weights;
   const auto mark = judge.begin();
   const bool done = this->fill(judge, p, x) &&

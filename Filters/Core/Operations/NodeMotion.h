@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file NodeMotion.h
-/// Each free node of a cell goes to the best place that its star has for it.
+/// Moves each free node of a cell to its best place in its star.
 #ifndef meshopt_Operations_NodeMotion_h
 #define meshopt_Operations_NodeMotion_h
 
@@ -10,7 +10,7 @@
 
 namespace meshopt
 {
-/// The problem where to put node v of the cells `star`, all that it has.
+/// Sets up the problem of placing node v; `star` are all cells at v.
 template <int D, class Shape>
 void loadStar(const Judge<D, Shape>& judge, const std::vector<Index>& star, Index v,
   StarProblem<D, Shape>& problem)
@@ -48,6 +48,7 @@ public:
     const Simplex<D> nodes = judge.mesh().nodes(t);
     for (Index v : nodes)
     {
+      // All nodes of the cell are tried even if the first one helps: each gains for its own star.
       moved |= judge.mesh().isFree(v) && this->move(judge, v);
     }
     return moved;
@@ -68,11 +69,13 @@ private:
     loadStar(judge, star, v, this->problem_);
     Vec<D> x = mesh.point(v);
     const double now = this->problem_.maximize(x, judge.enough(old), 0.5 * judge.gain(old));
+    // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
+    // the node must also lie among its neighbours.
     const bool better = now > judge.required(old) && (now > 0.0 || this->problem_.isAmidPoints(x));
     judge.count(Operation::NodeMotion, better);
     if (!better)
     {
-      if (!judge.editor().inTransaction()) // what is undone is another star
+      if (!judge.editor().inTransaction()) // after a rollback the star is another one
       {
         judge.editor().setMoveFailed(v, judge.editor().clock());
       }

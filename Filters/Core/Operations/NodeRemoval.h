@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file NodeRemoval.h
-/// A free node of a cell goes: it is contracted into the neighbour for which that pays most.
+/// Removes a free node of a cell: it is contracted into the neighbour where this gains most.
 #ifndef meshopt_Operations_NodeRemoval_h
 #define meshopt_Operations_NodeRemoval_h
 
@@ -38,6 +38,7 @@ private:
     }
     this->collectLink(mesh, v);
     this->best_.oldWorst = mesh.worstQuality(this->best_.cavity);
+    // Each neighbour has to be better than the best so far: most are refused at their first cells.
     this->best_.least = this->best_.newWorst = judge.required(this->best_.oldWorst);
     for (Index u : this->neighbours_)
     {
@@ -52,7 +53,7 @@ private:
     return found && judge.accept(this->best_);
   }
 
-  /// The facets opposite to v in its star, and their points.
+  /// Collects the facets opposite to v in its star, and their points.
   void collectLink(const SimplexMesh<D>& mesh, Index v)
   {
     this->link_.clear();
@@ -64,11 +65,12 @@ private:
       this->neighbours_.insert(this->neighbours_.end(), f.begin(), f.end());
     }
     std::sort(this->neighbours_.begin(), this->neighbours_.end());
-    this->neighbours_.erase(std::unique(this->neighbours_.begin(), this->neighbours_.end()),
-      this->neighbours_.end());
+    this->neighbours_.erase(
+      std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
   }
 
-  /// The link, less the facets at u, joined to u: remembered if it is the best so far.
+  /// Joins the facets of the link that do not contain u to u. Remembers the result if it is the
+  /// best.
   void tryNeighbour(const QualityModel<D, Shape>& model, Index u)
   {
     double worst = std::numeric_limits<double>::infinity();

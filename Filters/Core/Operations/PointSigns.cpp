@@ -26,7 +26,8 @@ void PointSigns::add(const Vec<3>& x)
     }
   }
   this->extent_ = l == 0 ? 0.0 : std::max(this->extent_, (x - this->x_[0]).cwiseAbs().maxCoeff());
-  // Coordinates differ by 2 extents at most: six products of three, some sixteen roundings.
+  // Error bound. Coordinates differ by at most 2 extents; six products of three; some sixteen
+  // roundings.
   const double doubt = 6.0 * 8.0 * 16.0 * 1.2e-16 * std::pow(this->extent_, 3);
   for (int k = 2; k < l; ++k)
   {
@@ -38,12 +39,16 @@ void PointSigns::add(const Vec<3>& x)
       {
         const double det = normal.dot(this->x_[i] - x); // of (i, j, k, l)
         const int sign = std::fabs(det) > doubt && doubt > 1e-200
+          // Only doubtful signs are computed exactly. (With a tiny extent the bound itself may
+          // underflow.)
           ? (det > 0.0 ? 1 : -1)
           : orient(this->x_[i], this->x_[j], this->x_[k], x);
         if (sign == 0)
         {
           continue;
         }
+        // A positive tetrahedron (p0, p1, p2, p3) has each node above the opposite facet, in all
+        // three rotations of the facet.
         const int p[4] = { sign > 0 ? i : j, sign > 0 ? j : i, k, l }; // positive
         for (int m = 0; m < 4; ++m)
         {

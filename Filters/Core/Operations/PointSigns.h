@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file PointSigns.h
-/// On which side of the plane of which three of a few points each of them lies: exact, and looked
-/// up as sets of points.
+/// For a few points: on which side of the plane through any three of them each other one lies. The
+/// signs are exact, and are looked up as sets of points.
 #ifndef meshopt_Operations_PointSigns_h
 #define meshopt_Operations_PointSigns_h
 
@@ -33,7 +33,7 @@ inline int lowest(std::uint32_t set)
 }
 }
 
-/// Points are numbered 0, 1, 2, ... in the order in which they come.
+/// Points are numbered 0, 1, 2, ... in the order in which they are added.
 class PointSigns
 {
 public:
@@ -42,7 +42,8 @@ public:
 
   void clear() { this->size_ = 0; }
   int size() const { return this->size_; }
-  /// Adds a point, if there are less than Maximum. O(n^3).
+  /// Adds a point; there must be fewer than Maximum so far. One sign for each triple of earlier
+  /// points: O(n^3).
   void add(const Vec<3>& x);
 
   /// The points l for which the tetrahedron (i, j, k, l) is positive, exactly.
@@ -58,7 +59,7 @@ private:
   static int place(int i, int j, int k) { return (i * Maximum + j) * Maximum + k; }
 
   int size_ = 0;
-  double extent_ = 0.0; // greatest difference of a coordinate from the first point's
+  double extent_ = 0.0; // greatest difference of a coordinate to that of the first point
   Vec<3> x_[Maximum];
   std::vector<Mask> above_;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Operations/PolyhedronSearch.h"
 
+#include "Base/Scramble.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -14,18 +16,9 @@ constexpr int choose2(int n) { return n * (n - 1) / 2; }
 constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
 constexpr int choose4(int n) { return n * (n - 1) * (n - 2) / 2 * (n - 3) / 12; }
 
-constexpr std::size_t Memory = 4096; // fronts remembered; a later one takes the place of an older
+constexpr std::size_t Memory = 4096; // fronts remembered; a new one replaces an older one
 
-/// A fixed number without pattern for each k (splitmix64).
-std::uint64_t scramble(std::uint64_t k)
-{
-  k += 0x9e3779b97f4a7c15ull;
-  k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9ull;
-  k = (k ^ (k >> 27)) * 0x94d049bb133111ebull;
-  return k ^ (k >> 31);
-}
-
-/// Sorts; returns 1 for an odd permutation, else 0.
+/// Sorts two numbers; returns 1 if they were exchanged, else 0: the parity of the permutation.
 int sort(int& a, int& b)
 {
   const int odd = a > b, low = std::min(a, b);
@@ -103,7 +96,7 @@ void PolyhedronSearch::loadBoundary()
     s.used |= bit(f[0]) | bit(f[1]) | bit(f[2]);
   }
   this->stay_ = this->mustStay_ | s.used;
-  // last, when it is known what is blocked anyway
+  // Last, since facets block many crossings already.
   for (const Triangle& f : this->boundary_)
   {
     this->addEdge(s, f[0], f[1]);
@@ -114,13 +107,14 @@ void PolyhedronSearch::loadBoundary()
 
 // --- what crosses what
 
-/// Edges that cross facet (i, j, k) are blocked.
+/// Blocks the edges that cross facet (i, j, k).
 void PolyhedronSearch::blockEdges(State& s, int i, int j, int k) const
 {
   const PointSigns& at = this->signs_;
   const Mask up = at.above(i, j, k), down = at.above(j, i, k);
   for (int a = 0; a < at.size(); ++a)
   {
+    // The other end must lie on the other side of the facet, within the cone of a over the facet.
     const Mask other = has(up, a) ? down : has(down, a) ? up : 0;
     s.blocked[a] |= other &
       ((at.above(i, j, a) & at.above(j, k, a) & at.above(k, i, a)) |
@@ -128,7 +122,8 @@ void PolyhedronSearch::blockEdges(State& s, int i, int j, int k) const
   }
 }
 
-/// Facets that edge (a, b) crosses; those with an edge that is blocked from the start are left out.
+/// Finds the facets that edge (a, b) crosses. Facets with an edge that is blocked from the start
+/// are left out.
 void PolyhedronSearch::findCrossing(int a, int b)
 {
   const PointSigns& at = this->signs_;
@@ -137,14 +132,14 @@ void PolyhedronSearch::findCrossing(int a, int b)
   std::fill_n(row, pairs, 0);
   for (int i = 0; i < at.size(); ++i)
   {
-    // the line through a and b has i, j and k in turn around it
+    // i, j and k lie around the line through a and b, in this order
     const Mask left = at.above(a, b, i), right = at.above(b, a, i);
     Mask rest = (left | right) & ~this->states_[0].blocked[i] & ~(bit(i) | (bit(i) - 1));
     for (; rest; rest &= rest - 1)
     {
       const int j = lowest(rest);
       const Mask k = has(left, j) ? at.above(a, b, j) & right : at.above(b, a, j) & left;
-      // and a and b are on different sides
+      // and a and b lie on different sides of the facet
       row[pairOf(i, j)] = k &
         ((at.above(i, j, a) & at.above(j, i, b)) | (at.above(j, i, a) & at.above(i, j, b)));
     }
@@ -152,9 +147,10 @@ void PolyhedronSearch::findCrossing(int a, int b)
   this->crossingKnown_[pairOf(a, b)] = 1;
 }
 
-/// Facets that edge (a, b) crosses are blocked.
+/// Blocks the facets that edge (a, b) crosses.
 void PolyhedronSearch::blockFacets(State& s, int a, int b)
 {
+  // On demand: most searches meet few of the possible edges.
   if (!this->crossingKnown_[pairOf(a, b)])
   {
     this->findCrossing(a, b);
@@ -171,6 +167,7 @@ void PolyhedronSearch::blockFacets(State& s, int a, int b)
 
 void PolyhedronSearch::copy(const State& from, State& to) const
 {
+  // Only the parts in use: a State is large, and each step of the search copies one.
   const int n = this->signs_.size();
   to.facets = from.facets;
   to.used = from.used;
@@ -193,7 +190,8 @@ void PolyhedronSearch::addEdge(State& s, int a, int b)
   }
 }
 
-/// Adds (a, b, c) to the front.
+/// Adds (a, b, c) to the front. The hash combines the facets in any order: equal fronts have equal
+/// hashes, however they were reached.
 void PolyhedronSearch::open(State& s, int a, int b, int c)
 {
   const int n = this->signs_.size(), side = sideOf(a, b, c);
@@ -205,7 +203,7 @@ void PolyhedronSearch::open(State& s, int a, int b, int c)
   this->blockEdges(s, a, b, c);
 }
 
-/// Takes (a, b, c), which is there, from the front; it must not come again.
+/// Removes (a, b, c) from the front; it must be there. It cannot become open again.
 void PolyhedronSearch::close(State& s, int a, int b, int c) const
 {
   const int n = this->signs_.size(), side = sideOf(a, b, c);
@@ -224,7 +222,7 @@ void PolyhedronSearch::close(State& s, int a, int b, int c) const
   s.hash ^= scramble(side);
 }
 
-/// The front after the tetrahedron (f, p).
+/// The front after tetrahedron (f, p) was placed.
 void PolyhedronSearch::place(const Front& f, int p, const State& s, State& next)
 {
   this->copy(s, next);
@@ -237,12 +235,13 @@ void PolyhedronSearch::place(const Front& f, int p, const State& s, State& next)
   const int n = this->signs_.size(), ring[4] = { f.a, f.b, f.c, f.a };
   for (int k = 0; k < 3; ++k)
   {
+    // A facet that is open from the other side is now filled from both sides; otherwise it opens.
     const int a = ring[k], b = ring[k + 1];
     has(next.open[b * n + a], p) ? this->close(next, b, a, p) : this->open(next, a, b, p);
   }
 }
 
-/// Points that may stand on f.
+/// Points that may be the apex on f.
 PolyhedronSearch::Mask PolyhedronSearch::apexes(const State& s, const Front& f) const
 {
   const int n = this->signs_.size();
@@ -282,10 +281,11 @@ void PolyhedronSearch::findCandidates()
   }
 }
 
-/// Adds {i < j < k < l} for all l in `apexes`, but for those with a point inside that must stay,
-/// and those that stand on the boundary from outside.
+/// Adds {i < j < k < l} for all l in `apexes`, except those with a point inside that must stay, and
+/// those that lie outside of a boundary facet.
 void PolyhedronSearch::addCandidates(int i, int j, int k, Mask apexes)
 {
+  // sideOf() for three numbers in rising order: the lowest bit is the orientation.
   const auto triple = [](int a, int b, int c) { return 2 * (a + choose2(b) + choose3(c)); };
   for (; apexes; apexes &= apexes - 1)
   {
@@ -309,7 +309,7 @@ void PolyhedronSearch::addCandidates(int i, int j, int k, Mask apexes)
   }
 }
 
-/// Makes the candidates better than `bound` available. False if a facet of the boundary is bare.
+/// Makes the candidates better than `bound` available. False if a facet of the boundary has none.
 bool PolyhedronSearch::offer(double bound)
 {
   this->bound_ = bound;
@@ -341,14 +341,16 @@ bool PolyhedronSearch::offer(double bound)
   return this->strike();
 }
 
-/// Strikes out candidates that are not better than bound_, or that none can join at a facet, until
-/// there are none such. False as soon as a facet of the boundary is bare.
+/// Removes candidates that are not better than bound_, or that no other can join at a facet, until
+/// no such candidate is left. False as soon as a facet of the boundary has none.
 bool PolyhedronSearch::strike()
 {
   bool changed = true;
   while (changed)
   {
     changed = false;
+    // The removal of one candidate can leave its neighbours without a partner: hence the outer
+    // loop.
     std::size_t kept = 0;
     for (std::uint16_t k : this->alive_)
     {
@@ -389,7 +391,7 @@ double PolyhedronSearch::search(double above, long steps)
   this->steps_ = 0;
   this->ranOut_ = this->finished_ = false;
   this->budget_ = steps;
-  this->salt_ = scramble(this->salt_); // what was remembered before no longer matches
+  this->salt_ = scramble(this->salt_); // what was remembered before does not match any more
   if (!this->offer(above))
   {
     return Never;
@@ -399,7 +401,7 @@ double PolyhedronSearch::search(double above, long steps)
   return this->solution_.empty() ? Never : this->bound_;
 }
 
-/// The open facet with the fewest apexes left. False if there is one without any.
+/// The open facet with the fewest apexes left. False if one has none.
 bool PolyhedronSearch::choose(const State& s, Front& f, Mask& apexes) const
 {
   int fewest = MaximumPoints + 1;
@@ -418,7 +420,7 @@ bool PolyhedronSearch::choose(const State& s, Front& f, Mask& apexes) const
 }
 
 /// Fills what the front of this level encloses; `worst` is the worst quality placed so far. Returns
-/// true if all fillings better than bound_ have been seen.
+/// true if all fillings better than bound_ have been examined.
 bool PolyhedronSearch::descend(int level, double worst)
 {
   const State& s = this->states_[level];
@@ -428,10 +430,13 @@ bool PolyhedronSearch::descend(int level, double worst)
     {
       this->solution_ = this->placed_;
       this->bound_ = worst;
+      // From now on only better fillings count. If none is possible any more, the search is
+      // finished.
       this->finished_ = !this->strike();
     }
     return true;
   }
+  // Only a complete examination makes a dead end: one that was cut short proves nothing.
   const std::uint64_t tag = s.hash ^ this->salt_;
   std::uint64_t& memory = this->deadEnds_[s.hash % Memory];
   Front f{};
@@ -448,7 +453,7 @@ bool PolyhedronSearch::descend(int level, double worst)
   return complete;
 }
 
-/// Tries all apexes on the open facet f, the best first. Returns as descend().
+/// Tries all apexes on the open facet f, best first. Returns the same as descend().
 bool PolyhedronSearch::branch(int level, double worst, const Front& f, Mask apexes)
 {
   const State& s = this->states_[level];
@@ -466,6 +471,7 @@ bool PolyhedronSearch::branch(int level, double worst, const Front& f, Mask apex
   {
     const double q = -order[k].first;
     const int p = order[k].second;
+    // A tetrahedron must not contain a point that is already in use.
     if (!(q > this->bound_) || (this->signs_.inside(f.a, f.b, f.c, p) & s.used))
     {
       continue;
@@ -478,14 +484,15 @@ bool PolyhedronSearch::branch(int level, double worst, const Front& f, Mask apex
     ++this->steps_;
     if (level + 1 == static_cast<int>(this->states_.size()))
     {
-      this->states_.emplace_back(); // references to the others stay
+      this->states_.emplace_back(); // a deque: references to the other states stay valid
     }
     this->place(f, p, s, this->states_[level + 1]);
     this->placed_.push_back({ f.a, f.b, f.c, static_cast<std::uint8_t>(p) });
     this->descend(level + 1, std::min(worst, q));
     this->placed_.pop_back();
-    // What was placed before is not better than what was found: other fillings of this front, which
-    // would do with better ones before, have been left out.
+    // What was placed before this level is no better than the filling just found. Other fillings of
+    // this front are therefore skipped. After better tetrahedra they may help, so this is no dead
+    // end.
     if (this->ranOut_ || this->finished_ || !(worst > this->bound_))
     {
       return false;

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file PolyhedronSearch.h
-/// The tetrahedralization of a small polyhedron, on given points, whose worst quality is largest:
-/// branch and bound.
+/// Branch and bound search for the tetrahedralization of a small polyhedron, on given points, whose
+/// worst quality is largest.
 ///
 /// Reference: J. Liu, S. Sun, D. Wang, Optimal tetrahedralization for small polyhedron: a new local
-/// transformation strategy for 3-D mesh generation and mesh improvement, CMES 14 (2006). What is
-/// done in another way here:
-///  - Positive tetrahedra whose facets cancel but for those of the polyhedron's boundary have, as a
-///    chain, the boundary of the polyhedron; so they cover it once, and nothing else. Hence exact
-///    signs of volumes and the matching of facets prove a filling. Tests of intersection only cut
-///    branches that cannot end in one, and may leave out degenerate positions.
-///  - These tests are bit sets, by edge and by facet, made from the signs of the volumes of all
-///    quadruples of points and kept for each level of the search.
-///  - Before the search, candidates that no other can join at a facet are struck out, again and
-///    again. Most polyhedra without a good filling end there.
-///  - The open facet that comes next is the one with the fewest apexes left; these are tried best
-///    first. A front that could not be filled is remembered.
+/// transformation strategy for 3-D mesh generation and mesh improvement, CMES 14 (2006).
+/// Differences to it:
+///  - Take positive tetrahedra whose facets cancel, except those on the boundary of the polyhedron.
+///    As a chain they have the same boundary as the polyhedron. So they cover it exactly once, and
+///    nothing else. Exact signs of volumes and the matching of facets therefore prove a filling.
+///    Tests of intersection only cut branches that cannot end in a filling; they may ignore
+///    degenerate positions.
+///  - These tests are bit sets, by edge and by facet. They are made from the signs of the volumes
+///    of all quadruples of points, and are kept for each level of the search.
+///  - Before the search, candidates that no other can join at a facet are removed repeatedly. Most
+///    polyhedra without a good filling are refused there.
+///  - The next open facet is the one with the fewest apexes left. Its apexes are tried best first.
+///    A front that could not be filled is remembered.
 #ifndef meshopt_Operations_PolyhedronSearch_h
 #define meshopt_Operations_PolyhedronSearch_h
 
@@ -27,9 +28,9 @@
 
 namespace meshopt
 {
-/// Use: clear(); addPoint() for each point; setBoundary(); findCandidates(); give each of the
-/// candidates() its quality; search(); then cells(). More points may be added later, and another
-/// boundary set: what is known of the points before is kept.
+/// Use: clear(); addPoint() for each point; setBoundary(); findCandidates(); set the quality of
+/// each of the candidates(); search(); then cells(). Points may be added later and another boundary
+/// set: what is known about the earlier points is kept.
 class PolyhedronSearch
 {
 public:
@@ -37,7 +38,7 @@ public:
   static constexpr int MaximumFacets = 126; ///< of the boundary, and of any front
   static constexpr double Never = -std::numeric_limits<double>::infinity();
 
-  /// Numbers of the nodes of a facet, ordered such that (facet, inner point) is positive.
+  /// Numbers of the nodes of a facet. The tetrahedron (facet, inner point) is positive.
   using Triangle = std::array<std::uint8_t, 3>;
   using Tetrahedron = std::array<std::uint8_t, 4>;
 
@@ -46,41 +47,42 @@ public:
   {
     Tetrahedron nodes;                  ///< positive
     std::array<std::uint16_t, 4> sides; ///< sideOf() its facets, [i] opposite to node i
-    double quality = 0.0;               ///< the caller's
+    double quality = 0.0;               ///< set by the caller
   };
 
-  /// Starts anew, without points.
+  /// Starts again without points.
   void clear();
-  /// Adds a point, whose number is how many there were before; at most MaximumPoints. A point off
-  /// the boundary that need not `stay` may be left out of the filling. O(n^3).
+  /// Adds a point; its number is the number of points before. At most MaximumPoints. A point that
+  /// is not on the boundary may be left out of the filling, unless it has to `stay`. O(n^3).
   void addPoint(const Vec<3>& x, bool stay);
   int numberOfPoints() const { return this->signs_.size(); }
-  /// The boundary of the polyhedron: closed, each facet once. False if there are more than
-  /// MaximumFacets of them.
+  /// Sets the boundary of the polyhedron: closed, each facet once. False if it has more than
+  /// MaximumFacets facets.
   bool setBoundary(const std::vector<Triangle>& facets);
 
-  /// Finds the tetrahedra that cross no edge or facet of the boundary, stand on no facet from
-  /// outside, and have no point inside that must stay. O(n^4) at most.
+  /// Finds the tetrahedra that cross no edge or facet of the boundary, do not lie outside of a
+  /// boundary facet, and contain no point that must stay. At most O(n^4).
   void findCandidates();
   std::vector<Candidate>& candidates() { return this->candidates_; }
-  /// A number for the side of the facet {a, b, c} where (a, b, c, point) is positive; the number of
-  /// the other side differs in the lowest bit. Below 2 C(32, 3) = 9920.
+  /// A number for the side of the facet {a, b, c} on which (a, b, c, point) is positive. The number
+  /// of the other side differs in the lowest bit. Below 2 C(32, 3) = 9920.
   static int sideOf(int a, int b, int c);
   static constexpr int NumberOfSides = MaximumPoints * (MaximumPoints - 1) * (MaximumPoints - 2) /
     3;
-  /// A number for the points {a < b < c < d}, below C(32, 4) = 35960.
+  /// A number for the four points {a < b < c < d}, below C(32, 4) = 35960.
   static int quadrupleOf(int a, int b, int c, int d);
 
-  /// Searches for the filling with the largest worst quality. Returns that if it is above `above`;
-  /// if there is none, Never. After `steps` tetrahedra tried the best found by then counts.
+  /// Searches for the filling with the largest worst quality. Returns this quality if it is above
+  /// `above`; Never if there is no such filling. After `steps` tetrahedra tried, the best filling
+  /// so far is the result.
   double search(double above, long steps);
 
-  /// The filling that the last search() found; positive tetrahedra.
+  /// The filling found by the last search(): positive tetrahedra.
   const std::vector<Tetrahedron>& cells() const { return this->solution_; }
-  /// If the last search() ended before its first step: a facet of the boundary (its place in
-  /// setBoundary()) on which no candidate is left. Otherwise -1.
+  /// If the last search() ended before its first step: a facet of the boundary (by its place in
+  /// setBoundary()) with no candidate left. Otherwise -1.
   int bareFacet() const { return this->bareFacet_; }
-  /// Steps of the last search, and whether they were too few.
+  /// Steps of the last search, and whether the limit stopped it.
   long steps() const { return this->steps_; }
   bool ranOut() const { return this->ranOut_; }
 
@@ -89,23 +91,23 @@ private:
   static constexpr int Pairs = MaximumPoints * (MaximumPoints - 1) / 2;
   static constexpr int MaximumDepth = 128;
 
-  /// (a, b, c, p) is positive for points p on the side that is to be filled.
+  /// An open facet: (a, b, c, p) is positive for points p on the side still to be filled.
   struct Front
   {
     std::uint8_t a, b, c;
     std::uint16_t side;
   };
-  /// What is left to fill.
+  /// The part of the polyhedron still to be filled.
   struct State
   {
     int facets = 0;
     Mask used = 0, dropped = 0;
     std::uint64_t hash = 0;
     Front front[MaximumFacets];
-    Mask edges[MaximumPoints];   ///< edges[a] has b: there is an edge (a, b)
-    Mask blocked[MaximumPoints]; ///< blocked[a] has b: an edge (a, b) would cross a facet
-    Mask third[Pairs];           ///< third[ab] has c: a facet abc would cross an edge, or is closed
-    Mask open[MaximumPoints * MaximumPoints]; ///< open[a n + b] has c: (a, b, c) is in the front
+    Mask edges[MaximumPoints];   ///< edges[a] contains b: there is an edge (a, b)
+    Mask blocked[MaximumPoints]; ///< blocked[a] contains b: edge (a, b) would cross a facet
+    Mask third[Pairs];           ///< third[ab] contains c: abc would cross an edge, or is closed
+    Mask open[MaximumPoints * MaximumPoints]; ///< open[a n + b] contains c: (a, b, c) is open
   };
 
   static int pairOf(int i, int j) { return i < j ? j * (j - 1) / 2 + i : i * (i - 1) / 2 + j; }
@@ -127,12 +129,12 @@ private:
   bool branch(int level, double worst, const Front& f, Mask apexes);
 
   PointSigns signs_;
-  Mask mustStay_ = 0, stay_ = 0; // as told, and with the boundary's points
+  Mask mustStay_ = 0, stay_ = 0; // as given; with the points of the boundary
   std::vector<Triangle> boundary_;
-  std::vector<Mask> crossing_; // [ab][ij] has k: edge ab crosses facet ijk
+  std::vector<Mask> crossing_; // [ab][ij] contains k: edge ab crosses facet ijk
   std::vector<std::uint8_t> crossingKnown_;
   std::vector<Candidate> candidates_;
-  std::vector<std::uint16_t> alive_;      // candidates that count in apex_
+  std::vector<std::uint16_t> alive_;      // candidates still counted in apex_
   std::vector<double> quality_;           // of candidates, by quadrupleOf()
   std::vector<Mask> apex_;                // by side: apexes of candidates better than bound_
   std::vector<std::uint8_t> facetOfSide_; // by side: 1 + facet of the boundary, or 0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Reconnect.h
-/// Topology that keeps the points: of all edges and faces of a cell, that one is removed which pays most.
+/// Changes of topology that keep the points: of all edges and faces of a cell, the one is removed
+/// whose removal gains most.
 #ifndef meshopt_Operations_Reconnect_h
 #define meshopt_Operations_Reconnect_h
 
@@ -16,12 +17,14 @@ class Reconnect
 {
 public:
   static constexpr int level = Level::Topology;
-  static constexpr bool addsCells = false; // by one at most
+  static constexpr bool addsCells = false; // one cell at most
   static bool isOn(const Switches& switches) { return switches.reconnect; }
 
   bool improve(Judge<D, Shape>& judge, Index t, int)
   {
     this->best_.cells.clear();
+    // Every proposal has to exceed the best so far, so that each search is pruned by the ones
+    // before.
     this->best_.newWorst = judge.required(judge.mesh().quality(t));
     this->removeEdges(judge, t);
     if constexpr (D == 3)
@@ -65,7 +68,8 @@ private:
     judge.count(Operation::FaceRemoval, found);
   }
 
-  /// Whether a refilling with the worst quality q is the best so far; it becomes so.
+  /// Whether a refilling with the worst quality q is the best so far. If so, it is noted as the
+  /// best.
   bool isBest(double q, double required)
   {
     if (!(q > this->best_.newWorst && q > required))

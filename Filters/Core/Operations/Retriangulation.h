@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Retriangulation.h
-/// A few cells around a bad one are taken out together and filled anew in the best way (D = 3).
+/// Removes a few cells around a bad one together, and fills the hole in the best way (D = 3).
 #ifndef meshopt_Operations_Retriangulation_h
 #define meshopt_Operations_Retriangulation_h
 
@@ -15,7 +15,7 @@ class Retriangulation
 {
 public:
   static constexpr int level = Level::LongLookAhead;
-  static constexpr bool addsCells = false; // at first none; the judge sees to the rest
+  static constexpr bool addsCells = false; // not at first; else the judge asks the budget
   static bool isOn(const Switches& switches) { return switches.reconnect; }
 
   bool improve([[maybe_unused]] Judge<D, Shape>& judge, [[maybe_unused]] Index t, int)
@@ -23,8 +23,10 @@ public:
     bool done = false;
     if constexpr (D == 3)
     {
+      // With inverted cells the cavity may be no polyhedron.
       if (!judge.hasInverted())
       {
+        // First with the given points, which is cheaper and keeps their number.
         Limits limits;
         done = this->refill(judge, t, limits);
         limits.newPoints = NewPoints;
@@ -42,8 +44,8 @@ public:
 
 private:
   using Limits = typename SmallPolyhedron<Shape>::Limits;
-  static constexpr int NewPoints = 4;               ///< places offered for new nodes
-  static constexpr double Heights[] = { 0.5, 1.0 }; ///< of these: Limits::height, one after the other
+  static constexpr int NewPoints = 4;               ///< most places offered for new nodes
+  static constexpr double Heights[] = { 0.5, 1.0 }; ///< Limits::height, in this order
 
   bool refill(Judge<D, Shape>& judge, Index t, Limits limits)
   {
@@ -68,7 +70,7 @@ private:
     return false;
   }
 
-  /// The new points of the polyhedron come into the mesh; false if there is no room.
+  /// Adds the new points of the polyhedron to the mesh; false if no free slot is left.
   bool addPoints(Judge<D, Shape>& judge, Index near)
   {
     std::vector<Index> ids;
@@ -85,8 +87,8 @@ private:
     return true;
   }
 
-  /// A cell that has all that its kept facet allows does not count among the worst (Limits): the
-  /// search has seen to the gain.
+  /// Offers the refilling to the judge. A cell that has all that its kept facet allows does not
+  /// count among the worst (see Limits), so `least` is what the search had to exceed.
   bool offer(Judge<D, Shape>& judge, double q, double above)
   {
     this->proposal_.clear();

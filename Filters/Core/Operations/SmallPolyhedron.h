@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file SmallPolyhedron.h
-/// Small polyhedron reconnection: a few cells around a bad one are taken out together, and the
-/// polyhedron they leave is filled in the best way that there is. The last resort where no single
-/// operation helps, as in meshes nearly all of whose nodes lie on the kept surface.
+/// Small polyhedron reconnection: a few cells around a bad one are removed together, and the
+/// polyhedron they leave is filled in the best possible way. The last resort where no single
+/// operation helps, as in meshes with nearly all nodes on the kept surface.
 ///
 /// Reference: see PolyhedronSearch.h. Two things are not from there:
-///  - The polyhedron grows from the bad cell by what the search misses. While a facet of its
-///    boundary has no good tetrahedron, the cell behind that facet is taken in or, where the facet
-///    is kept, the neighbour that offers the best apex; cells whose nodes are all there come along.
-///  - Where a facet lacks a tetrahedron, places for new nodes may be offered: on the way from its
-///    middle to the apex that would be best for it. The search uses of them what it needs.
+///  - The polyhedron grows from the bad cell, guided by what the search lacks. While a facet of its
+///    boundary has no good tetrahedron, the cell behind that facet is taken in. If the facet is
+///    kept, it is the neighbour that offers the best apex instead. Cells all of whose nodes are
+///    there already come along.
+///  - If a facet has no good tetrahedron, places for new nodes can be offered: between its
+///    barycentre and the apex that would be best for it. The search uses those that it needs.
 #ifndef meshopt_Operations_SmallPolyhedron_h
 #define meshopt_Operations_SmallPolyhedron_h
 
 #include "Bound/ApexBound.h"
+#include "Edit/QualityModel.h"
+#include "Mesh/KeptEdges.h"
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
-#include "Edit/QualityModel.h"
 #include "Operations/PolyhedronSearch.h"
 
 #include <algorithm>
@@ -29,32 +31,34 @@ class SmallPolyhedron
 public:
   struct Limits
   {
-    int points = 20;   ///< greatest number of nodes of the polyhedron, in [5, 32]
-    int cells = 60;    ///< greatest number of cells taken out
-    int newPoints = 0; ///< greatest number of places offered for new nodes; 0 in a varying metric
-    /// Where they are, between a facet that lacks a tetrahedron (0) and the best apex for it (1);
-    /// also half way there. In ]0, 1]. Another value may help where one did not.
+    int points = 20;   ///< most nodes of the polyhedron, in [5, 32]
+    int cells = 60;    ///< most cells removed
+    int newPoints = 0; ///< most places offered for new nodes; 0 in a varying metric
+    /// Where these places are: between a facet that has no good tetrahedron (0) and its best apex
+    /// (1), and also half way to this height. In ]0, 1]. Another value may help where one did not.
     double height = 0.5;
     bool mayDropPoints = true; ///< free nodes inside may vanish
-    int searches = 30;         ///< of one propose(); each with a polyhedron larger than before
-    long steps = 2000;         ///< of one search; some tens are what most need
+    int searches = 30;         ///< most searches of one propose(); the polyhedron grows in between
+    long steps = 2000;         ///< most steps of one search; typically some tens are needed
   };
 
-  /// Stands in cells() for newPoints()[k]: FirstNew - k.
+  /// cells() contains FirstNew - k in place of an id for newPoints()[k].
   static constexpr Index FirstNew = -2;
 
   /// Tries to replace cell t and some cells around it. Returns the worst quality of the best
-  /// refilling if it is above `above` and above the worst of the cells taken out, by more than
-  /// rounding errors, else -infinity.
-  /// Kept facets and edges stay, as do cells that the editor does not own.
+  /// refilling if it is above `above` and above the worst of the removed cells, by more than
+  /// rounding errors; else -infinity. Kept facets and edges stay, and so do cells that the editor
+  /// does not own.
   ///
-  /// `enough(c, i)` is a quality that is as good as any on kept facet i of cell c, or -1 if there is
-  /// none: a cell on such a facet, old or new, that has this quality does not count among the worst.
-  /// At least the quality of cell c, if nothing is to get worse there. For facets whose own shape
-  /// caps what stands on them: else no polyhedron at such a facet could get better.
+  /// `enough(c, i)` is a quality that is good enough on kept facet i of cell c, or -1 if there is
+  /// none. A cell on such a facet, old or new, does not count among the worst if it has this
+  /// quality. It is meant for facets whose own shape caps the cells on them: without it, no
+  /// polyhedron at such a facet could get better. It must be at least the quality of cell c, if
+  /// nothing is to get worse there.
   ///
-  /// The time goes with the number of searches and, for each, with the fourth power of the number
-  /// of points; most polyhedra that cannot be filled better are found out before the first step.
+  /// The time is proportional to the number of searches, and for each to the fourth power of the
+  /// number of points. Most polyhedra that cannot be filled better are refused before the first
+  /// step.
   template <class Enough>
   double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t,
     double above, const Limits& limits, Enough&& enough);
@@ -62,16 +66,16 @@ public:
   double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t,
     double above, const Limits& limits = {});
 
-  /// Of the last successful propose(): what goes, its worst quality, and what comes.
+  /// Of the last successful propose(): the removed cells, their worst quality, and the new cells.
   const std::vector<Index>& cavity() const { return this->cavity_; }
   double oldWorst() const { return this->worst_; }
   const std::vector<Simplex<3>>& cells() const { return this->cells_; }
-  /// Places for new nodes; those that cells() uses.
+  /// Places of the new nodes that cells() uses.
   const std::vector<Vec<3>>& newPoints() const { return this->newPoints_; }
-  /// Puts ids(k) in the place of FirstNew - k in cells().
+  /// Replaces FirstNew - k by ids[k] in cells().
   void nameNewPoints(const std::vector<Index>& ids);
 
-  /// Searches of the last propose(), and their steps.
+  /// Number of searches of the last propose(), and of their steps.
   int searches() const { return this->searches_; }
   long steps() const { return this->steps_; }
 
@@ -79,7 +83,7 @@ private:
   static constexpr double Never = -std::numeric_limits<double>::infinity();
   static constexpr int MaximumPoints = PolyhedronSearch::MaximumPoints;
   static constexpr double Rounding = 1e-12; // a smaller gain may be the same cells in another order
-  static constexpr double AsGoodAsAny = 2.0; // what is added to a quality that is enough
+  static constexpr double AsGoodAsAny = 2.0; // added to a quality that is enough
 
   /// A facet of the boundary.
   struct Face
@@ -88,7 +92,7 @@ private:
     Index cell;
     int facet;
     Index behind;  // the cell across if it may be taken in, or None
-    double enough; // or -1
+    double enough; // see propose(); or -1
     double best;   // greatest quality with any point of the polyhedron as apex
     bool offered;  // new points were offered for it
   };

@@ -12,6 +12,7 @@ void SmallPolyhedron<Shape>::start(
   this->model_ = &model;
   this->limits_ = limits;
   this->limits_.points = std::min(limits.points, MaximumPoints);
+  // Otherwise qualities need ids of the mesh, which offered points do not have.
   this->limits_.newPoints = model.plain ? limits.newPoints : 0;
   this->searches_ = 0;
   this->steps_ = 0;
@@ -53,7 +54,7 @@ double SmallPolyhedron<Shape>::quality(const PolyhedronSearch::Tetrahedron& t) c
   return (*this->model_)(Simplex<3>{ this->ids_[a], this->ids_[b], this->ids_[c], this->ids_[d] });
 }
 
-/// Quality of the cell (f, p); more than any if it is enough there.
+/// Quality of the cell (f, p). If it is enough there, it is above every other quality.
 template <class Shape>
 double SmallPolyhedron<Shape>::qualityOn(const Face& f, int p) const
 {
@@ -80,6 +81,7 @@ int SmallPolyhedron<Shape>::addPoint(const Vec<3>& x, Index id, bool stay)
     }
   }
   this->search_.addPoint(x, stay);
+  // Each facet keeps its best apex up to date, so that worstFace() needs no search.
   for (Face& f : this->faces_)
   {
     f.best = std::max(f.best, this->qualityOn(f, n));
@@ -87,7 +89,7 @@ int SmallPolyhedron<Shape>::addPoint(const Vec<3>& x, Index id, bool stay)
   return n;
 }
 
-/// The number of node p of the mesh; it is added if it is not there.
+/// The number of node p of the mesh, which is added if necessary.
 template <class Shape>
 int SmallPolyhedron<Shape>::numberOf(Index p)
 {
@@ -101,7 +103,7 @@ int SmallPolyhedron<Shape>::numberOf(Index p)
   return this->numberOf_[k];
 }
 
-/// How many nodes of cell c are not there yet.
+/// Number of nodes of cell c that are not among the points yet.
 template <class Shape>
 int SmallPolyhedron<Shape>::newcomers(Index c)
 {
@@ -110,7 +112,7 @@ int SmallPolyhedron<Shape>::newcomers(Index c)
     nodes.begin(), nodes.end(), [&](Index p) { return this->meshPoints_.get(p) < 0; }));
 }
 
-/// True if a kept facet or a kept edge of cell c would be inside with it.
+/// True if taking cell c would put a kept facet or a kept edge inside the polyhedron.
 template <class Shape>
 bool SmallPolyhedron<Shape>::closesKept(Index c)
 {
@@ -123,32 +125,7 @@ bool SmallPolyhedron<Shape>::closesKept(Index c)
       return true;
     }
   }
-  for (int e = 0; mesh.hasConstrainedEdges() && e < 6; ++e)
-  {
-    if (!mesh.isEdgeConstrained(c, e))
-    {
-      continue;
-    }
-    // around the edge, through cells that are taken
-    const Index a = mesh.nodes(c)[Local<3>::edges[e][0]], b = mesh.nodes(c)[Local<3>::edges[e][1]];
-    Index current = c, entry = None;
-    do
-    {
-      int exit = 0;
-      while (mesh.nodes(current)[exit] == a || mesh.nodes(current)[exit] == b ||
-        mesh.handle(current, exit) == entry)
-      {
-        ++exit;
-      }
-      entry = mesh.isConstrained(current, exit) ? None : mesh.adjacent(current, exit);
-      current = entry == None ? None : mesh.cellOf(entry);
-    } while (current != None && current != c && this->taken_.get(current) >= 0);
-    if (current == c)
-    {
-      return true;
-    }
-  }
-  return false;
+  return enclosesKeptEdge(mesh, c, [&](Index other) { return this->taken_.get(other) >= 0; });
 }
 
 /// The cell across facet i of cell c, if it may be taken in.
@@ -162,7 +139,7 @@ Index SmallPolyhedron<Shape>::behind(Index c, int i) const
     : mesh.cellOf(h);
 }
 
-/// Takes cell c in. False, with nothing changed, if it must not be, or would be too much.
+/// Takes cell c in. False, with nothing changed, if it must not be taken, or if a limit is reached.
 template <class Shape>
 template <class Enough>
 bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
@@ -182,12 +159,14 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
   {
     local[i] = static_cast<std::uint8_t>(this->numberOf(mesh.nodes(c)[i]));
   }
+  // A cell that already is enough on its kept facet does not limit the search.
   bool counts = true;
   for (int i = 0; i < 4; ++i)
   {
     const Index h = mesh.adjacent(c, i);
     if (h != None && !mesh.isConstrained(c, i) && this->taken_.get(mesh.cellOf(h)) >= 0)
     {
+      // A facet between two taken cells is inside.
       this->faces_.erase(std::find_if(this->faces_.begin(), this->faces_.end(),
         [&](const Face& f) { return f.cell == mesh.cellOf(h) && f.facet == mesh.facetOf(h); }));
       continue;
@@ -213,7 +192,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
   return true;
 }
 
-/// Takes in all cells that bring no new point.
+/// Takes in all cells whose nodes are all there: they enlarge the choice without a new point.
 template <class Shape>
 template <class Enough>
 void SmallPolyhedron<Shape>::takeAlong(Enough& enough)
@@ -222,11 +201,13 @@ void SmallPolyhedron<Shape>::takeAlong(Enough& enough)
   {
     const Index c = this->faces_[k].behind;
     const bool taken = c != None && this->newcomers(c) == 0 && this->take(c, enough);
+    // Taking a cell changes the list of faces: start again.
     k = taken ? 0 : k + 1;
   }
 }
 
-/// The cell to take in next, given a facet that lacks a tetrahedron (or -1); None if there is none.
+/// The cell to take in next, given a facet without a good tetrahedron (or -1); None if there is
+/// none.
 template <class Shape>
 Index SmallPolyhedron<Shape>::nextCell(int bare)
 {
@@ -243,7 +224,7 @@ Index SmallPolyhedron<Shape>::nextCell(int bare)
     {
       continue;
     }
-    // near the bare facet, and of use as its apex; else what is worst itself
+    // Near the bare facet, and useful as its apex; without a bare facet, behind the worst facet.
     double score = -f.best;
     if (bare >= 0)
     {
@@ -265,8 +246,8 @@ Index SmallPolyhedron<Shape>::nextCell(int bare)
   return next;
 }
 
-/// Offers places for new nodes over a facet that lacks a tetrahedron. False if that was done, or
-/// no more are wanted.
+/// Offers places for new nodes over a facet without a good tetrahedron. Returns whether it did:
+/// false if it has done so before for this facet, or if no more are allowed.
 template <class Shape>
 bool SmallPolyhedron<Shape>::offerPoints(int bare)
 {
@@ -300,7 +281,7 @@ bool SmallPolyhedron<Shape>::offerPoints(int bare)
 
 // --- the search
 
-/// The facet for which the polyhedron's points offer least, if that is not above `above`; else -1.
+/// The facet with the lowest best quality over all points, if that is not above `above`; else -1.
 template <class Shape>
 int SmallPolyhedron<Shape>::worstFace(double above) const
 {
@@ -309,7 +290,7 @@ int SmallPolyhedron<Shape>::worstFace(double above) const
   return worst->best > above ? -1 : static_cast<int>(worst - this->faces_.begin());
 }
 
-/// Gives the candidates their qualities.
+/// Sets the qualities of the candidates.
 template <class Shape>
 void SmallPolyhedron<Shape>::rate()
 {
@@ -328,6 +309,7 @@ void SmallPolyhedron<Shape>::rate()
     { return this->enoughOfSide_[side] >= 0.0 && t.quality >= this->enoughOfSide_[side]; };
     if (this->anyEnough_ && std::any_of(t.sides.begin(), t.sides.end(), isEnough))
     {
+      // It is enough on its kept facet, so it must not limit the worst quality.
       t.quality += AsGoodAsAny;
     }
   }
@@ -353,7 +335,8 @@ double SmallPolyhedron<Shape>::fill(double above)
   return q;
 }
 
-/// Puts what the search found into cells_ and newPoints_.
+/// Puts the result of the search into cells_ and newPoints_. Offers that it did not use are
+/// dropped.
 template <class Shape>
 void SmallPolyhedron<Shape>::keepSolution()
 {
@@ -366,6 +349,7 @@ void SmallPolyhedron<Shape>::keepSolution()
       cell[i] = this->ids_[t[i]];
       if (cell[i] <= FirstNew)
       {
+        // Numbered in the order of their first use.
         Index& k = place[FirstNew - cell[i]];
         if (k == None)
         {
@@ -404,6 +388,7 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
     int bare = -1;
     do
     {
+      // Cheap test first: a facet for which no point is good enough rules out every filling.
       const double bound = std::max(above, this->worst_) + Rounding;
       bare = this->worstFace(bound);
       if (bare < 0)
@@ -416,6 +401,7 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
         if (q > bound)
         {
           this->keepSolution();
+          // If all cells are enough on their kept facets, take off what was added.
           return q < AsGoodAsAny ? q : std::min(1.0, q - AsGoodAsAny);
         }
         bare = this->search_.bareFacet();

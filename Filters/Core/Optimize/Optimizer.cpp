@@ -14,15 +14,16 @@ namespace meshopt
 {
 namespace
 {
-/// Growth that is left once the number of elements is what the sizes ask for, as a part of it; in
-/// small meshes CellsOfTwoNodes.
+/// Growth left once the sizes are followed and the number of elements is as predicted, as a
+/// fraction. In small meshes it is CellsOfTwoNodes instead.
 constexpr double GrowthAfterSizes = 0.05;
-/// Inverted cells are worked on until the worst cell is as good as that: just positive is soon tangled
-/// again.
+/// Inverted cells are worked on until the worst cell has this quality: cells that are only just
+/// positive soon become inverted again.
 constexpr double UntangledQuality = 0.3;
-/// Less is rounding: a cell that is flat, in a mesh that need not be tangled.
+/// A worst quality above minus this is rounding: such a cell is flat, and the mesh need not be
+/// tangled.
 constexpr double FlatQuality = 1e-9;
-/// Progress when the mesh is untangled, and when it has its sizes.
+/// Progress after untangling, and after the sizes.
 constexpr double Untangled = 0.2, Sized = 0.6;
 
 template <int D>
@@ -65,7 +66,8 @@ void Optimizer<D>::optimize()
   }
   if (this->run_.options.algorithm == Algorithm::Paper1996)
   {
-    optimizePaper1996<D>(this->run_);
+    const Options& o = this->run_.options;
+    optimizePaper1996<D>(this->run_, o.targetQuality, o.lookAhead);
     return;
   }
   const long growth = growthOf(this->run_.options, input.cells, D);
@@ -75,28 +77,25 @@ void Optimizer<D>::optimize()
   {
     return;
   }
+  // Untangling may have used part of the budget, which is for the whole run.
   this->run_.growth = std::max(0L, input.cells + growth - report.history.back().cells);
   const Clock::Part part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
   this->wantsSizes() ? this->optimizeSizesToo() : optimizeWorstFirst<D>(this->run_);
 }
 
-/// Inverted cells are left to the clusters of 1996: moves of single nodes, which come first in the fast
-/// engine, press tangled cells flat rather than part them. One row of the history; false if that was all
-/// there is time for.
+/// Leaves inverted cells to the clusters of 1996. The fast engine moves single nodes first, and
+/// these press tangled cells flat instead of separating them. Adds one row to the history. False if
+/// no time is left.
 template <int D>
 bool Optimizer<D>::untangle()
 {
-  Options options = this->run_.options;
-  options.targetQuality = std::min(options.targetQuality, UntangledQuality);
-  options.lookAhead = false;
-  const Run<D>& run = this->run_;
-  Run<D> untangling{ run.editor, run.metric, run.surface, options, run.control, run.clock,
-    run.report, run.growth };
+  Run<D>& run = this->run_;
   std::vector<PassRecord>& history = run.report.history;
   const std::size_t rows = history.size();
   {
     const Clock::Part part(run.clock, 0.0, Untangled);
-    optimizePaper1996<D>(untangling);
+    const double target = std::min(run.options.targetQuality, UntangledQuality);
+    optimizePaper1996<D>(run, target, false);
   }
   PassRecord row = summarize(run.mesh(), run.options.targetQuality);
   row.stage = "untangling";
@@ -111,15 +110,14 @@ bool Optimizer<D>::untangle()
 
 // --- wanted sizes
 
-/// In the plane, where edges that must stay are much longer than wanted: the metric with the sizes that
-/// can be had beside them. In the wanted ones no quality can be high there, and to raise the worst of
-/// them by a little would cost the sizes all around. Else nothing.
+/// In 2D, if edges that must stay are much longer than wanted: the metric with the sizes that can
+/// be reached beside them. With the wanted sizes no quality can be high there, and to raise the
+/// worst a little would spoil the sizes all around. Otherwise nothing.
 template <int D>
 std::optional<NodalMetric<D>> Optimizer<D>::attainable()
 {
   const Run<D>& run = this->run_;
-  auto floor = keptSizeFloor(
-    run.mesh(), run.metric, run.surface, run.report.sizes.longestKept);
+  auto floor = keptSizeFloor(run.mesh(), run.metric, run.surface, run.report.sizes.longestKept);
   if (floor && run.options.beta > 0.0)
   {
     return run.metric.raised(run.mesh(), std::move(floor));
@@ -127,7 +125,7 @@ std::optional<NodalMetric<D>> Optimizer<D>::attainable()
   return std::nullopt;
 }
 
-/// From the attainable sizes back to the wanted ones.
+/// Goes back from the attainable sizes to the wanted ones, and measures all qualities again.
 template <int D>
 void Optimizer<D>::judgeByWantedSizes()
 {
@@ -147,7 +145,8 @@ void Optimizer<D>::judgeByWantedSizes()
   }
 }
 
-/// Where cells overlap lengths say little: these first. False if some are left, or time is not.
+/// Lengths say little where cells overlap, so inverted cells are repaired first. False if some are
+/// left, or if no time is left.
 template <int D>
 bool Optimizer<D>::repairForSizes()
 {
@@ -163,12 +162,13 @@ bool Optimizer<D>::repairForSizes()
   return true;
 }
 
-/// Gives the mesh its sizes, then raises its worst cells. `growth`: most growth after the sizes, as a
-/// part of the cells then.
+/// Gives the mesh its sizes, then improves its worst cells. `growth`: most growth after the sizes,
+/// as a fraction of the cells then.
 template <int D>
 void Optimizer<D>::followAndOptimize(NodalMetric<D>& followed, double growth)
 {
   const Run<D>& all = this->run_;
+  // A run of its own, without a growth budget: the sizes decide the number of cells.
   Run<D> run{ all.editor, followed, all.surface, all.options, all.control, all.clock, all.report };
   const auto sized = [&]
   {
@@ -176,6 +176,7 @@ void Optimizer<D>::followAndOptimize(NodalMetric<D>& followed, double growth)
     return followSizes<D>(run, run.report.sizes.predictedCells);
   };
   const bool more = sized();
+  // Lengths were followed in the shape in the metric; from here on the caller's measure counts.
   computeQualities<D>(run.editor, followed, run.options.measure, run.options.beta);
   if (!more)
   {
@@ -189,7 +190,7 @@ void Optimizer<D>::followAndOptimize(NodalMetric<D>& followed, double growth)
   optimizeWorstFirst<D>(run);
 }
 
-/// All is undone, and the mesh is optimized with its sizes as they were.
+/// Undoes everything, and optimizes the mesh with its sizes as they were.
 template <int D>
 void Optimizer<D>::giveSizesUp(
   const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, double worst)
@@ -197,6 +198,7 @@ void Optimizer<D>::giveSizesUp(
   const Run<D>& run = this->run_;
   run.editor.mesh() = mesh;
   run.metric = metric;
+  // A new editor, since the old one has the marks and the free slots of the other mesh.
   run.editor = MeshEditor<D>(run.editor.mesh());
   this->run_.record("sizes given up");
   run.report.sizes.isGivenUp = true;
@@ -208,8 +210,8 @@ void Optimizer<D>::giveSizesUp(
   }
 }
 
-/// Sizes first, then the worst elements. Should the worst be lower in the end than it was and than is
-/// wanted, the sizes are given up.
+/// Sizes first, then the worst elements. Gives the sizes up if the worst quality ends up lower than
+/// before and lower than the target.
 template <int D>
 void Optimizer<D>::optimizeSizesToo()
 {
@@ -220,6 +222,7 @@ void Optimizer<D>::optimizeSizesToo()
   {
     return;
   }
+  // Kept in case the sizes have to be given up.
   const SimplexMesh<D> meshBefore = run.mesh();
   const NodalMetric<D> metricBefore = run.metric;
   const double worstBefore = run.report.history.back().worst;

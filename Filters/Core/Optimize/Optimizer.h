@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Optimizer.h
-/// The door of the core: optimize a mesh in place.
+/// The entry point of the core: optimizes a mesh in place.
 #ifndef meshopt_Optimize_Optimizer_h
 #define meshopt_Optimize_Optimizer_h
 
@@ -13,12 +13,14 @@
 
 namespace meshopt
 {
-/// Maximizes the quality of the worst element of `mesh` (2.1). Kept facets, kept edges and fixed points
-/// are untouched, bit for bit. The worst quality never falls, and no cell is inverted that was not.
-/// `metric` holds h* and the metric at the points; it is sampled where points move or come.
-/// `surface`: what nodes of the surface slide along, built for this mesh (Algorithm::WorstFirst; null:
-/// the surface is kept). Where sizes are given, and beta > 0 or a surface, Algorithm::WorstFirst first
-/// makes the edges as long as is wanted (SizeStage.h); then the worst quality may fall, but not below
+/// Maximizes the quality of the worst element of `mesh` (2.1). Kept facets, kept edges and fixed
+/// points stay as they are, bit for bit. The worst quality never falls, and no cell becomes
+/// inverted.
+/// `metric` holds h* and the metric at the points; it is sampled where points move or are added.
+/// `surface`: what nodes of the surface slide along, built for this mesh (Algorithm::WorstFirst
+/// only); null: the surface is kept.
+/// Algorithm::WorstFirst first makes the edges as long as wanted (SizeStage.h) if sizes are given,
+/// and if beta > 0 or there is a surface. The worst quality may then fall, but not below
 /// targetQuality.
 /// Preconditions: options.check(...) is empty; the mesh was built without error.
 template <int D>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ClusterSolver.h
-/// Steps 3 and 4 of the global algorithm on a mesh: gather the cluster of an element, solve it,
-/// and move the nodes if that is a gain.
+/// Steps 3 and 4 of the global algorithm on a mesh: gather the cluster of an element, solve it, and
+/// move the nodes if that gains.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2. For the departures see
 /// GlobalAlgorithm.h.
@@ -28,10 +28,10 @@ public:
 
   /// Optimizes the cluster of `cell` with neighbours of order `level`; `movable`: nonzero per point
   /// slot. Returns true if the worst quality of the cluster has risen by more than a fraction
-  /// leastGain; otherwise the mesh is as it was, to the bit.
+  /// leastGain. Otherwise the mesh is unchanged, bit for bit.
   bool solve(Index cell, int level, const std::vector<std::uint8_t>& movable);
 
-  /// The cluster solved last, as it is now, and the qualities of its cells before.
+  /// The last cluster solved, as it is now, and the qualities of its cells before.
   const Cluster<D>& cluster() const { return this->cluster_; }
   const std::vector<double>& oldQuality() const { return this->oldQuality_; }
 
@@ -49,7 +49,7 @@ private:
   Proposal<D> proposal_;
 };
 
-// The metric of each element, frozen while the cluster is solved; a single one where it is the same
+// The metric of each element, frozen while the cluster is solved; a single one if it is the same
 // everywhere.
 template <int D, class Shape>
 void ClusterSolver<D, Shape>::setMetrics()
@@ -76,12 +76,14 @@ bool ClusterSolver<D, Shape>::solve(Index cell, int level, const std::vector<std
   this->setMetrics();
   const LocalResult result = this->local_.solve(this->cluster_, this->metrics_);
   const double required = result.before + this->leastGain_ * std::abs(result.before);
+  // Cells may be inverted before: a quality that is not positive proves nothing, so the moving
+  // nodes must also lie among the others.
   return result.after > required && (result.after > 0.0 || this->cluster_.isAmidPoints()) &&
     this->offer(required);
 }
 
-/// The qualities that the algorithm has found are those of the mesh unless the metric varies: then it
-/// has to be asked at the new places.
+/// Without a varying metric, the qualities found by the algorithm are those of the mesh. With one,
+/// they are computed again with the metric at the new places.
 template <int D, class Shape>
 bool ClusterSolver<D, Shape>::offer(double required)
 {
@@ -94,6 +96,7 @@ bool ClusterSolver<D, Shape>::offer(double required)
   p.keepsPositive = varies;
   for (int k = 0; k < cluster.numberOfMoving; ++k)
   {
+    // With a varying metric all moving nodes are placed, so that the metric is sampled at each.
     if (varies || cluster.x[k] != this->judge_.mesh().point(cluster.points[k]))
     {
       p.moves.push_back({ cluster.points[k], cluster.x[k], {} });

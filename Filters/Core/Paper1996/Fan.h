@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Fan.h
-/// Filling a cluster by joining the facets of its boundary to an apex: pure functions of a cluster.
+/// Fills a cluster by joining the facets of its boundary to an apex. Pure functions of a cluster.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.3: "removing its interior, and either
 /// connecting all the faces (edges in 2D) in the cluster boundary to one of the boundary nodes or
@@ -16,7 +16,7 @@
 
 namespace meshopt
 {
-/// Where the apex of a fan is: a boundary point of the cluster (`local` >= 0), or elsewhere.
+/// The apex of a fan: a boundary point of the cluster (`local` >= 0), or a point elsewhere.
 template <int D>
 struct Apex
 {
@@ -37,10 +37,10 @@ Vec<D> clusterCentre(const FanCluster<D>& cluster)
   return sum / static_cast<double>(cluster.x.size());
 }
 
-/// Fills the cluster from the apex: a cell for every facet that does not contain it, in the proposal
-/// with its quality. Gives up, and returns false, as soon as a cell's quality is not above
-/// proposal.least, or there are more cells of quality <= 0 than the cluster had. `qualityOf(nodes,
-/// corners)` is the quality of a cell.
+/// Fills the cluster from the apex: a cell for every facet that does not contain the apex, put into
+/// the proposal with its quality. Returns false as soon as a cell is not better than
+/// proposal.least, or if there are more cells of quality <= 0 than the cluster had.
+/// `qualityOf(nodes, corners)` is the quality of a cell.
 template <int D, class QualityOf>
 bool fillFromApex(const FanCluster<D>& cluster, const Apex<D>& apex, const QualityOf& qualityOf,
   Proposal<D>& proposal)

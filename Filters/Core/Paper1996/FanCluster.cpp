@@ -7,8 +7,8 @@ namespace meshopt
 {
 namespace
 {
-// Local numbers of the facets' points, ascending by id; facets come with ids and leave with
-// numbers.
+// Gives the points of the facets local numbers, in ascending order of their ids. The facets are
+// given by ids and are returned with local numbers.
 template <int D>
 void numberPoints(const SimplexMesh<D>& mesh, FanCluster<D>& cluster)
 {
@@ -42,6 +42,7 @@ bool gatherFanCluster(
 {
   const SimplexMesh<D>& mesh = editor.mesh();
   const auto inCore = [&](Index p) { return p == core[0] || (n == 2 && p == core[1]); };
+  // By (quality, id): exactly one cell of each cluster is its worst.
   const auto isWorse = [&](Index c)
   {
     const double q = mesh.quality(c), limit = mesh.quality(cell);
@@ -61,6 +62,7 @@ bool gatherFanCluster(
         const Index next = SimplexMesh<D>::cellOf(mesh.adjacent(c, i));
         if (!editor.isMarked(next, mark))
         {
+          // Given up early: most cells of a mesh are not the worst of their clusters.
           if (isWorse(next))
           {
             return false;
@@ -83,6 +85,7 @@ bool gatherFanCluster(
       const Index across = mesh.adjacent(c, i);
       const bool inside = across != None && editor.isMarked(SimplexMesh<D>::cellOf(across), mark);
       const bool kept = mesh.isConstrained(c, i);
+      // The cluster lies on both sides of a kept facet, which a filling would remove.
       if (kept && inside)
       {
         return false;

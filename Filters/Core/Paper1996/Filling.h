@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Filling.h
-/// What can be tried around one element: its clusters, and the apexes they may be filled from.
+/// What can be tried around one element: its clusters, and the apexes from which they can be
+/// filled.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.3 and figure 1.
 #ifndef meshopt_Paper1996_Filling_h
 #define meshopt_Paper1996_Filling_h
 
-#include "Paper1996/FanCluster.h"
 #include "Paper1996/Fan.h"
+#include "Paper1996/FanCluster.h"
 
 #include <array>
 #include <cstdint>
@@ -18,35 +19,35 @@ namespace meshopt
 /// The operations of figure 1 and, in 3D, their analogues at the surface.
 enum class Filling
 {
-  RingNode = 0, ///< interior edge cluster, a ring node: the edge goes
+  RingNode = 0, ///< interior edge cluster, a ring node: the edge vanishes
   OpenRing,     ///< cluster at kept facets, one of its points: points and kept facets stay
-  BoundaryNode, ///< node cluster, a boundary node: the node goes
-  Centre,       ///< node cluster, its centre: the node is moved there
-  NewCentre,    ///< node cluster at kept facets, its centre: a node comes
-  Midpoint,     ///< edge cluster, midpoint: a node comes
+  BoundaryNode, ///< node cluster, a boundary node: the node vanishes
+  Centre,       ///< node cluster, its centre: the node moves there
+  NewCentre,    ///< node cluster at kept facets, its centre: a node is added
+  Midpoint,     ///< edge cluster, midpoint: a node is added
   Count
 };
 inline constexpr int NumberOfFillings = static_cast<int>(Filling::Count);
 
-/// Which elements have been tried in vain since their surroundings last changed. Kept from one
-/// pass to the next, so that only what has changed in between is tried again.
+/// Which elements have failed since their surroundings last changed. Kept from pass to pass, so
+/// that only what has changed in between is tried again.
 template <int D>
 struct ReconnectionMemory
 {
   std::uint32_t time = 0;
-  std::vector<std::uint32_t> failed;  ///< per cell slot: when tried in vain; 0: never
+  std::vector<std::uint32_t> failed;  ///< per cell slot: time of the last failure; 0: never
   std::vector<std::uint32_t> ahead;   ///< the same for the look-ahead
   std::vector<std::uint32_t> changed; ///< per point slot: last change in its star
 
-  /// Makes room for the mesh as it is.
+  /// Adapts the sizes to the mesh.
   void resize(const SimplexMesh<D>& mesh);
-  /// To be told of every point in whose star something has changed.
+  /// Must be called for every point whose star has changed.
   void touch(Index p) { this->changed[p] = this->time; }
   /// True if something around a node of c has changed since `when`.
   bool hasChanged(const SimplexMesh<D>& mesh, Index c, std::uint32_t when) const;
 };
 
-/// A cluster and the node or edge (second id not None) it lies around.
+/// A cluster, and the node or edge (second id not None) that it surrounds.
 template <int D>
 struct Part
 {
@@ -55,7 +56,7 @@ struct Part
   bool usable = false;
 
   bool isEdge() const { return this->core[1] != None; }
-  /// The kind of its fillings from a point of its boundary.
+  /// The kind of its fillings from a boundary point.
   Filling kindFromBoundary() const;
 };
 
@@ -64,16 +65,16 @@ template <int D>
 class ElementClusters
 {
 public:
-  /// Gathers the clusters of which c is the worst cell, as far as they have changed since `when`. A
-  /// change in the cells around a node is remembered at the node, one around an edge at both its
-  /// nodes.
+  /// Gathers the clusters whose worst cell is c, if they have changed since `when`. A change in the
+  /// cells around a node is noted at the node; a change around an edge is noted at both its nodes.
   void gather(
     MeshEditor<D>& editor, Index c, const ReconnectionMemory<D>& memory, std::uint32_t when);
 
   /// Calls f(part, kind, apex) for every filling to be tried, in the order of the paper's figure:
   /// edge clusters from ring nodes, node clusters from the centre, node clusters from boundary
-  /// nodes, edge clusters from the midpoint; so nodes come only where nothing else helps. Apexes
-  /// ascend by id; a new point has no id. Stops, and returns true, once f returns true.
+  /// nodes, edge clusters from the midpoint. So nodes are added only where nothing else helps.
+  /// Apexes come in ascending order of ids; a new point has no id. Stops and returns true once f
+  /// returns true.
   template <class F>
   bool forEach(const SimplexMesh<D>& mesh, F&& f) const;
 
@@ -102,7 +103,7 @@ bool ElementClusters<D>::fromBoundary(const SimplexMesh<D>& mesh, const Part<D>&
   for (std::size_t k = 0; k < cluster.points.size(); ++k)
   {
     const Apex<D> apex{ static_cast<int>(k), cluster.points[k], cluster.x[k] };
-    // A fan from the core itself is the cluster as it is.
+    // A fan from the core itself would be the cluster as it is.
     if (apex.id != part.core[0] && apex.id != part.core[1] && f(part, kind, apex))
     {
       return true;

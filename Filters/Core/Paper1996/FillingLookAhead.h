@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file FillingLookAhead.h
-/// A filling that pays only after its nodes have been repositioned.
+/// A filling that gains only after its nodes have been repositioned.
 ///
-/// This is a departure from Buscaglia, Dari, Zavattieri (1996), who judge a filling as it is made,
-/// with the centre of a cluster where the mean of its vertices is. Here the fillings of section 2.3
-/// are made in a transaction, the Local Algorithm of section 2.2 moves the nodes of their worst
-/// cell, and the whole is kept if the worst of all changed cells is better than it was; else it is
-/// undone, to the bit.
+/// This departs from Buscaglia, Dari, Zavattieri (1996). They judge a filling as it is made, with
+/// the centre of a cluster at the mean of its vertices. Here the fillings of section 2.3 are made
+/// in a transaction, and the Local Algorithm of section 2.2 moves the nodes of their worst cell.
+/// The whole is kept if the worst of all changed cells is better than before; otherwise it is
+/// undone, bit for bit.
 #ifndef meshopt_Paper1996_FillingLookAhead_h
 #define meshopt_Paper1996_FillingLookAhead_h
 
-#include "Paper1996/FillingTrial.h"
 #include "Paper1996/ClusterSolver.h"
+#include "Paper1996/FillingTrial.h"
 
 #include <algorithm>
 #include <utility>
@@ -30,13 +30,13 @@ public:
   {
   }
 
-  /// Tries one filling (but Filling::Centre). If it is kept, changed() are the cells that are new
-  /// or have another quality.
+  /// Tries one filling (except Filling::Centre). If it is kept, changed() are the cells that are
+  /// new or have another quality.
   bool improve(const Part<D>& part, const Apex<D>& apex);
   const std::vector<Index>& changed() const { return this->changed_; }
 
 private:
-  static constexpr int Solves = 3; // of the worst new cell, whichever it is by then
+  static constexpr int Solves = 3; // of the worst new cell at the time
 
   void reposition(double& before);
   double worstOfChanged() const;
@@ -60,8 +60,8 @@ double FillingLookAhead<D, Shape>::worstOfChanged() const
   return worst;
 }
 
-// Solves around the worst new cell. `before` falls to the old quality of cells that change and do
-// not belong to the filling.
+// Solves around the worst new cell. If cells outside of the filling change, `before` is lowered to
+// the worst of their old qualities.
 template <int D, class Shape>
 void FillingLookAhead<D, Shape>::reposition(double& before)
 {
@@ -70,10 +70,12 @@ void FillingLookAhead<D, Shape>::reposition(double& before)
   {
     this->movable_.push_back(mesh.isFree(p));
   }
+  // A copy: changed_ grows in the loop, but only cells of the filling are solved for.
   const std::vector<Index> made = this->changed_;
   for (int k = 0; k < Solves; ++k)
   {
-    const Index worst = *std::min_element(made.begin(), made.end(), [&](Index a, Index b)
+    const Index worst = *std::min_element(made.begin(), made.end(),
+      [&](Index a, Index b)
       { return std::make_pair(mesh.quality(a), a) < std::make_pair(mesh.quality(b), b); });
     if (!this->solver_.solve(worst, 0, this->movable_))
     {
@@ -97,7 +99,7 @@ void FillingLookAhead<D, Shape>::reposition(double& before)
 template <int D, class Shape>
 bool FillingLookAhead<D, Shape>::improve(const Part<D>& part, const Apex<D>& apex)
 {
-  // A filling may be worse for now, but not more inverted.
+  // A filling may be worse at first, but not more inverted.
   const double required = std::min(0.0, part.cluster.worst);
   const auto mark = this->judge_.begin();
   if (this->trial_.make(part, apex, required))

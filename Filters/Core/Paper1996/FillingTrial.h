@@ -9,8 +9,8 @@
 
 namespace meshopt
 {
-/// For one shape measure; keeps its scratch between calls. Fans are tried also where they cross what
-/// is around the cluster, so the judge must look at topology (Judge::setTangled()).
+/// For one shape measure; keeps its scratch memory between calls. Fans are tried even if they may
+/// cross what surrounds the cluster, so the judge must check topology (Judge::setTangled()).
 template <int D, class Shape>
 class FillingTrial
 {
@@ -20,9 +20,9 @@ public:
   {
   }
 
-  /// Makes the filling if all its cells are better than `required`, no more of them inverted or flat
-  /// than the cluster has, and the judge takes it. True if it did; then made() are its cells.
-  /// Otherwise the mesh is as it was.
+  /// Makes the filling if all its cells are better than `required`, no more of them are inverted or
+  /// flat than in the cluster, and the judge accepts it. Returns whether it did; made() are then
+  /// its cells. Otherwise the mesh is unchanged.
   bool make(const Part<D>& part, Apex<D> apex, double required);
   const std::vector<Index>& made() { return this->judge_.changed(); }
 
@@ -41,6 +41,7 @@ bool FillingTrial<D, Shape>::make(const Part<D>& part, Apex<D> apex, double requ
   {
     return this->propose(part, apex, required) && this->judge_.accept(this->proposal_);
   }
+  // The apex is not a node of the boundary: the point has to be placed before its metric is known.
   MeshEditor<D>& editor = this->judge_.editor();
   const auto mark = this->judge_.begin();
   const bool isNew = apex.id == None;
@@ -68,8 +69,8 @@ bool FillingTrial<D, Shape>::propose(const Part<D>& part, const Apex<D>& apex, d
   p.cavity = part.cluster.cells;
   if (apex.local < 0 && apex.id == part.core[0])
   {
-    // The node goes to the centre. The cells keep the order of their nodes, in which qualities may
-    // differ from those of the fan in the last bit.
+    // The node moves to the centre. The cells keep the order of their nodes, which may change the
+    // last bit of their quality. So they are measured again.
     p.moves.push_back({ apex.id, apex.x, {} });
     p.cells.clear();
     p.qualities.clear();

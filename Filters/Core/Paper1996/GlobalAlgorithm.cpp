@@ -99,7 +99,7 @@ RepositionResult GlobalAlgorithm<D, Shape>::run(
     {
       sequence->push_back(worst);
     }
-    if (worst == previous) // step 2
+    if (worst == previous) // step 2: it has not been improved, so its nodes are set aside
     {
       for (Index p : mesh.nodes(worst))
       {

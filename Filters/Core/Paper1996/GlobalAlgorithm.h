@@ -5,13 +5,13 @@
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2, Global Algorithm, steps 1 to 6.
 /// Departures:
 ///  - Also stops once the worst element that has a movable node has the target quality.
-///  - A cluster whose worst quality would rise by less than a fraction `leastGain` is left as it
-///    was: its worst element is then KWORST once more and step 2 sets its nodes non-movable.
-///    Without this, two neighbours may exchange ever smaller gains for ever.
+///  - A cluster whose worst quality would rise by less than a fraction `leastGain` stays as it was:
+///    its worst element is then KWORST again, and step 2 makes its nodes non-movable. Without this,
+///    two neighbours may exchange ever smaller gains without end.
 ///  - Non-movable from the start are boundary nodes, nodes of kept facets and edges, and the
 ///    user's.
-///  - With a metric or size field that varies, the metric of an element is frozen while the cluster
-///    is solved; the field is then sampled where nodes have moved, and the move is undone unless
+///  - If the metric or size field varies, the metric of an element is frozen while its cluster is
+///    solved. Then the field is sampled at the new places of the nodes. The move is undone unless
 ///    the worst quality of the cluster has really risen.
 #ifndef meshopt_Paper1996_GlobalAlgorithm_h
 #define meshopt_Paper1996_GlobalAlgorithm_h
@@ -28,8 +28,8 @@ struct RepositionParameters
 {
   int neighborhoodLevel = 1;          ///< NL
   long maximumNumberOfIterations = 0; ///< M; 0: no limit
-  double target = 1.0;                ///< elements of this quality or a better one are left alone
-  double leastGain = 1e-3;            ///< in quality, of one cluster, as a fraction of the quality
+  double target = 1.0;                ///< elements of at least this quality are left alone
+  double leastGain = 1e-3;            ///< of one cluster, as a fraction of its quality
   bool naiveSearch = false;           ///< see WorstQueue
   LocalParameters local;
 };
@@ -41,11 +41,11 @@ struct RepositionResult
   bool cancelled = false;
 };
 
-/// Asked before every iteration, with the quality of the worst element: false cancels.
+/// Called before every iteration with the quality of the worst element; false cancels.
 using KeepGoing = std::function<bool(double worst)>;
 
-/// Runs the global algorithm. Qualities of the mesh's cells must be up to date, and are kept so.
-/// Appends each KWORST to `sequence` if given.
+/// Runs the global algorithm. The qualities of the cells must be up to date, and are kept up to
+/// date. Appends each KWORST to `sequence` if given.
 template <int D>
 RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
   double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file LocalAlgorithm.h
-/// Moves the moving nodes of one cluster so as to maximize the quality of its worst element.
+/// Moves the moving nodes of one cluster to maximize the quality of its worst element.
 ///
 /// References:
 ///  - Buscaglia, Dari, Zavattieri (1996), section 2.2, Local Algorithm: (2.4)-(2.9).
 ///  - E. Polak, On the mathematical foundations of nondifferentiable optimization in engineering
 ///    analysis, SIAM Review 29 (1987) 21-89: the method (the paper's [20]).
 /// Departures:
-///  - The search runs in y = x / L, L the mean edge of the cluster. In y the direction is delta =
-///    -sum mu_K L grad f_K; nodes move by lambda L delta. This leaves (2.5) as printed and makes
-///    lambda a number.
-///  - (2.7) lacks the minus sign of its right side, and mixes units. Used is psi(y + lambda delta)
-///    - psi(y) <= -alpha lambda |delta|^2.
-///  - lambda is sought from twice the last step, not from 1 each time; halved at most 14 times.
-///  - Also stops where the least-norm point is shorter than 1e-5: the cluster is stationary.
-///  - An element of positive quality never gets one that is zero or negative, also while the worst
-///    element is still inverted.
+///  - The search runs in y = x / L, with L the mean edge of the cluster. In y the direction is
+///    delta = -sum mu_K L grad f_K; nodes move by lambda L delta. (2.5) stays as printed, and
+///    lambda is a number without unit.
+///  - The right side of (2.7) lacks its minus sign and mixes units. Used here: psi(y + lambda
+///    delta) - psi(y) <= -alpha lambda |delta|^2.
+///  - lambda starts at twice the last step, not at 1 each time; it is halved at most 14 times.
+///  - The search also stops if the least-norm point is shorter than 1e-5: the cluster is
+///    stationary.
+///  - An element of positive quality never becomes zero or negative, even while the worst element
+///    is still inverted.
 #ifndef meshopt_Paper1996_LocalAlgorithm_h
 #define meshopt_Paper1996_LocalAlgorithm_h
 
@@ -32,8 +33,8 @@ struct LocalParameters
   double epsilon = 0.02;       ///< active set: Q_K - Q_min < epsilon (2.8); TOL is epsilon / 10
   double armijo = 0.01;        ///< alpha of (2.7), in ]0, 1[
   int maximumHalvings = 14;    ///< of the step
-  double leastNorm = 1e-5;     ///< of the least-norm point
-  int maximumIterations = 200; ///< a safeguard: the tolerance stops it long before
+  double leastNorm = 1e-5;     ///< of the least-norm point: below it, the cluster is stationary
+  int maximumIterations = 200; ///< a safeguard: the tolerance stops the search long before
 };
 
 struct LocalResult
@@ -42,8 +43,8 @@ struct LocalResult
   int iterations = 0;               ///< steps taken
 };
 
-/// The local algorithm for one shape measure; keeps its scratch between calls. `metrics` holds one
-/// element metric per cell of the cluster, or a single one for all of them.
+/// The local algorithm for one shape measure; keeps its scratch memory between calls. `metrics`
+/// holds one element metric per cell of the cluster, or a single one for all cells.
 template <int D, class Shape>
 class LocalAlgorithm
 {
@@ -94,6 +95,8 @@ void LocalAlgorithm<D, Shape>::findActive(const Cluster<D>& cluster, double wors
       this->active_.push_back(static_cast<int>(k));
     }
   }
+  // In the order of ids: the least-norm solver then gives the same bits for every order of the
+  // cells.
   std::sort(this->active_.begin(), this->active_.end(),
     [&](int a, int b) { return cluster.cells[a] < cluster.cells[b]; });
 }
@@ -123,8 +126,8 @@ void LocalAlgorithm<D, Shape>::formPoints(const Cluster<D>& cluster, double wors
   }
 }
 
-// Which nodes move, and which cells they belong to: all others keep their quality. Active cells
-// stand first, so that a step that is too long is found out early.
+// Finds the nodes that move and the cells that contain them: all other cells keep their quality.
+// Active cells come first, so that a step that is too long is refused early.
 template <int D, class Shape>
 void LocalAlgorithm<D, Shape>::findAffected(const Cluster<D>& cluster)
 {
@@ -170,7 +173,7 @@ void LocalAlgorithm<D, Shape>::findAffected(const Cluster<D>& cluster)
   }
 }
 
-// Qualities after a step, given up as soon as one is under `required`.
+// The qualities after a step. False as soon as one is under `required`.
 template <int D, class Shape>
 bool LocalAlgorithm<D, Shape>::tryStep(const Cluster<D>& cluster, double lambda, double required)
 {
@@ -249,6 +252,7 @@ LocalResult LocalAlgorithm<D, Shape>::solve(
     }
     this->findAffected(cluster);
 
+    // The last step is a good guess; doubling lets it grow again.
     lambda = std::min(1.0, 2.0 * lambda);
     bool found = false;
     for (int k = 0; k <= this->parameters_.maximumHalvings && !found; ++k)

@@ -13,17 +13,19 @@ namespace meshopt
 {
 namespace
 {
-constexpr double LeastGain = 1e-3; // of the worst quality in one alternation, as a fraction
-constexpr int LookAheads = 20;     // elements that get one, when nothing else gains
+constexpr double LeastGain = 1e-3; // in the worst quality of one alternation, as a fraction
+constexpr int LookAheads = 20;     // worst elements with look-ahead when nothing else gains
 
 template <int D>
 class Paper1996
 {
 public:
-  explicit Paper1996(Run<D>& run)
+  Paper1996(Run<D>& run, double target, bool lookAhead)
     : run_(run)
     , editor_(run.editor)
     , options_(run.options)
+    , target_(target)
+    , lookAhead_(lookAhead)
     , passBegin_(run.clock.seconds())
   {
   }
@@ -46,13 +48,15 @@ private:
   Run<D>& run_;
   MeshEditor<D>& editor_;
   const Options& options_;
+  const double target_;
+  const bool lookAhead_; ///< whether elements may get one
   ReconnectionMemory<D> memory_;
   bool limitReached_ = false;
   long steps_ = 0, expectedSteps_ = 1;
   double passBegin_; // by the clock
 };
 
-// How far the work is, is not known beforehand: the fraction approaches 1 as steps are made.
+// The amount of work is not known beforehand: the fraction approaches 1 as steps are made.
 template <int D>
 bool Paper1996<D>::goesOn(const char* stage, double worst)
 {
@@ -102,10 +106,10 @@ void Paper1996<D>::reconnectAll(int lookAhead)
 {
   const Options& o = this->options_;
   ReconnectionParameters parameters;
-  parameters.target = o.targetQuality;
+  parameters.target = this->target_;
   parameters.naiveSearch = o.naiveSearch;
   parameters.growth = this->run_.growth;
-  parameters.lookAhead = o.moveNodes && o.lookAhead ? lookAhead : 0;
+  parameters.lookAhead = o.moveNodes && this->lookAhead_ ? lookAhead : 0;
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
   allow(Filling::RingNode, o.reconnect);
@@ -116,8 +120,8 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   allow(Filling::Midpoint, o.insertNodes);
 
   const char* stage = lookAhead > 0 ? "look-ahead" : "reconnection";
-  const ReconnectionResult result = reconnect<D>(this->editor_, this->run_.metric, o.measure, o.beta,
-    parameters, this->memory_,
+  const ReconnectionResult result = reconnect<D>(this->editor_, this->run_.metric, o.measure,
+    o.beta, parameters, this->memory_,
     [this, stage](double worst) { return this->goesOn(stage, worst); });
   this->run_.growth -= result.growth;
   Counts tried{}, done{};
@@ -132,7 +136,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   this->record(stage, tried, done);
 }
 
-// Elements around nodes that have moved are reconnected again.
+// Marks the elements around moved nodes: they are reconnected again.
 template <int D>
 void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
 {
@@ -167,7 +171,7 @@ void Paper1996<D>::repositionAll()
   RepositionParameters parameters;
   parameters.neighborhoodLevel = o.neighborhoodLevel;
   parameters.maximumNumberOfIterations = o.maximumNumberOfIterations;
-  parameters.target = o.targetQuality;
+  parameters.target = this->target_;
   parameters.naiveSearch = o.naiveSearch;
   parameters.local.epsilon = o.epsilon;
   parameters.local.armijo = o.armijo;
@@ -198,19 +202,19 @@ bool Paper1996<D>::alternate(int lookAhead)
   {
     this->reconnectAll(lookAhead);
   }
-  if (o.moveNodes && !this->run_.clock.hasStopped() && this->worst() < o.targetQuality)
+  if (o.moveNodes && !this->run_.clock.hasStopped() && this->worst() < this->target_)
   {
     this->repositionAll();
   }
   return this->worst() > before + LeastGain * std::abs(before);
 }
 
-// The certified bound, and how many cells under the target are at their caps.
+// Sets the certified bound, and counts the cells under the target that are at their caps.
 template <int D>
 void Paper1996<D>::countCapped()
 {
   const SimplexMesh<D>& mesh = this->editor_.mesh();
-  const double target = this->options_.targetQuality;
+  const double target = this->target_;
   Caps<D> caps;
   caps.build(mesh, this->options_.measure, target, this->run_.metric.isTrivial());
   this->run_.report.bound = caps.bound();
@@ -244,10 +248,12 @@ StopReason Paper1996<D>::iterate()
   bool rises = true; // in the last alternation
   for (int k = 0; k < o.maximumNumberOfAlternations; ++k)
   {
-    if (this->worst() >= o.targetQuality)
+    if (this->worst() >= this->target_)
     {
       return StopReason::TargetReached;
     }
+    // Look-ahead is expensive: only after an alternation without gain, and it ends if it fails,
+    // too.
     const bool looksAhead = !rises;
     rises = this->alternate(looksAhead ? LookAheads : 0);
     if (this->run_.clock.hasStopped())
@@ -259,16 +265,16 @@ StopReason Paper1996<D>::iterate()
       return this->limitReached_ ? StopReason::IterationLimit : StopReason::NoFurtherGain;
     }
   }
-  return this->worst() >= o.targetQuality ? StopReason::TargetReached : StopReason::IterationLimit;
+  return this->worst() >= this->target_ ? StopReason::TargetReached : StopReason::IterationLimit;
 }
 }
 
 template <int D>
-void optimizePaper1996(Run<D>& run)
+void optimizePaper1996(Run<D>& run, double target, bool lookAhead)
 {
-  run.report.stopReason = Paper1996<D>(run).optimize();
+  run.report.stopReason = Paper1996<D>(run, target, lookAhead).optimize();
 }
 
-template void optimizePaper1996<2>(Run<2>&);
-template void optimizePaper1996<3>(Run<3>&);
+template void optimizePaper1996<2>(Run<2>&, double, bool);
+template void optimizePaper1996<3>(Run<3>&, double, bool);
 }

@@ -33,7 +33,7 @@ public:
     , trial_(this->judge_)
     , ahead_(this->aheadJudge_, parameters.leastGain)
   {
-    // A fan may cross what lies around its cluster: topology is always looked at.
+    // A fan may cross what surrounds its cluster: topology is always checked.
     for (Judge<D, Shape>* judge : { &this->judge_, &this->aheadJudge_ })
     {
       judge->setTangled(true, true, this->pinched_);
@@ -69,7 +69,7 @@ private:
   Switches switches_;
   QualityModel<D, Shape> model_;
   std::vector<std::uint8_t> pinched_;  // see PinchedPoints.h
-  Judge<D, Shape> judge_, aheadJudge_; // growth is limited for the first one only
+  Judge<D, Shape> judge_, aheadJudge_; // growth is limited only for the first
   FillingTrial<D, Shape> trial_;
   FillingLookAhead<D, Shape> ahead_;
   ElementClusters<D> clusters_;
@@ -77,12 +77,13 @@ private:
   std::vector<Index> star_, candidates_;
 };
 
-// After a change of `cells` and around `points`: what is around them is tried again.
+// To be called after a change of `cells` and around `points`: queues what is around them again.
 template <int D, class Shape>
 void Reconnection<D, Shape>::touch(
   const std::vector<Index>& cells, const std::vector<Index>& points)
 {
   this->memory_.resize(this->mesh_);
+  // A new time: what failed before is fresh again around these points.
   const std::uint32_t now = ++this->memory_.time;
   const auto touchPoint = [&](Index p)
   {
@@ -111,6 +112,7 @@ void Reconnection<D, Shape>::touch(
 
 template <int D, class Shape>
 bool Reconnection<D, Shape>::improveCell(Index c)
+// Only clusters that have changed since this cell last failed.
 {
   this->clusters_.gather(this->editor_, c, this->memory_, this->memory_.failed[c]);
   return this->clusters_.forEach(this->mesh_,
@@ -132,8 +134,8 @@ bool Reconnection<D, Shape>::improveCell(Index c)
     });
 }
 
-// The worst element, then those that share an edge with it, then those that share a node: as far
-// as they are under the target and not yet tried in vain.
+// Collects the elements that share an edge with the worst one, then those that share a node, if
+// they are under the target and have not failed since something changed around them.
 template <int D, class Shape>
 void Reconnection<D, Shape>::collectCandidates(Index worst)
 {
@@ -151,6 +153,7 @@ void Reconnection<D, Shape>::collectCandidates(Index worst)
   }
   const auto rank = [&](Index c)
   {
+    // Sharing an edge means to share two nodes or more.
     int shared = 0;
     for (Index p : this->mesh_.nodes(c))
     {
@@ -171,6 +174,7 @@ void Reconnection<D, Shape>::improveAround(Index worst)
   {
     return;
   }
+  // Not fresh any more, until something changes around it.
   this->memory_.failed[worst] = this->memory_.time;
   this->collectCandidates(worst);
   for (Index c : this->candidates_)
@@ -185,7 +189,7 @@ void Reconnection<D, Shape>::improveAround(Index worst)
 
 // ---- look-ahead ---------------------------------------------------------------------------------
 
-// The worst elements of the mesh under the target, worst first.
+// Lists the worst elements of the mesh under the target, worst first.
 template <int D, class Shape>
 void Reconnection<D, Shape>::listWorst()
 {
@@ -209,6 +213,7 @@ void Reconnection<D, Shape>::listWorst()
 template <int D, class Shape>
 bool Reconnection<D, Shape>::lookAheadAt(Index c)
 {
+  // 0: all clusters, whenever they changed: what failed alone may gain with a look-ahead.
   this->clusters_.gather(this->editor_, c, this->memory_, 0);
   return this->clusters_.forEach(this->mesh_,
     [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
@@ -239,6 +244,7 @@ bool Reconnection<D, Shape>::lookAhead(const std::function<bool(double)>& keepGo
     if (!this->memory_.hasChanged(this->mesh_, c, this->memory_.ahead[c]))
     {
       continue;
+      // Also a failed look-ahead is repeated only after a change around the cell.
     }
     if (keepGoing && !keepGoing(this->mesh_.quality(c)))
     {
@@ -256,7 +262,7 @@ bool Reconnection<D, Shape>::lookAhead(const std::function<bool(double)>& keepGo
 
 // ---- the iteration ------------------------------------------------------------------------------
 
-// Until all elements under the target are set aside; false if cancelled.
+// Runs until all elements under the target are set aside; false if cancelled.
 template <int D, class Shape>
 bool Reconnection<D, Shape>::iterate(
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
@@ -286,6 +292,7 @@ ReconnectionResult Reconnection<D, Shape>::run(
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
 {
   this->memory_.resize(this->mesh_);
+  // A successful look-ahead makes ordinary reconnection worth trying again, which is cheaper.
   this->queue_.fill();
   while (this->iterate(keepGoing, sequence) && this->parameters_.lookAhead > 0 &&
     this->lookAhead(keepGoing))

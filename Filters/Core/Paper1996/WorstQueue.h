@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file WorstQueue.h
-/// Finds the worst cell again and again: a heap with lazy deletion, or a plain scan of all cells.
+/// Finds the worst cell repeatedly: a heap with lazy deletion, or a plain scan of all cells.
 #ifndef meshopt_Paper1996_WorstQueue_h
 #define meshopt_Paper1996_WorstQueue_h
 
@@ -15,11 +15,10 @@
 namespace meshopt
 {
 /// The next cell by (quality, id) among the live cells with a quality under `limit` that the caller
-/// deems eligible. Both ways of searching give the same sequence, provided that every cell is
-/// pushed when its quality changes and when it becomes eligible (again). Entries of the heap are
-/// checked when they come to the top: one whose cell is dead, has another quality, or is not
-/// eligible, is dropped. A push costs O(log n), and so does a cell found; the scan costs O(cells) a
-/// time.
+/// says are eligible. Both ways of searching give the same sequence, if every cell is pushed when
+/// its quality changes and when it becomes eligible (again). Entries of the heap are checked when
+/// they come to the top. An entry is dropped if its cell is dead, has another quality, or is not
+/// eligible. A push costs O(log n), and so does a cell found; a scan costs O(cells) each time.
 template <int D>
 class WorstQueue
 {
@@ -66,7 +65,7 @@ public:
     }
   }
 
-  /// The worst eligible cell, which stays in the queue; None if there is none.
+  /// The worst eligible cell; it stays in the queue. None if there is no such cell.
   template <class Eligible>
   Index worst(Eligible&& eligible)
   {
@@ -118,7 +117,7 @@ private:
   double limit_;
   bool naive_;
   std::vector<std::pair<double, Index>> heap_;
-  std::vector<double> queued_; // per cell: the quality under which it was pushed last, if still in
+  std::vector<double> queued_; // per cell: quality of its last push, if still queued
 };
 }
 

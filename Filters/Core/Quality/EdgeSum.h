@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file EdgeSum.h
-/// Shape measures that are a function of the volume and of a sum over the edges.
+/// Shape measures that are functions of the volume and of a sum over the edges.
 ///
-/// For these, lengths that several candidate elements share are computed once: around a node, an
-/// element needs no square root of its own. This is what makes the kernels of the fast engine fast.
+/// For these measures, lengths that several candidate elements share are computed only once. An
+/// element around a node then needs no square root of its own. This makes the kernels of the fast
+/// engine fast.
 #ifndef meshopt_Quality_EdgeSum_h
 #define meshopt_Quality_EdgeSum_h
 

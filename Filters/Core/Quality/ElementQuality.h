@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ElementQuality.h
-/// Quality of one element, and its gradient, for a shape measure chosen at compile time.
+/// Quality of one element and its gradient, for a shape measure chosen at compile time.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), (2.2): Q = S exp(-beta^2 ln^2(h / h*)).
 #ifndef meshopt_Quality_ElementQuality_h
@@ -16,10 +16,10 @@ namespace meshopt
 {
 /// The size factor phi = exp(-t), t = beta^2 ln^2(h / h*) >= 0, and its derivative by t.
 ///
-/// exp(-t) is 0 in floating point from t = 745 on, which would make all elements far from h*
-/// equally bad, with no way out. From t = 500 on (phi < 1e-217) it is continued, with its slope, by
-/// exp(-500) / (1 + t - 500), which keeps falling: (2.2) is followed to the last bit wherever it
-/// can be told from 0, and ranks stay those of ln Q.
+/// In floating point exp(-t) is 0 from t = 745 on. All elements far from h* would then be equally
+/// bad, with no way out. So from t = 500 on (phi < 1e-217) it is continued with the same slope by
+/// exp(-500) / (1 + t - 500), which keeps falling. (2.2) thus holds to the last bit wherever it
+/// differs from 0, and the order of elements remains that of ln Q.
 inline double sizeFactor(double t, double& slope)
 {
   constexpr double last = 500.0;
@@ -35,23 +35,23 @@ inline double sizeFactor(double t, double& slope)
   return phi;
 }
 
-/// Q of an element. Shape is one of the functors of Shape.h:
+/// Q of an element. Shape is one of the functors of Shape.h, with
 ///   static double value(const Corners<D>& x);
 ///   static double gradient(const Corners<D>& x, std::array<Vec<D>, D + 1>& g); // returns value
 ///
-/// The element is measured in the metric M: its corners are mapped by M^(1/2) first. h is its
-/// longest edge there (the paper's diameter). The size factor applies where beta > 0, h* > 0 and S
-/// > 0.
+/// The element is measured in the metric M: its corners are first mapped by M^(1/2). h is its
+/// longest edge there (the paper's diameter). The size factor applies if beta > 0, h* > 0 and S >
+/// 0.
 template <int D, class Shape>
 struct ElementQuality
 {
   double beta = 0.0; ///< width of the size factor (2.2), >= 0
 
-  /// S phi; S where S <= 0 (inverted elements are ranked by shape alone).
+  /// S phi; S if S <= 0 (inverted elements are compared by shape alone).
   double value(const Corners<D>& x, const ElementMetric<D>& m) const;
-  /// The same, and its gradient with respect to every node: in 1 / unit of length. The diameter's
-  /// is that of the longest edge, the first in local numbering if there are several: for h < h*
-  /// this is a max-type function, so trust only a measured increase.
+  /// The same with its gradient with respect to every node, in 1 / unit of length. The gradient of
+  /// the diameter is that of the longest edge, the first in local numbering if there are several.
+  /// For h < h* it is the gradient of a max-type function: trust only a measured increase.
   double gradient(
     const Corners<D>& x, const ElementMetric<D>& m, std::array<Vec<D>, D + 1>& g) const;
 
@@ -80,6 +80,7 @@ private:
     Corners<D> y;
     for (int a = 0; a <= D; ++a)
     {
+      // Relative to node 0, so that an element far from the origin loses no digits.
       y[a] = map * (x[a] - x[0]);
     }
     return y;

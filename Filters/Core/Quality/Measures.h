@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Measures.h
-/// The table of measures: what belongs to each. Everything else follows from it: which can be
-/// optimized, instantiations, ranges, bounds.
+/// The table of measures. All else follows from it: which measures can be optimized,
+/// instantiations, ranges, bounds.
 ///
-/// A new measure is a functor in Shape.h, a number in Measure.h, a row here, and a line in the battery
-/// of Testing/Core/Quality/QualityMeasureTest.cpp.
+/// A new measure needs a functor in Shape.h, a number in Measure.h, a row here, and a line in the
+/// battery of Testing/Core/Quality/QualityMeasureTest.cpp.
 #ifndef meshopt_Quality_Measures_h
 #define meshopt_Quality_Measures_h
 
@@ -26,7 +26,7 @@ struct MeasureRow
   using Shape = Functor<D>;
 };
 
-/// In the order of their numbers. Name and value of the regular simplex are the functor's.
+/// In the order of their numbers. Name and value of the regular simplex come from the functor.
 using MeasureTable = std::tuple< //
   MeasureRow<Measure::Shape, MeanEdgeShape, true, FacetBound::BestApex>,
   MeasureRow<Measure::RadiusRatio, RadiusRatioShape, true, FacetBound::None>,
@@ -41,8 +41,8 @@ namespace measures
 template <std::size_t K>
 using Row = std::tuple_element_t<K, MeasureTable>;
 
-/// Calls f for the row with the number `measure`, of those from row K on. A measure that is not among
-/// them is a fault of the caller: it gets the first one.
+/// Calls f for the row with the number `measure`, among the rows from K on. The caller must not
+/// pass a measure that is not among them: f is then called for the first row.
 template <int D, bool All, std::size_t K, class F>
 decltype(auto) dispatchFrom(Measure measure, F& f)
 {
@@ -65,15 +65,15 @@ decltype(auto) dispatchFrom(Measure measure, F& f)
 }
 }
 
-/// Calls f(shape) with the functor object that belongs to `measure`: the measure is chosen once per
-/// pass, not per element. f is a generic lambda returning the same type for every functor.
+/// Calls f(shape) with the functor of `measure`, so that the measure is chosen once per pass, not
+/// per element. f is a generic lambda with the same return type for every functor.
 template <int D, class F>
 decltype(auto) dispatch(Measure measure, F&& f)
 {
   return measures::dispatchFrom<D, true, 0>(measure, f);
 }
 
-/// The same for a measure that can be optimized: f is not instantiated for the others.
+/// The same for measures that can be optimized: f is not instantiated for the others.
 template <int D, class F>
 decltype(auto) dispatchOptimizable(Measure measure, F&& f)
 {

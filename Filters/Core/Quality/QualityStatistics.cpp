@@ -19,6 +19,7 @@ void QualityStatistics::add(double value)
   this->maximum = std::max(this->maximum, value);
   const double d = value - this->mean;
   this->mean += d / static_cast<double>(this->count);
+  // Welford's update: it does not cancel if the spread is small.
   this->squares += d * (value - this->mean);
 }
 
@@ -29,6 +30,7 @@ void QualityStatistics::add(const double* values, std::int64_t n)
   for (std::int64_t i = 0; i < n; ++i)
   {
     const double v = values[i];
+    // v == v excludes NaN, and unlike std::isnan() it lets the loop be vectorized.
     if (v == v)
     {
       ++part.count;

@@ -2,9 +2,9 @@
 /// @file QualityStatistics.h
 /// Count, extremes, mean, spread, histogram and worst elements of a list of qualities.
 ///
-/// Everything is mergeable: parts (chunks, blocks, processes) are measured by themselves and merged
-/// in a fixed order. Chunks have a fixed length, whatever the number of threads, so that the same
-/// bits come out.
+/// Everything can be merged: parts (chunks, blocks, processes) are measured separately and merged
+/// in a fixed order. The length of chunks does not depend on the number of threads, so that the
+/// result has the same bits.
 #ifndef meshopt_Quality_QualityStatistics_h
 #define meshopt_Quality_QualityStatistics_h
 
@@ -14,11 +14,10 @@
 
 namespace meshopt
 {
-/// Length of the chunks that are summed one by one.
+/// Length of the chunks that are summed separately.
 inline constexpr std::int64_t StatisticsChunk = 4096;
 
-/// Sums of a set of qualities. Values that are not a number are counted apart and change nothing
-/// else.
+/// Sums over a set of qualities. NaN values are counted separately and change nothing else.
 struct QualityStatistics
 {
   std::int64_t count = 0;                                    ///< numbers
@@ -30,19 +29,19 @@ struct QualityStatistics
   double squares = 0.0;                                      ///< sum of (value - mean)^2
 
   void add(double value);
-  /// Adds n values in two passes over them, which is faster than one by one (and not the same
-  /// bits).
+  /// Adds n values in two passes over them. This is faster than one by one, but does not give the
+  /// same bits.
   void add(const double* values, std::int64_t n);
-  /// Adds another set's; by Chan, Golub, LeVeque (1979), which does not cancel where the spread is
+  /// Adds the sums of another set, by Chan, Golub, LeVeque (1979): no cancellation if the spread is
   /// small.
   void merge(const QualityStatistics& other);
-  /// Of the whole set (divided by count, not count - 1); 0 if count = 0.
+  /// Standard deviation of the whole set (divided by count, not count - 1); 0 if count = 0.
   double standardDeviation() const;
 };
 
 /// Counts of values in bins of equal width over [low, high]; the last bin includes `high`. Values
-/// out of the range, by rounding or otherwise, go to the first or last bin, such that the counts
-/// add up; those that are not a number go nowhere.
+/// outside of the range go to the first or last bin, so that the counts add up. NaN values are not
+/// counted.
 struct QualityHistogram
 {
   double low = 0.0, high = 1.0;
@@ -64,8 +63,8 @@ struct QualityHistogram
 struct WorstElement
 {
   double quality = 0.0;
-  std::int64_t part = 0; ///< process, block, ...: ties go to the lower part,
-  std::int64_t id = 0;   ///< then to the lower id
+  std::int64_t part = 0; ///< process, block, ...: ties go to the lower part
+  std::int64_t id = 0;   ///< and then to the lower id
 
   bool operator<(const WorstElement& o) const
   {
@@ -75,7 +74,7 @@ struct WorstElement
   }
 };
 
-/// The n worst of a set, in any order of insertion the same ones.
+/// The n worst elements of a set: the same ones for any order of insertion.
 class WorstElements
 {
 public:
@@ -83,7 +82,7 @@ public:
     : size_(n)
   {
   }
-  /// O(1) for most, O(log n) for those that are among the worst so far. Not a number is left out.
+  /// O(1) for most elements, O(log n) for those among the worst so far. Ignores NaN.
   void add(const WorstElement& e)
   {
     if (this->heap_.size() < this->size_ || (this->size_ > 0 && e < this->heap_.front()))
@@ -99,7 +98,7 @@ private:
   void insert(const WorstElement& e);
 
   std::size_t size_;
-  std::vector<WorstElement> heap_; // the best of them in front
+  std::vector<WorstElement> heap_; // a heap with the best of them in front
 };
 }
 

@@ -5,17 +5,17 @@
 /// References: Buscaglia, Dari, Zavattieri (1996), (2.3), for S; Shewchuk, "What is a good linear
 /// element?" (2002), for the others.
 ///
-/// What all of them have in common (and one battery of tests holds them to it):
-///  - name, and regular: the value of the regular simplex, which is the greatest there is;
-///  - value(x) is dimensionless (degrees for MinimumAngleShape), unchanged by translation, rotation
-///    and scale; scaling by a power of two gives the same bits;
+/// All of them have these properties, which one battery of tests checks:
+///  - they have a name, and regular: the value of the regular simplex, the greatest possible one;
+///  - value(x) is dimensionless (degrees for MinimumAngleShape), and unchanged by translation,
+///    rotation and scale; scaling by a power of two gives the same bits;
 ///  - it has the sign of the volume: value(mirrored element) = -value(element);
-///  - an element without volume has 0, also when nodes or all of it coincide: nothing is divided by
-///    the volume;
-///  - a coordinate that is not finite gives NaN;
-///  - gradient(x, g) returns the value and sets g[a] = d value / d x_a, in 1 / unit of length;
-///    where a minimum over edges or angles is taken, that of the term that attains it, the first in
-///    local numbering if there are several.
+///  - it is 0 for an element without volume, even if nodes or the whole element coincide: nothing
+///    is divided by the volume;
+///  - it is NaN if a coordinate is not finite;
+///  - gradient(x, g) returns the value and sets g[a] = d value / d x_a, in 1 / unit of length. For
+///    a minimum over edges or angles it is the gradient of the term that attains the minimum, the
+///    first in local numbering if there are several.
 ///
 /// The range of safe sizes is wide: no intermediate result overflows or underflows for edges
 /// between 1e-30 and 1e+30 units of length.
@@ -159,11 +159,11 @@ private:
   static double power(double s) { return D == 2 ? s : s * std::sqrt(s); }
 };
 
-/// Mean ratio: 12 (3 V)^(2/3) / sum l^2 in 3D, 4 sqrt(3) A / sum l^2 in 2D (there the same as
+/// Mean ratio: 12 (3 V)^(2/3) / sum l^2 in 3D; 4 sqrt(3) A / sum l^2 in 2D (the same as
 /// VolumeLengthShape).
 ///
-/// In 3D the slope is infinite where V = 0: the gradient takes V^(-1/3) no larger than it is at V =
-/// 1e-12 times the cube of the rms edge length, so that it stays finite and keeps its direction.
+/// In 3D the slope is infinite at V = 0. The gradient therefore limits V^(-1/3) to its value at V =
+/// 1e-12 times the cube of the rms edge length: it stays finite and keeps its direction.
 template <int D>
 struct MeanRatioShape
 {
@@ -210,7 +210,7 @@ struct MeanRatioShape
   }
 };
 
-/// Radius ratio D r / R: r of the inscribed, R of the circumscribed sphere (circle).
+/// Radius ratio D r / R, with r of the inscribed and R of the circumscribed sphere (circle).
 template <int D>
 struct RadiusRatioShape
 {
@@ -256,7 +256,7 @@ struct RadiusRatioShape
   }
 
 private:
-  /// 2 det R in the direction from node 0 to the circumcentre; D = 3.
+  /// 2 det R, as a vector from node 0 towards the circumcentre; D = 3.
   static Vec<3> circumVector(const Corners<3>& x)
   {
     const Vec<3> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
@@ -346,9 +346,9 @@ inline double RadiusRatioShape<D>::gradient3(const Corners<3>& x, std::array<Vec
   return q;
 }
 
-/// The least sine of the dihedral angles (3D) or of the corner angles (2D), as it is: the regular
-/// simplex has sin 70.53 = .9428 (sin 60 = .8660 in 2D), which is the greatest there is. It is 0
-/// for angles of 0 and of 180 degrees.
+/// The least sine of the dihedral angles (3D) or of the corner angles (2D), unweighted. The regular
+/// simplex has the greatest value: sin 70.53 = .9428 (in 2D sin 60 = .8660). It is 0 for angles of
+/// 0 and of 180 degrees.
 template <int D>
 struct MinimumSineShape
 {
@@ -361,7 +361,8 @@ struct MinimumSineShape
   }
 };
 
-/// The same with the sines of obtuse angles times .75, against large angles; jumps at 90 degrees.
+/// The same with the sines of obtuse angles times .75, to penalize large angles; jumps at 90
+/// degrees.
 template <int D>
 struct WarpedSineShape
 {
@@ -404,7 +405,8 @@ struct MinimumAngleShape
   }
 
 private:
-  /// In degrees; atan2() would give a number for infinite arguments too.
+  /// In degrees. The sum makes it NaN for infinite arguments, for which atan2() would give a
+  /// number.
   static double angle(double sine, double cosine)
   {
     return std::atan2(sine, cosine) * degree + 0.0 * (sine + cosine);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ShapeGeometry.h
-/// What the shape measures are made of besides determinants and edges: facet normals and angles, with gradients.
+/// Parts of the shape measures besides determinants and edges: facet normals and angles, with
+/// gradients.
 #ifndef meshopt_Quality_ShapeGeometry_h
 #define meshopt_Quality_ShapeGeometry_h
 
@@ -13,9 +14,9 @@
 
 namespace meshopt
 {
-/// Normals of the facets of a tetrahedron, n[i] opposite to node i, pointing out of a positive one,
-/// of twice the facet's area. Each is a difference of that facet's own nodes, so that it is 0 or
-/// well rounded for a collapsed facet, whatever the other node is.
+/// Normals of the facets of a tetrahedron: n[i], opposite to node i, points out of a positive one
+/// and has twice the facet's area. Each is computed only from the facet's own nodes. So for a
+/// collapsed facet it is 0 up to rounding, wherever the other node is.
 struct TetNormals
 {
   /// n[i] = orientation * (f1 - f0) x (f2 - f0), with f = Local<3>::facets[i].
@@ -39,13 +40,13 @@ struct AngleKernel;
 template <>
 struct AngleKernel<2>
 {
-  /// The least angle (of the mirrored triangle if inverted) by its sine and cosine times a common
-  /// positive factor, the sine with the sign of the area. Returns the node, -1 if an edge is
+  /// The least angle (of the mirrored triangle if inverted), as sine and cosine times a common
+  /// positive factor; the sine has the sign of the area. Returns the node; -1 if an edge is
   /// collapsed (then 0, 1).
   static int least(const Corners<2>& x, double& sine, double& cosine)
   {
     sine = volumeDeterminant(x);
-    // the least angle lies opposite to the shortest edge
+    // The least angle is opposite to the shortest edge.
     int node = 2;
     double shortest = squaredEdge(x, 0);
     for (int e = 1; e < 3; ++e)
@@ -67,7 +68,7 @@ struct AngleKernel<2>
     return node;
   }
 
-  /// Gradient, in radians, of the signed angle at a node between two edges that are not collapsed.
+  /// Gradient, in radians, of the signed angle at a node; its two edges must not be collapsed.
   static void gradient(const Corners<2>& x, int node, std::array<Vec<2>, 3>& g)
   {
     const int b = (node + 1) % 3, c = (node + 2) % 3;
@@ -82,11 +83,11 @@ struct AngleKernel<2>
 template <>
 struct AngleKernel<3>
 {
-  /// Facets at edge e: those opposite to the two nodes that are not on it.
+  /// The two facets at edge e: those opposite to the two nodes that are not on it.
   static constexpr int facets[6][2] = { { 2, 3 }, { 1, 3 }, { 1, 2 }, { 0, 3 }, { 0, 2 },
     { 0, 1 } };
 
-  /// As in 2D, for the dihedral angles. Returns the edge, -1 if a facet is collapsed.
+  /// The same as in 2D for the dihedral angles. Returns the edge; -1 if a facet is collapsed.
   static int least(const Corners<3>& x, double& sine, double& cosine)
   {
     const TetNormals n(x);
@@ -119,7 +120,8 @@ struct AngleKernel<3>
     return edge;
   }
 
-  /// Gradient, in radians, of the signed dihedral angle at edge e; both its facets have an area.
+  /// Gradient, in radians, of the signed dihedral angle at edge e; both its facets must have an
+  /// area.
   static void gradient(const Corners<3>& x, int e, std::array<Vec<3>, 4>& g)
   {
     const int a = Local<3>::edges[e][0], b = Local<3>::edges[e][1];
@@ -130,7 +132,7 @@ struct AngleKernel<3>
     g[b].setZero();
     for (int k = 0; k < 2; ++k)
     {
-      // node c turns its facet (a, b, c) about the edge; a and b take the opposite, by leverage
+      // Node c turns its facet (a, b, c) about the edge; a and b turn it back, by leverage.
       const int c = facets[e][k], f = facets[e][1 - k];
       g[c] = n.n[f] * (l / n.n[f].squaredNorm());
       const double t = (x[c] - x[a]).dot(v) / vv;
@@ -140,7 +142,7 @@ struct AngleKernel<3>
   }
 };
 
-/// The least sine of the angles, that of obtuse ones times `weight`, with the sign of the volume.
+/// The least sine of the angles, with the sign of the volume; that of obtuse angles times `weight`.
 template <int D>
 struct SineKernel;
 
@@ -149,7 +151,7 @@ struct SineKernel<2>
 {
   static constexpr double regular = 0.8660254037844386; ///< sin 60
 
-  /// Squared least weighted sine over det^2, and the node it is at; -1 if an edge is collapsed.
+  /// Squared least weighted sine over det^2, and its node; -1 if an edge is collapsed.
   static int least(const Corners<2>& x, double weight, double& factor)
   {
     int node = -1;
@@ -202,7 +204,8 @@ struct SineKernel<3>
 {
   static constexpr double regular = 0.9428090415820634; ///< sin 70.53
 
-  /// As in 2D: sine = det l / (|n_i| |n_j|) at the edge of length l between facets i and j.
+  /// The same as in 2D, with sine = det l / (|n_i| |n_j|) at the edge of length l between facets i
+  /// and j.
   static int least(const Corners<3>& x, double weight, double& factor)
   {
     const TetNormals n(x);

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ClusterProblem.h
-/// Where to put several nodes at once: what StarProblem does for one node. The last resort for
-/// nodes each of which is where it should be as long as the others stay.
+/// Where to put several nodes at once: the same as StarProblem for one node. A last resort, for
+/// nodes that are all at their best places as long as the others stay.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), section 2.2: (2.4)-(2.6) on the optimization
-/// cluster. Departure: as in ProximalStep the step maximizes the linearized minimum less
-/// |d|^2 / (2 tau). With w_k = (1 + q_k - q_min; sqrt(tau) grad q_k), and mu in the unit simplex,
+/// cluster. Departure: as in ProximalStep, the step maximizes the linearized minimum minus |d|^2 /
+/// (2 tau). With w_k = (1 + q_k - q_min; sqrt(tau) grad q_k), and mu in the unit simplex,
 ///     |sum mu_k w_k|^2 = 1 + 2 s + s^2 + |d|^2 / tau,  s = sum mu_k (q_k - q_min),
-/// is its dual up to s^2, which is small against 2 s: one problem of least norm, as the paper's.
+/// is its dual up to s^2, which is small against 2 s. So it is one problem of least norm, like the
+/// paper's.
 #ifndef meshopt_Reposition_ClusterProblem_h
 #define meshopt_Reposition_ClusterProblem_h
 
 #include "Mesh/Cluster.h"
 #include "Quality/ElementQuality.h"
 #include "Reposition/MinNormPoint.h"
+#include "Reposition/TrustRegion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,52 +27,47 @@ class ClusterProblem
 {
 public:
   /// Moves the moving nodes of the cluster to better places: changes cluster.x and cluster.quality.
-  /// Returns the worst quality, which never falls. Stops when it is at least `enough`, when a step
-  /// promises less than `gain`, or after so many steps. `metrics`: one per cell, or one for all.
+  /// Returns the worst quality, which never falls. Stops when that is at least `enough`, when a
+  /// step promises less than `gain`, or after maximumSteps steps. `metrics`: one per cell, or one
+  /// for all.
   double maximize(Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
     const std::vector<ElementMetric<D>>& metrics, double enough, double gain, int maximumSteps = 40)
   {
-    const auto metric = [&](std::size_t k) -> const ElementMetric<D>&
-    { return metrics[metrics.size() == 1 ? 0 : k]; };
-    double worst = *std::min_element(cluster.quality.begin(), cluster.quality.end());
+    const double worst = *std::min_element(cluster.quality.begin(), cluster.quality.end());
     const double length = cluster.meanEdge();
-    double tau = 0.1 * length * length;
-    for (int step = 0; step < maximumSteps && worst < enough;)
-    {
-      this->linearize(cluster, quality, metric, worst);
-      bool moved = false;
-      for (int trial = 0; trial < 5 && step < maximumSteps && !moved; ++trial, ++step)
-      {
-        const double predicted = this->solve(cluster.numberOfMoving, tau) - worst;
-        if (!(predicted > gain))
-        {
-          return worst;
-        }
-        const double there = this->evaluate(cluster, quality, metric, worst + 0.1 * predicted);
-        moved = there > worst + 0.1 * predicted;
-        tau *= there > worst + 0.7 * predicted ? 3.0 : moved ? 1.0 : 0.25;
-        if (moved)
-        {
-          cluster.x.swap(this->x_);
-          cluster.quality.swap(this->values_);
-          worst = there;
-        }
-      }
-      if (!moved)
-      {
-        break;
-      }
-    }
-    return worst;
+    Ascent ascent{ *this, cluster, quality, metrics };
+    return ascend(
+      ascent, worst, TrustRegion::FirstShare * length * length, enough, gain, maximumSteps);
   }
 
 private:
-  static constexpr double Window = 0.15; ///< above the worst: what a step could make the worst
+  static constexpr double Window = 0.15; ///< above the worst: cells that a step may make worst
 
-  template <class Metric>
-  void linearize(const Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
-    const Metric& metric, double worst)
+  /// What ascend() asks for.
+  struct Ascent
   {
+    ClusterProblem& problem;
+    Cluster<D>& cluster;
+    const ElementQuality<D, Shape>& quality;
+    const std::vector<ElementMetric<D>>& metrics;
+
+    const ElementMetric<D>& metric(std::size_t k) const
+    {
+      return this->metrics[this->metrics.size() == 1 ? 0 : k];
+    }
+    void linearize(double worst) { this->problem.linearize(*this, worst); }
+    double predict(double tau) { return this->problem.solve(this->cluster.numberOfMoving, tau); }
+    double tryStep(double required) { return this->problem.evaluate(*this, required); }
+    void accept()
+    {
+      this->cluster.x.swap(this->problem.x_);
+      this->cluster.quality.swap(this->problem.values_);
+    }
+  };
+
+  void linearize(const Ascent& ascent, double worst)
+  {
+    const Cluster<D>& cluster = ascent.cluster;
     this->functions_.clear();
     std::array<Vec<D>, D + 1> g;
     for (std::size_t k = 0; k < cluster.cells.size(); ++k)
@@ -79,7 +76,7 @@ private:
       {
         continue;
       }
-      quality.gradient(cluster.corners(static_cast<int>(k)), metric(k), g);
+      ascent.quality.gradient(cluster.corners(static_cast<int>(k)), ascent.metric(k), g);
       SparsePoint<D> f;
       f.first = cluster.quality[k] - worst;
       for (int i = 0; i <= D; ++i)
@@ -95,13 +92,14 @@ private:
     this->worst_ = worst;
   }
 
-  /// The step, in step_; returns the linearized minimum there.
+  /// Computes the step (in step_) and returns the linearized minimum there.
   double solve(int numberOfMoving, double tau)
   {
     const double root = std::sqrt(tau);
     this->points_ = this->functions_;
     for (SparsePoint<D>& w : this->points_)
     {
+      // The 1 turns the linear term of the dual into a part of the norm: see the head of the file.
       w.first += 1.0;
       for (int i = 0; i < w.count; ++i)
       {
@@ -127,12 +125,11 @@ private:
     return least;
   }
 
-  /// Places and qualities after the step, in x_ and values_; given up, with less than `required`,
-  /// at the first cell that has not got it.
-  template <class Metric>
-  double evaluate(const Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
-    const Metric& metric, double required)
+  /// Computes places and qualities after the step, in x_ and values_. Gives up at the first cell
+  /// whose quality is not above `required`, and then returns -infinity.
+  double evaluate(const Ascent& ascent, double required)
   {
+    const Cluster<D>& cluster = ascent.cluster;
     this->x_ = cluster.x;
     for (int p = 0; p < cluster.numberOfMoving; ++p)
     {
@@ -147,7 +144,7 @@ private:
       {
         c[i] = this->x_[cluster.nodes[k][i]];
       }
-      this->values_[k] = quality.value(c, metric(k));
+      this->values_[k] = ascent.quality.value(c, ascent.metric(k));
       worst = std::min(worst, this->values_[k]);
       if (!(this->values_[k] > required))
       {

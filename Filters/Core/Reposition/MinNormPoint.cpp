@@ -11,7 +11,7 @@ namespace
 {
 constexpr double Tolerance = 1e-12;
 constexpr double LeastWeight = 1e-12;
-// A pivot below this (relative) means that the new point depends on the corral within rounding.
+// With a relative pivot below this, the new point depends on the corral up to rounding.
 constexpr double LeastPivot = 1e-14;
 }
 
@@ -47,8 +47,8 @@ void MinNormPoint<D>::formPoint(const std::vector<SparsePoint<D>>& points)
   }
 }
 
-// Cholesky factor of (Gram matrix + scale ee'), rows `row` and below. The shift makes it definite
-// for every affinely independent corral and changes the affine weights by a factor only.
+// Cholesky factor of (Gram matrix + scale ee'), rows `row` and below. The shift makes the matrix
+// definite for every affinely independent corral. It changes the affine weights only by a factor.
 template <int D>
 bool MinNormPoint<D>::factorFrom(std::size_t row)
 {
@@ -87,6 +87,7 @@ bool MinNormPoint<D>::append(const std::vector<SparsePoint<D>>& points, int k)
   }
   row.push_back(points[k].dot(points[k]));
   this->gram_.push_back(std::move(row));
+  // The new point is not independent of the corral: take it out again.
   if (!this->factorFrom(this->gram_.size() - 1))
   {
     this->gram_.pop_back();
@@ -110,7 +111,7 @@ void MinNormPoint<D>::drop(std::size_t i)
   }
 }
 
-// Weights (of any sign, sum 1) of the point of least norm in the affine hull of the corral.
+// The weights (of any sign, sum 1) of the point of least norm in the affine hull of the corral.
 template <int D>
 void MinNormPoint<D>::affineWeights()
 {
@@ -132,6 +133,7 @@ void MinNormPoint<D>::affineWeights()
     }
     this->affine_[i] /= this->factor_[i][i];
   }
+  // This also removes the factor by which the shift has scaled the weights.
   const double sum = std::accumulate(this->affine_.begin(), this->affine_.end(), 0.0);
   for (double& v : this->affine_)
   {
@@ -139,8 +141,8 @@ void MinNormPoint<D>::affineWeights()
   }
 }
 
-// Wolfe's minor cycle: from the present weights towards the affine ones, dropping points that reach
-// weight zero, until the affine point lies inside the hull of what is left.
+// Wolfe's minor cycle. Moves from the present weights towards the affine ones and drops points
+// whose weight becomes zero, until the affine point lies inside the hull of the remaining points.
 template <int D>
 bool MinNormPoint<D>::reduceToCorral()
 {
@@ -154,6 +156,7 @@ bool MinNormPoint<D>::reduceToCorral()
       const double w = this->weights_[i], a = this->affine_[i];
       if (a < LeastWeight)
       {
+        // On the border of the simplex, or beyond.
         inside = false;
         theta = w > a ? std::min(theta, w / (w - a)) : theta;
       }
@@ -163,12 +166,14 @@ bool MinNormPoint<D>::reduceToCorral()
       this->weights_ = this->affine_;
       return true;
     }
+    // theta is the longest step that keeps all weights >= 0; at least one weight is then zero.
     std::size_t least = 0;
     for (std::size_t i = 0; i < this->weights_.size(); ++i)
     {
       this->weights_[i] += theta * (this->affine_[i] - this->weights_[i]);
       least = this->weights_[i] < this->weights_[least] ? i : least;
     }
+    // A single point can only have weight 1.
     if (this->corral_.size() == 1)
     {
       this->weights_[0] = 1.0;
@@ -178,12 +183,13 @@ bool MinNormPoint<D>::reduceToCorral()
     this->drop(least);
     for (std::size_t i = this->corral_.size(); i-- > 0;)
     {
-      if (this->weights_[i] < LeastWeight && this->corral_.size() > 1)
+      if (this->weights_[i]<LeastWeight&& this->corral_.size()> 1)
       {
         this->drop(i);
         lowest = std::min(lowest, i);
       }
     }
+    // Rows above the first dropped point are still valid.
     if (!this->factorFrom(lowest))
     {
       return false;
@@ -193,6 +199,7 @@ bool MinNormPoint<D>::reduceToCorral()
 
 template <int D>
 void MinNormPoint<D>::sortCorral()
+// By number, so that the sums of formPoint() do not depend on the order in which points came.
 {
   std::vector<std::pair<int, double>> pairs;
   double sum = 0.0;
@@ -218,6 +225,7 @@ void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numbe
   this->gram_.clear();
   this->factor_.clear();
   this->blocks_.assign(numberOfBlocks, Vec<D>::Zero());
+  // Start from the point of least norm, the lowest number among equals.
   int start = 0;
   double least = points[0].dot(points[0]);
   this->scale_ = least;
@@ -236,6 +244,7 @@ void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numbe
   this->weights_[0] = 1.0;
   this->formPoint(points);
 
+  // Wolfe's method is finite; the limit is a guard against cycles from rounding.
   const int limit = 20 + 4 * m;
   for (int cycle = 0; cycle < limit; ++cycle)
   {
@@ -250,8 +259,9 @@ void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numbe
         best = k;
       }
     }
-    const bool known =
-      std::find(this->corral_.begin(), this->corral_.end(), best) != this->corral_.end();
+    // If the best point is already in the corral, rounding has hidden the end of the search.
+    const bool known = std::find(this->corral_.begin(), this->corral_.end(), best) !=
+      this->corral_.end();
     if (known || lowest >= this->squaredNorm_ - Tolerance * this->scale_ ||
       !this->append(points, best))
     {

@@ -9,7 +9,7 @@
 ///  - P. Wolfe, Finding the nearest point in a polytope, Mathematical Programming 11 (1976): an
 ///    active set method (the paper's [22] is a general text on such methods).
 /// Departures: products between points are formed only for points of the corral, from their common
-/// blocks; ties go to the point with the lowest number; weights under 1e-12 are dropped.
+/// blocks. Ties go to the point with the lowest number. Weights under 1e-12 are dropped.
 #ifndef meshopt_Reposition_MinNormPoint_h
 #define meshopt_Reposition_MinNormPoint_h
 
@@ -19,7 +19,7 @@
 
 namespace meshopt
 {
-/// A vector of one scalar and n blocks of D numbers, of which at most D + 1 are not zero.
+/// A vector of one scalar and n blocks of D numbers each; at most D + 1 blocks are not zero.
 template <int D>
 struct SparsePoint
 {
@@ -45,7 +45,7 @@ struct SparsePoint
   }
 };
 
-/// Solves for the weights; keeps its scratch between calls.
+/// Finds the weights; keeps its scratch memory between calls.
 template <int D>
 class MinNormPoint
 {
@@ -58,7 +58,7 @@ public:
   /// Points with a weight, ascending, and their weights (> 0, sum 1).
   const std::vector<int>& corral() const { return this->corral_; }
   const std::vector<double>& weights() const { return this->weights_; }
-  /// The point found: its scalar and its blocks.
+  /// The point of least norm: its scalar and its blocks.
   double first() const { return this->first_; }
   const std::vector<Vec<D>>& blocks() const { return this->blocks_; }
   double squaredNorm() const { return this->squaredNorm_; }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ProximalStep.h
-/// One step of the ascent of a minimum of few smooth functions of one node.
+/// One ascent step for the minimum of a few smooth functions of one node.
 ///
-/// With values q_k and gradients g_k at x, the step d maximizes the linearized minimum less a
+/// With values q_k and gradients g_k at x, the step d maximizes the linearized minimum minus a
 /// proximal term,
 ///     min_k (q_k + g_k . d) - |d|^2 / (2 tau).
-/// Its dual, min over the unit simplex of sum mu_k q_k + tau/2 |sum mu_k g_k|^2 with d = tau sum
-/// mu_k g_k, is the problem (2.5) of the paper with its first square replaced by the linear term:
-/// near a maximum that D + 1 functions determine it converges quadratically, where (2.5) does so
-/// linearly. Reference for the active-set method: P. Wolfe, Finding the nearest point in a
-/// polytope, Math. Programming 11 (1976).
+/// Its dual is the minimum over the unit simplex of sum mu_k q_k + tau/2 |sum mu_k g_k|^2, with d =
+/// tau sum mu_k g_k. This is problem (2.5) of the paper with the first square replaced by the
+/// linear term. Near a maximum that D + 1 functions determine, it converges quadratically, while
+/// (2.5) converges linearly. Reference for the active-set method: P. Wolfe, Finding the nearest
+/// point in a polytope, Math. Programming 11 (1976).
 #ifndef meshopt_Reposition_ProximalStep_h
 #define meshopt_Reposition_ProximalStep_h
 
@@ -43,6 +43,7 @@ public:
     }
     this->push(first, 1.0);
     double level = f[first].q;
+    // The limit guards against cycles from rounding: D + 2 functions at most are active.
     for (int iteration = 0; iteration < 4 * (D + 2); ++iteration)
     {
       this->settle(f, tau, level);
@@ -51,6 +52,7 @@ public:
       {
         d += tau * this->mu_[i] * f[this->id_[i]].g;
       }
+      // The function that the step makes the worst joins the corral.
       int worst = 0;
       double least = f[0].q + f[0].g.dot(d);
       for (int k = 1; k < m; ++k)
@@ -100,8 +102,9 @@ private:
     }
   }
 
-  /// Minimizes over the affine hull of the corral; where that leaves the simplex, walks to its
-  /// border and drops what is zero there. `level` is the common value of the corral.
+  /// Minimizes over the affine hull of the corral. If the result is outside of the simplex, walks
+  /// to its border and drops the weight that is zero there. `level` is the common value of the
+  /// corral.
   void settle(const std::vector<Function>& f, double tau, double& level)
   {
     while (true)
@@ -138,8 +141,9 @@ private:
     }
   }
 
-  /// Solves q_i + tau g_i . sum mu_j g_j = level, sum mu = 1 over the corral. The tiny ridge makes
-  /// a corral of D + 2 functions, which is never independent, fall out on the right side.
+  /// Solves q_i + tau g_i . sum mu_j g_j = level, sum mu = 1 over the corral. A corral of D + 2
+  /// functions is never independent. The tiny ridge makes the system solvable, so that one of them
+  /// is dropped correctly.
   void affine(const std::vector<Function>& f, double tau, double* mu, double& level) const
   {
     const int s = this->size_;
@@ -171,6 +175,7 @@ private:
 
   static void eliminate(double a[][Room + 2], int n)
   {
+    // Gauss with partial pivoting, at most D + 3 equations.
     for (int k = 0; k < n; ++k)
     {
       int pivot = k;

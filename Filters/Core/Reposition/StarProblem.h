@@ -4,8 +4,8 @@
 ///
 /// The elements are the facets of a polyhedron (the link of a node, or the boundary of a cavity)
 /// joined to the node. For a fixed topology the worst shape quality is quasi-concave where it is
-/// positive, so that the maximum found is global; it is found by steps of ProximalStep with a
-/// trust in the linearization (tau) that grows and shrinks by what the steps really gain.
+/// positive, so the maximum found is global. It is found by steps of ProximalStep. The trust in the
+/// linearization (tau) grows and shrinks with what the steps really gain.
 #ifndef meshopt_Reposition_StarProblem_h
 #define meshopt_Reposition_StarProblem_h
 
@@ -13,6 +13,7 @@
 #include "Quality/EdgeSum.h"
 #include "Quality/ElementQuality.h"
 #include "Reposition/ProximalStep.h"
+#include "Reposition/TrustRegion.h"
 
 #include <Eigen/Geometry>
 
@@ -22,7 +23,7 @@ template <int D, class Shape>
 class StarProblem
 {
 public:
-  /// Plain: Euclidean, without size factor. Otherwise setFacetMetric() gives each facet its metric.
+  /// plain: Euclidean, without size factor. Otherwise addFacetMetric() gives each facet its metric.
   void clear(const ElementQuality<D, Shape>& quality, bool plain)
   {
     this->quality_ = quality;
@@ -43,8 +44,8 @@ public:
     return k;
   }
 
-  /// Whether x is in the box of the points. Outside there is no place without an inverted element, but one
-  /// that gets flatter the farther away the node is, and seems better.
+  /// Whether x is in the bounding box of the points. Outside of it some element is always inverted.
+  /// But elements get flatter the farther away the node is, so that such a place may seem better.
   bool isAmidPoints(const Vec<D>& x) const
   {
     Eigen::AlignedBox<double, D> box;
@@ -55,8 +56,8 @@ public:
     return box.contains(x);
   }
 
-  /// Facet of local point numbers; (facet, node) is positive for a node inside. The quality of its
-  /// element counts `weight` times, > 0; usually once.
+  /// Adds a facet, by local point numbers; (facet, node) is positive for a node inside. The quality
+  /// of its element is multiplied by `weight` > 0.
   void addFacet(const std::array<int, D>& f, double weight = 1.0)
   {
     FacetData data;
@@ -86,7 +87,7 @@ public:
   }
   void addFacetMetric(const ElementMetric<D>& m) { this->metrics_.push_back(m); }
 
-  /// Quality of each element with the node at x; returns the worst.
+  /// Computes the quality of each element with the node at x; returns the worst.
   double evaluate(const Vec<D>& x)
   {
     this->values_.resize(this->facets_.size());
@@ -112,45 +113,39 @@ public:
   /// Qualities of the last evaluate(), in the order of the facets.
   const std::vector<double>& values() const { return this->values_; }
 
-  /// Moves x to a better place; returns the worst quality there. Stops when it is at least
-  /// `enough`, or when a step gains less than `gain`. After it values() belong to x.
+  /// Moves x to a better place; returns the worst quality there. Stops when that is at least
+  /// `enough`, or when a step promises less than `gain`. Afterwards values() belong to x.
   double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = 20)
   {
-    double worst = this->evaluate(x);
-    double tau = this->firstTau(x);
-    for (int step = 0; step < maximumSteps && worst < enough;)
-    {
-      this->linearize(x, worst);
-      bool moved = false;
-      for (int trial = 0; trial < 5 && step < maximumSteps && !moved; ++trial, ++step)
-      {
-        Vec<D> d;
-        const double predicted = this->solver_.solve(this->active_, tau, d) - worst;
-        if (!(predicted > gain))
-        {
-          step = maximumSteps;
-          break;
-        }
-        const Vec<D> y = x + d;
-        const double there = this->evaluate(y);
-        moved = there > worst + 0.1 * predicted;
-        tau *= there > worst + 0.7 * predicted ? 3.0 : moved ? 1.0 : 0.25;
-        if (moved)
-        {
-          x = y;
-          worst = there;
-        }
-      }
-      if (!moved)
-      {
-        break;
-      }
-    }
+    Ascent ascent{ *this, x };
+    ascend(ascent, this->evaluate(x), this->firstTau(x), enough, gain, maximumSteps);
     return this->evaluate(x);
   }
 
 private:
   static constexpr bool HasSum = EdgeSum<Shape>::value;
+  /// Above the worst: elements up to there are those that a step could make the worst.
+  static constexpr double Window = 0.35;
+
+  /// What ascend() asks for, with the node at x.
+  struct Ascent
+  {
+    StarProblem& star;
+    Vec<D>& x;
+    Vec<D> step = Vec<D>::Zero(), next = Vec<D>::Zero();
+
+    void linearize(double worst) { this->star.linearize(this->x, worst); }
+    double predict(double tau)
+    {
+      return this->star.solver_.solve(this->star.active_, tau, this->step);
+    }
+    double tryStep(double /*required*/)
+    {
+      this->next = this->x + this->step;
+      return this->star.evaluate(this->next);
+    }
+    void accept() { this->x = this->next; }
+  };
 
   struct RingPoint
   {
@@ -203,11 +198,11 @@ private:
     }
   }
 
-  /// Values and gradients of the elements that a step could make the worst.
+  /// Values and gradients of the elements in the window.
   void linearize(const Vec<D>& x, double worst)
   {
     this->active_.clear();
-    const double limit = worst + 0.35;
+    const double limit = worst + Window;
     for (std::size_t k = 0; k < this->facets_.size(); ++k)
     {
       if (this->values_[k] < limit)
@@ -242,8 +237,8 @@ private:
     return this->facets_[k].weight * g[D];
   }
 
-  /// Trust at the start: a unit gradient per length L moves the node by a tenth of L, the mean
-  /// distance to the points around.
+  /// The trust at the start: with a gradient of 1 / L the node moves by a tenth of L, where L is
+  /// the (quadratic) mean distance to the points around.
   double firstTau(const Vec<D>& x) const
   {
     double sum = 0.0;
@@ -251,7 +246,8 @@ private:
     {
       sum += (x - r.x).squaredNorm();
     }
-    return 0.1 * sum / static_cast<double>(std::max<std::size_t>(1, this->ring_.size()));
+    return TrustRegion::FirstShare * sum /
+      static_cast<double>(std::max<std::size_t>(1, this->ring_.size()));
   }
 
   ElementQuality<D, Shape> quality_;

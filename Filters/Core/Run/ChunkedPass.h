@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ChunkedPass.h
-/// Work on many cells, shared out among chunks of the mesh that can be worked on at the same time.
+/// Shares the work on many cells among chunks of the mesh that can be worked on at the same time.
 ///
-/// The points are split into chunks, by place (Chunks.h); a cell belongs to a chunk if all its points
-/// do, and the editor of a chunk changes only cells of its own (see MeshEditor::setOwner). The
-/// number of chunks, their borders, and the slots that each may take depend on the mesh only, every
-/// chunk is worked on in sequence, and chunks cannot see each other: the result does not depend on
-/// the number of threads. What a border holds up comes another time, when borders lie elsewhere.
+/// The points are split into chunks by place (Chunks.h). A cell belongs to a chunk if all its
+/// points do, and the editor of a chunk changes only cells of its own (see MeshEditor::setOwner()).
+/// The number of chunks, their borders and their free slots depend on the mesh only. Each chunk is
+/// worked on in sequence, and no chunk sees what another does. The result therefore does not depend
+/// on the number of threads. Cells at a border are held up until a later pass puts the borders
+/// elsewhere.
 #ifndef meshopt_Run_ChunkedPass_h
 #define meshopt_Run_ChunkedPass_h
 
@@ -26,7 +27,7 @@ namespace meshopt
 using CellQueue = std::priority_queue<std::pair<double, Index>,
   std::vector<std::pair<double, Index>>, std::greater<std::pair<double, Index>>>;
 
-/// What one who works on a chunk has at hand.
+/// What the worker of one chunk has at hand.
 template <int D>
 struct ChunkWorker
 {
@@ -36,9 +37,9 @@ struct ChunkWorker
   }
 
   MeshEditor<D> editor;
-  CellQueue queue;           ///< cells to be worked on
-  long given = 0;            ///< how many there were at first
-  std::vector<Index> heldUp; ///< cells that need cells of other chunks: for the worker to fill
+  CellQueue queue;           ///< cells still to be worked on
+  long given = 0;            ///< number of cells in the queue at first
+  std::vector<Index> heldUp; ///< cells that need cells of other chunks; filled by the work function
 };
 
 /// Worker is derived from ChunkWorker<D>.
@@ -49,34 +50,36 @@ public:
   /// Makes a worker for a chunk. Workers are kept from pass to pass.
   using Make = std::function<std::unique_ptr<Worker>()>;
 
-  /// `root` has all slots between passes; it must live as long as this.
+  /// Between passes, `root` owns all free slots. It must outlive this object.
   ChunkedPass(MeshEditor<D>& root, Make make)
     : root_(root)
     , make_(std::move(make))
   {
   }
 
-  /// Splits the mesh into n chunks (1: all is one chunk, without borders), with borders moved by
-  /// `shift` of a chunk, and gives each its slots and those of `cells` that are its own. What lies
-  /// across a border is held up. Qualities must be up to date.
+  /// Splits the mesh into n chunks and shifts their borders by `shift` of a chunk. With n = 1 the
+  /// whole mesh is one chunk without borders. Each chunk gets free slots and those of `cells` that
+  /// it owns; cells that lie across a border are held up. Qualities must be up to date.
   void open(int n, double shift, const std::vector<Index>& cells);
 
   int size() const { return this->size_; }
   Worker& worker(int k) { return *this->workers_[k]; }
 
-  /// Calls work(worker) for all chunks, on several threads if the control has them, and again as long
-  /// as a queue is not empty and goesOn() says so. Asks goesOn() before each time.
+  /// Calls work(worker) for all chunks, on several threads if the control has them. Repeats this
+  /// while a queue is not empty. Asks goesOn() before each round and stops when it says no.
   template <class Work, class GoesOn>
   void run(const Control& control, Work&& work, GoesOn&& goesOn);
 
-  /// Takes slots, clock and marks back from the workers.
+  /// Takes the free slots, the clock and the marks back from the workers.
   void close();
 
-  /// Cells that borders have kept from being worked on; complete after close().
+  /// Cells that borders kept from being worked on; complete after close().
   const std::vector<Index>& heldUp() const { return this->heldUp_; }
 
 private:
-  /// Dead slots that a chunk gets: so many, and one for so many of its own.
+  /// Free slots of a chunk: a fixed number, plus 1/RoomPart of the chunk's own share of all slots.
+  /// A chunk cannot get more during a pass, because growing an array would move it under other
+  /// threads.
   static constexpr Index CellRoom = 256, PointRoom = 64, RoomPart = 8;
 
   void dealSlots();
@@ -106,13 +109,15 @@ void ChunkedPass<D, Worker>::open(int n, double shift, const std::vector<Index>&
   this->dealCells(cells);
 }
 
-/// All slots that are free go round, then the mesh grows, if several are to work at once.
+/// Deals out the free slots. If several chunks work at once, the mesh grows first, so that each
+/// gets the same room.
 template <int D, class Worker>
 void ChunkedPass<D, Worker>::dealSlots()
 {
   const int n = this->size_;
   std::vector<Index>& freeCells = this->root_.freeCells();
   std::vector<Index>& freePoints = this->root_.freePoints();
+  // A single chunk needs no room of its own: its editor may grow the mesh itself.
   const SimplexMesh<D>& mesh = this->root_.mesh();
   const Index cellRoom = n > 1 ? CellRoom + mesh.numberOfCellSlots() / n / RoomPart : 0;
   const Index pointRoom = n > 1 ? PointRoom + mesh.numberOfPointSlots() / n / RoomPart : 0;
@@ -126,6 +131,8 @@ void ChunkedPass<D, Worker>::dealSlots()
   for (int k = 0; k < n; ++k)
   {
     MeshEditor<D>& editor = this->workers_[k]->editor;
+    // Time stamps and marks are compared across chunks and passes, so each editor continues those
+    // of the root.
     editor.setOwner(n > 1 ? k : None);
     editor.setClock(this->root_.clock());
     editor.setLastMark(this->root_.lastMark());
@@ -147,6 +154,7 @@ void ChunkedPass<D, Worker>::dealCells(const std::vector<Index>& cells)
   }
   for (Index c : cells)
   {
+    // One node tells which chunk could own the cell; owns() then asks the other nodes.
     Worker& w = *this->workers_[this->size_ > 1 ? mesh.pointData(mesh.nodes(c)[0]).owner : 0];
     if (w.editor.owns(c))
     {
@@ -164,7 +172,8 @@ template <int D, class Worker>
 template <class Work, class GoesOn>
 void ChunkedPass<D, Worker>::run(const Control& control, Work&& work, GoesOn&& goesOn)
 {
-  // The most work first, so that the threads end at about the same time; the result is the same.
+  // The most work first, so that the threads finish at about the same time. The order does not
+  // change the result.
   std::vector<int> order(this->size_);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -201,6 +210,7 @@ void ChunkedPass<D, Worker>::close()
   {
     Worker& w = *this->workers_[k];
     give(w.editor.freeCells(), this->root_.freeCells());
+    // The latest clock: no stamp of this pass may lie in the future of the next one.
     give(w.editor.freePoints(), this->root_.freePoints());
     this->root_.setClock(std::max(this->root_.clock(), w.editor.clock()));
     this->root_.setLastMark(std::max(this->root_.lastMark(), w.editor.lastMark()));

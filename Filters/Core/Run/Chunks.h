@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Chunks.h
-/// Splits the points of a mesh into chunks of neighbours, for the parallel rounds.
+/// Splits the points of a mesh into chunks of neighbours for the parallel passes.
 #ifndef meshopt_Run_Chunks_h
 #define meshopt_Run_Chunks_h
 
@@ -10,9 +10,10 @@
 
 namespace meshopt
 {
-/// Sets Point::owner of all live points to 0 ... n - 1 by recursive bisection of the point set at the
-/// median along its longest extent (ties by id). `shift`, in ]-1/2, 1/2[, moves all borders by that part
-/// of a chunk: with the same one they would hold up the same cells again. O(points log n).
+/// Sets Point::owner of all live points to 0 ... n - 1, by recursive bisection of the point set at
+/// the median along its longest extent (ties by id). `shift`, in ]-1/2, 1/2[, moves all borders by
+/// that part of a chunk; a pass with the same borders would hold up the same cells again. O(points
+/// log n).
 template <int D>
 class Chunks
 {
@@ -55,6 +56,7 @@ private:
     {
       axis = high[i] - low[i] > high[axis] - low[axis] ? i : axis;
     }
+    // An odd n is split in proportion: the left part gets n / 2 of the n chunks.
     const int left = n / 2;
     const Index middle = begin +
       static_cast<Index>(static_cast<double>(end - begin) * (left + this->shift_) / n);
@@ -62,6 +64,8 @@ private:
       this->ids_.begin() + end,
       [&](Index a, Index b)
       {
+        // Ties by id: nth_element then has one answer, and so the chunks are the same on every
+        // platform.
         const double xa = mesh.point(a)[axis], xb = mesh.point(b)[axis];
         return xa != xb ? xa < xb : a < b;
       });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Improver.h
-/// What the fast engine does about one bad cell: tries each operation of a list, in order, until one
-/// helps.
+/// What the fast engine does about one bad cell: it tries the operations of a list, in order, until
+/// one helps.
 #ifndef meshopt_Run_Improver_h
 #define meshopt_Run_Improver_h
 
@@ -20,12 +20,12 @@
 
 namespace meshopt
 {
-/// The operations of the fast engine in the order in which they are tried: the cheap ones first. Each
-/// has
-///   static constexpr int level       the least Level at which it is tried
-///   static constexpr bool addsCells  left out where no more cells may come
+/// The operations of the fast engine in the order in which they are tried: the cheap ones first.
+/// Each has
+///   static constexpr int level       the lowest Level at which it is tried
+///   static constexpr bool addsCells  skipped when the growth budget is used up
 ///   static bool isOn(switches)       whether the caller's switches allow it
-///   bool improve(judge, t, level)    makes proposals for cell t; true if the judge took one
+///   bool improve(judge, t, level)    makes proposals for cell t; true if the judge accepted one
 template <int D, class Shape>
 using OperationList = std::tuple<Reconnect<D, Shape>, NodeMotion<D, Shape>, NodeRemoval<D, Shape>,
   BoundaryChange<D, Shape>, ClusterMotion<D, Shape>, Retriangulation<D, Shape>,
@@ -35,12 +35,13 @@ template <int D, class Shape>
 class Improver
 {
 public:
-  /// As the Judge's constructor.
+  /// Parameters: see Judge.
   Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Switches& switches,
     const Surface<D>* surface = nullptr, const Caps<D>* caps = nullptr)
     : judge_(editor, model, switches, surface, caps)
   {
-    // What an insertion spoils is improved by all that this level has, and by motions of clusters.
+    // The cells that an insertion made worse are improved by all operations of this level. Motion
+    // of clusters has a higher level of its own, but after an insertion it is tried from here on.
     std::get<LookAhead<D, Shape>>(this->operations_)
       .setImprove(
         [this](Index t, int level)
@@ -55,16 +56,17 @@ public:
 
   Judge<D, Shape>& judge() { return this->judge_; }
 
-  /// Tries to improve the neighbourhood of cell t, whose quality is to rise. True if it did; the
-  /// judge's changed() are the cells concerned.
+  /// Tries to improve the neighbourhood of cell t, so that its quality rises. True on success; the
+  /// judge's changed() then lists the cells concerned.
   bool improve(Index t, int level)
   {
     this->judge_.start();
-    return std::apply([&](auto&... operation) { return (this->attempt(operation, t, level) || ...); },
+    return std::apply([&](auto&... operation)
+      { return (this->attempt(operation, t, level) || ...); },
       this->operations_);
   }
 
-  /// Only changes of the connectivity: edge and face removal at cell t. True if one helped.
+  /// Tries only changes of connectivity at cell t: edge and face removal. True if one helped.
   bool swap(Index t)
   {
     this->judge_.start();
@@ -81,6 +83,7 @@ private:
     }
     if (Operation::addsCells && this->judge_.growth.left <= 0)
     {
+      // Noted for the report: the run may end because of the budget, not because nothing helps.
       this->judge_.growth.isShort = true;
       return false;
     }

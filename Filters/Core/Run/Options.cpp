@@ -8,7 +8,7 @@ namespace meshopt
 {
 namespace
 {
-// Comparisons are written such that NaN is refused.
+// Conditions are written as !(x >= 0), so that NaN is refused, too.
 std::string checkQuality(const Options& o, bool hasSizes)
 {
   if (!isMeasure(static_cast<int>(o.measure)))
@@ -99,6 +99,7 @@ std::string Options::check(bool hasSizes) const
 
 long growthOf(const Options& options, long cells, int dimension)
 {
+  // Room for a few nodes: a fraction of a small mesh may be less than what one node brings.
   const long least = dimension == 3 ? 30 : 10;
   const double most = std::floor(options.growthBudget * static_cast<double>(cells));
   return options.growthBudget > 0.0 ? std::max(least, static_cast<long>(most)) : 0;

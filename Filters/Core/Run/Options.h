@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Options.h
-/// The one plain struct at the door of the optimizer.
+/// The options of the optimizer: one plain struct.
 #ifndef meshopt_Run_Options_h
 #define meshopt_Run_Options_h
 
@@ -19,7 +19,7 @@ enum class Algorithm
 
 enum class Effort
 {
-  Quick = 0,   ///< up to the target, by single changes; look-ahead only for the very worst cells
+  Quick = 0,   ///< up to the target, by single changes; look-ahead only to polish the worst
   Default = 1, ///< up to the target, with look-ahead
   Best = 2     ///< past the target, with more look-ahead, until nothing lifts the worst cell
 };
@@ -30,7 +30,7 @@ struct Options : Switches
   Measure measure = Measure::Shape;
   /// Weight of the size factor of (2.2); 0: shape only.
   double beta = 0.0;
-  /// h* of (2.2), > 0 where beta > 0 unless a size is given at the points.
+  /// h* of (2.2). Must be > 0 if beta > 0, unless sizes are given at the points.
   double desiredSize = 0.0;
   /// Stop once the worst quality is at least this. In ]0, 1].
   double targetQuality = 0.6;
@@ -40,21 +40,23 @@ struct Options : Switches
   long maximumNumberOfIterations = 0;   ///< M, per repositioning; 0: no limit
   double epsilon = 0.02;                ///< (2.8)
   double armijo = 0.01;                 ///< alpha of (2.7)
-  int maximumNumberOfAlternations = 20; ///< reconnection, then repositioning; at most so often
+  int maximumNumberOfAlternations = 20; ///< most rounds of reconnection + repositioning
   bool naiveSearch = false; ///< rescan for the worst cell instead of the heap; same result (tests)
 
   // --- the fast engine's
   Effort effort = Effort::Default;
-  /// Greatest net growth of the number of cells, as a fraction; growthOf() for small meshes.
+  /// Greatest net growth of the number of cells, as a fraction. Small meshes may grow more: see
+  /// growthOf().
   double growthBudget = 0.15;
   double timeLimit = 0.0; ///< seconds, 0: none. Results are then not reproducible.
 
-  /// A sentence that says which option is unusable and why; empty if all are fine.
+  /// One sentence about the first unusable option and the reason; empty if all options are fine.
   std::string check(bool hasSizes) const;
 };
 
-/// So many cells may come to so many. In a mesh of a few a fraction of them is not even room for one
-/// node: it may have some.
+/// The number of cells that a mesh of `cells` cells may gain (net): growthBudget as a count,
+/// rounded down. At least 30 in 3D and 10 in 2D if growthBudget > 0, since in a small mesh the
+/// fraction would not leave room for a single node.
 long growthOf(const Options& options, long cells, int dimension);
 }
 

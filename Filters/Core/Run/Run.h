@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Run.h
-/// One run of the optimizer in one object: what it works on, what it may use up, what it has to tell.
+/// One run of the optimizer in one object: what it works on, its limits, and its report.
 #ifndef meshopt_Run_Run_h
 #define meshopt_Run_Run_h
 
@@ -14,27 +14,27 @@
 
 namespace meshopt
 {
-/// Refers to things that live longer.
+/// All that it refers to must outlive it.
 template <int D>
 struct Run
 {
   MeshEditor<D>& editor;
   NodalMetric<D>& metric;
-  const Surface<D>* surface; ///< what the surface may slide along; null: it is kept
+  const Surface<D>* surface; ///< what surface nodes may slide along; null: the surface is kept
   const Options& options;
   const Control& control;
   Clock& clock;
   Report& report;
-  long growth = AnyGrowth; ///< net number of cells that may still come
+  long growth = AnyGrowth; ///< net number of cells that may still be added
 
   const SimplexMesh<D>& mesh() const { return this->editor.mesh(); }
 
-  /// Why a run ends that the clock has stopped.
+  /// The stop reason of a run that the clock has stopped.
   StopReason stopped() const
   {
     return this->clock.isAborted() ? StopReason::Aborted : StopReason::TimeLimit;
   }
-  /// Adds a row to the history: what the mesh is now.
+  /// Adds a row to the history with the present state of the mesh.
   PassRecord& record(const std::string& stage)
   {
     PassRecord row = summarize(this->mesh(), this->options.targetQuality);
@@ -45,7 +45,8 @@ struct Run
   }
 };
 
-/// As long as it lives, a metric follows the points of a mesh: for the time that an algorithm works.
+/// Attaches a metric to the points of a mesh for as long as this object lives: the metric then
+/// follows when points move, come or go.
 template <int D>
 class FollowedMetric
 {

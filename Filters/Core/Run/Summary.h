@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Summary.h
-/// Qualities of all cells of a mesh, and the row of the history that sums them up.
+/// Qualities of all cells of a mesh, and their summary as a row of the history.
 #ifndef meshopt_Run_Summary_h
 #define meshopt_Run_Summary_h
 
@@ -17,8 +17,9 @@ template <int D>
 void computeQualities(
   MeshEditor<D>& editor, const NodalMetric<D>& metric, Measure measure, double beta);
 
-/// Worst and mean quality (0 without cells), counts; `inverted` counts qualities < 0 or = 0.
-/// Linear; sums run in the order of the cells.
+/// Worst and mean quality (0 if there are no cells) and counts. `inverted` receives the number of
+/// cells with quality <= 0. Linear; sums run in the order of the cells, so they are the same on
+/// every run.
 template <int D>
 PassRecord summarize(const SimplexMesh<D>& mesh, double target, long* inverted = nullptr);
 

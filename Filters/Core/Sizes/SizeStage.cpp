@@ -13,14 +13,16 @@ SizeStage<D>::SizeStage(Run<D>& run)
   , editor_(run.editor)
   , options_(run.options)
   , model_(run.mesh(), run.metric, 0.0)
-  , improver_(run.editor, this->model_, run.options, run.surface) // what is capped matters later
+  , improver_(run.editor, this->model_, run.options, run.surface) // caps are for the engine later
   , units_(run.metric)
   , pinched_(pinchedPoints<D>(run.mesh()))
   , overlaps_(!this->pinched_.empty() || run.mesh().numberOfFoldedFacets() > 0 ||
       (run.report.invertedBefore > 0 && mayOverlap<D>(run.mesh(), this->pinched_)))
+// Inverted cells are excluded by the precondition; nodes are stamped one by one (see moveNode()).
 {
   this->judge().setTangled(this->overlaps_, false, this->pinched_);
   this->judge().setStampsStars(false);
+  // The tensors follow the points only from now on: compute those of the points that are there.
   this->editor_.attach(this->units_);
   for (Index p = 0; p < this->mesh().numberOfPointSlots(); ++p)
   {
@@ -41,7 +43,7 @@ bool SizeStage<D>::goesOn()
 template <int D>
 void SizeStage<D>::record()
 {
-  // The history is about the quality that the caller wants.
+  // The history shows the quality that the caller wants; the stage itself works with the shape.
   computeQualities<D>(
     this->editor_, this->run_.metric, this->options_.measure, this->options_.beta);
   PassRecord& row = this->run_.record("sizes, round " + std::to_string(this->round_ + 1));
@@ -60,8 +62,8 @@ void SizeStage<D>::record()
   this->splits_ = this->contractions_ = this->motions_ = 0;
 }
 
-/// Edges are halved round by round: to split a long edge to the end at once would make its
-/// neighbourhood fine in all directions, also where it is to be so in one only.
+/// Edges are halved round by round. To split one long edge to the end at once would refine its
+/// neighbourhood in all directions, also where only one direction has to be fine.
 template <int D>
 bool SizeStage<D>::follow(double predicted)
 {
@@ -69,14 +71,16 @@ bool SizeStage<D>::follow(double predicted)
   this->mostCells_ = BrakeSlack +
     static_cast<long>(BrakeFactor *
       std::clamp(predicted, static_cast<double>(this->mesh().countCells()), MostPredicted));
+  // Beginning with the longest edges, the target for splitting is halved in each round. Only the
+  // rounds after that count.
   this->longest_ = std::max(Longest, 0.5 * this->longestEdge());
   int corrections = 0;
   int last = MaximumRounds;
   long changesBefore = std::numeric_limits<long>::max();
-  int idle = 0; // rounds in a row that did not bring changes to an end
+  int idle = 0; // consecutive rounds in which changes did not settle
   for (this->round_ = 0; this->round_ < last; ++this->round_)
   {
-    long changes = this->contract(); // first: what is too fine in one direction is split in another
+    long changes = this->contract(); // first, else cells too fine one way are split the other
     changes += this->split();
     changes += this->contract();
     this->smooth();
@@ -88,11 +92,11 @@ bool SizeStage<D>::follow(double predicted)
     if (this->longest_ > Longest)
     {
       this->longest_ = std::max(Longest, 0.5 * this->longest_);
-      ++last; // these rounds do not count
+      ++last; // does not count as a round
       continue;
     }
     const double cells = static_cast<double>(this->run_.report.history.back().cells);
-    // The same edges may be split and contracted again round by round: that is an end, too.
+    // The same edges may be split and contracted in every round: this ends the rounds, too.
     idle = static_cast<double>(changes) > Settling * static_cast<double>(changesBefore) ? idle + 1
                                                                                         : 0;
     changesBefore = changes;
@@ -102,15 +106,17 @@ bool SizeStage<D>::follow(double predicted)
     }
     idle = 0;
     const double ratio = cells / predicted;
-    // half a cell, as the prediction is no whole number
+    // plus half a cell, since the prediction is not a whole number
     const double slack = std::max(CountTolerance * predicted, CellsOfTwoNodes<D> + 0.5);
     if (std::fabs(cells - predicted) < slack || corrections++ == MaximumCorrections ||
       this->run_.metric.isRaised())
     {
       break;
     }
+    // The number of cells goes with h*^-D.
     this->scale_ = std::clamp(
       this->scale_ * std::pow(ratio, 1.0 / D), 1.0 / GreatestScale, GreatestScale);
+    // With another scale all nodes are worth a try again.
     this->failedAt_.clear();
   }
   return true;

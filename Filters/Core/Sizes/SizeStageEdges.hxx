@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file SizeStageEdges.hxx
-/// Edges of SizeStage: measured, split, contracted, swapped.
+/// The edges of SizeStage: measured, split, contracted, swapped.
 #ifndef meshopt_Sizes_SizeStageEdges_hxx
 #define meshopt_Sizes_SizeStageEdges_hxx
 
@@ -12,6 +12,8 @@ template <int D>
 double SizeStage<D>::length(Index a, Index b) const
 {
   const Vec<D> e = this->mesh().point(b) - this->mesh().point(a);
+  // Each end sees the edge in its own tensor; the logarithmic mean is the length if the size varies
+  // geometrically in between.
   return logMeanLength(lengthIn<D>(this->units_[a], e), lengthIn<D>(this->units_[b], e)) /
     this->scale_;
 }
@@ -44,7 +46,8 @@ void SizeStage<D>::collectQueue(bool isLong)
   }
 }
 
-/// After a replacement: swaps edges near the new cells as long as that helps.
+/// After a replacement: swaps edges near the new cells as long as that helps. Cells that are left
+/// alone go to push().
 template <int D>
 template <class Push>
 void SizeStage<D>::swapAround(Push&& push)
@@ -89,8 +92,8 @@ double SizeStage<D>::longestEdge() const
   return longest;
 }
 
-/// No cell has an edge that is much longer: that comes first, and where it must stay (the surface is
-/// kept) sizes can only grow finer from layer to layer.
+/// True if no cell has an edge that is much longer: such an edge must be split first. If it must
+/// stay (on the kept surface), sizes can only become finer from layer to layer.
 template <int D>
 bool SizeStage<D>::isAboutLongest(const std::vector<Index>& cells, double length) const
 {
@@ -108,7 +111,7 @@ bool SizeStage<D>::isAboutLongest(const std::vector<Index>& cells, double length
   return true;
 }
 
-/// The cell may have been changed since the edge was queued.
+/// Whether the cell still has the edge: it may have changed since the edge was queued.
 template <int D>
 bool SizeStage<D>::isThere(const Edge& edge) const
 {
@@ -132,6 +135,7 @@ long SizeStage<D>::split()
     }
     ++done;
     cells += this->proposal_.growth();
+    // The brake is for good: cellsAtBrake also ends the splitting of later rounds.
     cellsAtBrake = cells > this->mostCells_ ? cells : 0;
     this->swapAround([this](Index c) { this->push(c, true); });
     if (done % TriesPerLook == 0 && !this->goesOn())
@@ -143,7 +147,7 @@ long SizeStage<D>::split()
   return done;
 }
 
-/// The span of the edge on a curve of the surface, if it is kept and has one.
+/// The span of the edge on a curve of the surface, if it is kept and on a curve.
 template <int D>
 std::optional<Span> SizeStage<D>::spanOf(const Edge& edge, bool& isKept) const
 {
@@ -165,8 +169,8 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
 {
   const Index a = edge.a, b = edge.b;
   const Vec<D> e = this->mesh().point(b) - this->mesh().point(a);
-  // Exact halves would make a grid of equal triangles, half or twice the wanted size, in which
-  // nothing gains.
+  // Exact halves would make a grid of equal triangles of half or twice the wanted size, in which no
+  // change gains.
   const double t = metricMiddle(lengthIn<D>(this->units_[a], e), lengthIn<D>(this->units_[b], e)) +
     Jitter * noise(a, b);
   bool isKept = false;
@@ -190,6 +194,8 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
     this->isAboutLongest(proposal.cavity, edge.length);
   if (done)
   {
+    // The halves of a cell are worse at first, so a split may lower the quality; but under
+    // GoodEnough only where it was bad before.
     proposal.least = std::min(WorstSplit * proposal.oldWorst, GoodEnough);
     this->judge().start();
     done = this->judge().measure(proposal) && this->judge().accept(proposal);
@@ -216,6 +222,7 @@ long SizeStage<D>::contract()
     {
       continue;
     }
+    // Either end may vanish; the better of both is taken.
     const bool first = this->contractEdge(edge.a, edge.b, best);
     const bool second = this->contractEdge(edge.b, edge.a, best);
     this->judge().start();
@@ -234,7 +241,7 @@ long SizeStage<D>::contract()
   return done;
 }
 
-/// Whether v can go to u such that the worst cell is better than with `best`, which this then is.
+/// Whether v can join u such that the worst cell is better than with `best`. If so, `best` is this.
 template <int D>
 bool SizeStage<D>::contractEdge(Index v, Index u, Proposal<D>& best)
 {
@@ -243,6 +250,7 @@ bool SizeStage<D>::contractEdge(Index v, Index u, Proposal<D>& best)
   {
     return false;
   }
+  // Never worse than before, unless good enough; and always positive.
   p.least = std::max(best.newWorst, std::max(0.0, std::min(p.oldWorst, GoodEnough)));
   if (!this->judge().measure(p) || !this->judge().fits(p) || !this->makesNoneLonger(p, v, u))
   {
@@ -252,7 +260,7 @@ bool SizeStage<D>::contractEdge(Index v, Index u, Proposal<D>& best)
   return true;
 }
 
-/// Whether the edges that u gets in place of v are no longer than the longest of v, or short enough.
+/// Whether the edges that u gets from v are no longer than the longest edge of v, or short enough.
 template <int D>
 bool SizeStage<D>::makesNoneLonger(const Proposal<D>& p, Index v, Index u) const
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file SizeStageNodes.hxx
-/// Nodes of SizeStage: moved to where their edges have the wanted length.
+/// The nodes of SizeStage: moved to where their edges have the wanted length.
 #ifndef meshopt_Sizes_SizeStageNodes_hxx
 #define meshopt_Sizes_SizeStageNodes_hxx
 
@@ -8,7 +8,8 @@ namespace meshopt
 {
 namespace sizes
 {
-/// Sum of the squares of ln l over the edges at v, whose star is star_.
+/// Sum of ln(l)^2 over the edges at v, whose neighbours are neighbours_. It is 0 if all edges have
+/// length 1, and counts an edge twice as long like one half as long.
 template <int D>
 double SizeStage<D>::energyAround(Index v)
 {
@@ -21,7 +22,7 @@ double SizeStage<D>::energyAround(Index v)
   return sum;
 }
 
-/// Puts v at x if its edges get nearer to the wanted length and no cell gets bad.
+/// Puts v at x if its edges come closer to the wanted length and no cell becomes bad.
 template <int D>
 bool SizeStage<D>::tryPlace(
   Index v, const Vec<D>& x, const Place& place, double worst, double energy)
@@ -31,11 +32,10 @@ bool SizeStage<D>::tryPlace(
   p.cavity = this->star_;
   p.moves.push_back({ v, x, place });
   p.oldWorst = worst;
-  // as good as the worst was, or good enough; and positive
+  // As good as the worst was, or good enough; and positive. (nextafter(): equal is allowed.)
   p.least = std::max(0.0, std::nextafter(std::min(worst, 2.0 * GoodEnough), -1.0));
   this->judge().start();
-  return this->judge().acceptIf(
-    p, [&] { return this->energyAround(v) < WorthMoving * energy; });
+  return this->judge().acceptIf(p, [&] { return this->energyAround(v) < WorthMoving * energy; });
 }
 
 template <int D>
@@ -61,6 +61,7 @@ bool SizeStage<D>::moveNode(Index v)
   {
     this->failedAt_.resize(this->mesh().numberOfPointSlots(), 0);
   }
+  // Its edges also change when a neighbour moves: look at the stamps of the neighbours, too.
   std::uint32_t latest = point.stamp;
   for (Index w : this->neighbours_)
   {
@@ -68,15 +69,16 @@ bool SizeStage<D>::moveNode(Index v)
   }
   if (latest <= this->failedAt_[v])
   {
-    return false; // nothing has changed since it failed
+    return false; // nothing has changed since the last try
   }
+  // Noted before the try: if the node moves, its new stamp is later, and it is tried again.
   this->failedAt_[v] = this->editor_.clock();
   const double worst = this->mesh().worstQuality(this->star_), energy = this->energyAround(v);
   return this->mesh().isFree(v) ? this->moveFreeNode(v, worst, energy)
                                 : this->moveSlidingNode(v, worst, energy);
 }
 
-/// Towards that neighbour on its curve which is farther away.
+/// Moves v on its curve, towards the neighbour that is farther away.
 template <int D>
 bool SizeStage<D>::moveSlidingNode(Index v, double worst, double energy)
 {
@@ -101,7 +103,8 @@ bool SizeStage<D>::moveSlidingNode(Index v, double worst, double energy)
   return false;
 }
 
-/// To the mean of where each edge would put v to be of the wanted length, or part of the way.
+/// Moves v to the mean of the places where each edge would have the wanted length, or part of the
+/// way.
 template <int D>
 bool SizeStage<D>::moveFreeNode(Index v, double worst, double energy)
 {
@@ -143,7 +146,7 @@ void SizeStage<D>::smooth()
   }
 }
 
-/// Swaps edges of cells around which something has changed since the last call.
+/// Swaps edges of the cells around which something has changed since the last call.
 template <int D>
 void SizeStage<D>::swapWhatChanged()
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file SizeStageRun.h
-/// One run of the size stage: what it knows. Only included by SizeStage.cpp.
+/// One run of the size stage. Included only by SizeStage.cpp.
 #ifndef meshopt_Sizes_SizeStageRun_h
 #define meshopt_Sizes_SizeStageRun_h
 
@@ -24,37 +24,42 @@ namespace meshopt
 {
 namespace sizes
 {
+// A factor of 2 in between: half of an edge that is too long is not too short.
 constexpr double Longest = 1.4142135623730951, Shortest = 1.0 / Longest;
 constexpr int MaximumRounds = 12;
-constexpr int Sweeps = 3; // of node motion, each round
-/// A node is moved if the energy of its edges falls under this part of what it was.
+constexpr int Sweeps = 3; // of node motion in each round
+/// A node moves only if the energy of its edges falls to less than this fraction.
 constexpr double WorthMoving = 0.97;
-/// A round that changes fewer edges than this part of the cells is the last.
+/// A round that changes fewer edges than this fraction of the cells is the last one.
 constexpr double FewChanges = 0.005;
-constexpr double Settling = 0.8; // of the changes of a round before: more do not come to an end
+constexpr double Settling = 0.8; // more than this part of the last changes: not settling
 constexpr int MaximumIdle = 2;
 constexpr double CountTolerance = 0.03;
 constexpr int MaximumCorrections = 3;
 constexpr double GreatestScale = 1.25;
-/// Splitting ends for good when there are so many times as many cells as predicted, or as in the
-/// beginning, and BrakeSlack more. Where lengths vary in a way that edges can follow, it never gets near it.
+/// Splitting ends for good at this multiple of the predicted number of cells, or of the number at
+/// the start if that is more, plus BrakeSlack. If edges can follow the lengths, their number stays
+/// far below.
 constexpr double BrakeFactor = 4.0;
 constexpr long BrakeSlack = 1000;
 constexpr double MostPredicted = 1e9; // more than ids can number
-/// Edges are split so far from their middle, at random.
+/// How far from its middle an edge is split at most: a pseudo-random fraction of its length.
 constexpr double Jitter = 0.1;
 constexpr long TriesPerLook = 256; // changes between two looks at the clock
-/// An edge is split if no cell at it has one that is longer than it by more than this factor.
+/// An edge is split only if its length is at least this fraction of every edge of the cells around
+/// it.
 constexpr double LongestFirst = 0.7;
-/// A contraction or a motion makes no quality lower than both this (a motion: twice this) and the worst
-/// that was there; a split may make it lower by a factor, since what it splits comes out worse at first.
+/// A contraction makes no quality lower than GoodEnough, unless the worst one was lower before; for
+/// a motion the limit is twice GoodEnough. A split may multiply the worst quality by WorstSplit,
+/// since the halves of a cell are worse at first.
 constexpr double GoodEnough = 0.3, WorstSplit = 0.3;
-/// Cells as good as this are not reconnected: what raises the worst cell of an edge's ring is found
-/// from that one. In 2D swaps cost little.
+/// Cells as good as this are not reconnected: a swap that helps a ring is found from its worst
+/// cell. In 2D all are tried, since swaps are cheap.
 template <int D>
 constexpr double SwapBelow = D == 2 ? std::numeric_limits<double>::infinity() : 0.7;
 
-/// Where an edge with the lengths la and lb by its ends is halved, from a on, as a part of the way; not too near to an end.
+/// Where to halve an edge with lengths la and lb at its ends, as a fraction of the way from a; not
+/// too close to an end.
 inline double metricMiddle(double la, double lb)
 {
   const double r = std::log(lb / la);
@@ -62,7 +67,7 @@ inline double metricMiddle(double la, double lb)
   return std::clamp(t, 0.25, 0.75);
 }
 
-/// A number in [-1, 1] that looks random, but is that of the edge.
+/// A pseudo-random number in [-1, 1] that depends on the edge only, so that runs are reproducible.
 inline double noise(Index a, Index b)
 {
   std::uint64_t h = std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
@@ -130,14 +135,14 @@ private:
   UnitTensors<D> units_;
   Proposal<D> proposal_;
   std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
-  bool overlaps_;                     // cells may lie on each other
+  bool overlaps_;                     // cells may overlap
 
   int round_ = 0;
-  long mostCells_ = 0;       // brake
-  double scale_ = 1.0;       // of h*
+  long mostCells_ = 0;       // the brake, see BrakeFactor
+  double scale_ = 1.0;       // factor on h*, corrects the count
   double longest_ = Longest; // longer edges are split
   std::uint32_t swappedAt_ = 0;
-  std::vector<std::uint32_t> failedAt_; // when a node could not be moved to advantage
+  std::vector<std::uint32_t> failedAt_; // by node: clock at its last try
   Queue queue_;
   std::vector<Index> star_, neighbours_, stack_;
   long splits_ = 0, contractions_ = 0, motions_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file UnitTensors.h
-/// What is wanted at the points of a mesh, as tensors in which edges of the wanted length have length 1.
+/// The wanted lengths at the points of a mesh, as tensors in which edges of the wanted length have
+/// length 1.
 #ifndef meshopt_Sizes_UnitTensors_h
 #define meshopt_Sizes_UnitTensors_h
 
@@ -9,8 +10,8 @@
 
 namespace meshopt
 {
-/// M / h*^2 at each point, kept since it costs an exponential; follows the points once attached, after
-/// the metric.
+/// M / h*^2 at each point. It is stored because it costs a matrix exponential. Follows the points
+/// once attached; attach it after the metric, which it reads.
 template <int D>
 class UnitTensors final : public PointAttachment<D>
 {

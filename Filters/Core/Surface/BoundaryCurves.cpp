@@ -11,7 +11,7 @@ namespace
 {
 constexpr double Tolerance = 1e-3;         ///< of the diagonal of the mesh
 constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
-/// How far the curve may go from a new edge of the boundary, in parts of the edge's length.
+/// How far the curve may be from a new edge of the boundary, as a fraction of the edge's length.
 constexpr double Sagitta = 0.1;
 
 double diagonal(const SimplexMesh<2>& mesh)
@@ -28,7 +28,8 @@ double diagonal(const SimplexMesh<2>& mesh)
   return (high - low).norm();
 }
 
-/// See PlaneCurve::mostCurvedSegment(): that of a circle whose polygon turns by `angle`, and some more.
+/// See PlaneCurve::mostCurvedSegment(): the share of a circle whose polygon turns by `angle`
+/// (degrees) at each point, with a margin.
 double greatestShare(double angle)
 {
   constexpr double margin = 1.2;
@@ -54,8 +55,9 @@ PlaneCurve BoundaryCurves::curve(
   return PlaneCurve(std::move(points), chain.isClosed, splines);
 }
 
-/// A spline through a long straight side and the short ones of an arc would swing far out on the
-/// long one: its ends become corners, and it stays straight.
+/// Makes the ends of segments corners where a spline overshoots. A spline through the short sides
+/// of an arc and a long straight side would swing far out on the long one; with corners at its ends
+/// that side stays straight.
 void BoundaryCurves::markWhereSplinesOvershoot(
   LineNetwork& network, const CurveOptions& options) const
 {
@@ -75,6 +77,7 @@ void BoundaryCurves::markWhereSplinesOvershoot(
         }
         again = true;
       }
+      // New corners divide the chain, which gives new splines: test these, too.
     }
   }
 }
@@ -109,7 +112,7 @@ void BoundaryCurves::build(
   this->join();
 }
 
-/// Every corner of the geometry must be a point of the boundary: that is a corner then, too.
+/// Every corner of the geometry must be a point of the boundary; that point then becomes a corner.
 std::string BoundaryCurves::matchCorners(const SimplexMesh<2>& mesh, const LineNetwork& geometry,
   double tolerance, LineNetwork& boundary) const
 {
@@ -133,7 +136,7 @@ std::string BoundaryCurves::matchCorners(const SimplexMesh<2>& mesh, const LineN
         nameOf("point", static_cast<Index>(g), geometry.points[g]) +
         ", but the boundary of the mesh has no point there.";
     }
-    for (Index p : ends) // all of them: at the mouth of a crack there are several
+    for (Index p : ends) // all such points: at the mouth of a crack there are several
     {
       boundary.corners[p] |= std::uint8_t(
         geometry.corners[g] && (mesh.point(p) - geometry.points[g]).norm() <= tolerance);
@@ -150,8 +153,8 @@ double BoundaryCurves::period(const Piece& piece) const
 
 namespace
 {
-/// A curve that goes from a corner around to itself has two parameters there: the middle of the edge
-/// that leaves the corner tells which is the one of the end of the chain.
+/// A curve from a corner around to itself has two parameters at that corner. The middle of the edge
+/// that leaves the corner tells which one is meant at each end of the chain.
 void tellEndsApart(const SimplexMesh<2>& mesh, const std::vector<Index>& points,
   const PlaneCurve& curve, double tolerance, std::vector<double>& s)
 {
@@ -173,7 +176,7 @@ void tellEndsApart(const SimplexMesh<2>& mesh, const std::vector<Index>& points,
 }
 }
 
-/// Adds the chain as a piece of the curve, and gives its points their places.
+/// Adds the chain as a piece of the curve and gives its points their places.
 void BoundaryCurves::addPiece(
   MeshEditor<2>& editor, const LineChain& chain, Index curve, const std::vector<double>& parameters)
 {
@@ -188,14 +191,14 @@ void BoundaryCurves::addPiece(
   const std::size_t first = chain.isClosed ? 0 : 1;
   for (std::size_t k = first; k + first < chain.points.size(); ++k)
   {
-    editor.setPlace(chain.points[k],
-      { Freedom::Curve, static_cast<Index>(this->pieces_.size()), parameters[k] });
+    editor.setPlace(
+      chain.points[k], { Freedom::Curve, static_cast<Index>(this->pieces_.size()), parameters[k] });
   }
   this->pieces_.push_back(piece);
 }
 
-/// The curve that a chain of the mesh's boundary is nearest to; `distance` is that of its farthest point,
-/// which is `farthest`. None if there are no curves.
+/// The curve that is nearest to a chain of the mesh's boundary. `farthest` is the point of the
+/// chain with the greatest distance to it, `distance` that distance. None if there are no curves.
 Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& chain,
   double tolerance, Index& farthest, double& distance) const
 {
@@ -216,7 +219,7 @@ Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& 
         break;
       }
     }
-    // Two corners may be joined by several curves: the middle tells them apart.
+    // Several curves may join the same two corners: the middle of the first edge tells them apart.
     double middle = 0.0;
     this->curves_[g].closest(
       Vec<2>(0.5 * (mesh.point(chain.points[0]) + mesh.point(chain.points[1]))), middle);
@@ -232,7 +235,7 @@ Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& 
   return nearest;
 }
 
-/// Puts a chain of the mesh's boundary on the curve that is nearest to it.
+/// Puts a chain of the mesh's boundary on the curve nearest to it.
 std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain, double tolerance)
 {
   const SimplexMesh<2>& mesh = editor.mesh();
@@ -256,6 +259,8 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain,
     s.push_back(curve.closest(mesh.point(p), d));
     if (s.size() > 1 && period > 0.0)
     {
+      // Unwraps the parameters of a closed curve: neighbours on the chain are less than half a turn
+      // apart.
       s.back() += std::round((s[s.size() - 2] - s.back()) / period) * period;
     }
   }
@@ -264,6 +269,8 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain,
     tellEndsApart(mesh, chain.points, curve, tolerance, s);
   }
   const double direction = s.back() > s.front() ? 1.0 : -1.0;
+  // Parameters must rise or fall all along the chain. (Of a closed chain with three points nothing
+  // can be told.)
   for (std::size_t k = 1; k < s.size() && !(chain.isClosed && s.size() < 4); ++k)
   {
     if (!(direction * (s[k] - s[k - 1]) > 0.0))
@@ -292,6 +299,7 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
     const PlaneCurve curve = this->curve(geometry, chain, options.splines);
     double share = 0.0;
     curve.mostCurvedSegment(share);
+    // A spline that overshoots is given up: the geometry has no further corners to divide it at.
     const bool overshoots = share > greatestShare(options.cornerAngle);
     this->curves_.push_back(overshoots ? this->curve(geometry, chain, false) : curve);
   }
@@ -302,11 +310,12 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   }
   const double tolerance = Tolerance * diagonal(editor.mesh());
   std::string error = this->matchCorners(editor.mesh(), geometry, tolerance, boundary);
-  markCorners(boundary, 180.0); // not by angle: the geometry knows
+  markCorners(boundary, 180.0); // not by angle: the geometry has the corners
   for (const LineChain& chain : chains(boundary))
   {
     error = error.empty() ? this->place(editor, chain, tolerance) : error;
   }
+  // All or nothing: a mesh that does not match gets no places.
   if (!error.empty())
   {
     for (Index p = 0; p < editor.mesh().numberOfPointSlots(); ++p)
@@ -318,7 +327,7 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   return error;
 }
 
-/// Finds the pieces by which two corners can be neighbours.
+/// Finds the pieces on which two corners can be neighbours.
 void BoundaryCurves::join()
 {
   this->betweenCorners_.clear();
@@ -341,8 +350,7 @@ void BoundaryCurves::join()
   }
 }
 
-std::optional<Span> BoundaryCurves::span(
-  const SimplexMesh<2>& mesh, Index a, Index b) const
+std::optional<Span> BoundaryCurves::span(const SimplexMesh<2>& mesh, Index a, Index b) const
 {
   const Place pa = mesh.place(a), pb = mesh.place(b);
   if (pa.part == None && pb.part == None)
@@ -358,7 +366,7 @@ std::optional<Span> BoundaryCurves::span(
   }
   const Index k = pa.part != None ? pa.part : pb.part;
   const Piece& piece = this->pieces_[k];
-  // Parameter of p, as seen from the neighbour at s.
+  // Parameter of p, as seen from the neighbour at s. A corner at both ends of the piece has two.
   const auto parameter = [&](Index p, const Place& place, double s) -> std::optional<double>
   {
     if (place.part == k)
@@ -381,6 +389,7 @@ std::optional<Span> BoundaryCurves::span(
     return std::nullopt;
   }
   Span span{ k, *from, *to };
+  // On a closed piece the shorter way round is meant.
   const double period = piece.ends[0] == None ? this->period(piece) : 0.0;
   if (period > 0.0)
   {
@@ -410,8 +419,7 @@ Place BoundaryCurves::project(const Place& place, const Vec<2>& x, Vec<2>& there
   return result;
 }
 
-int BoundaryCurves::tangents(
-  const Place& place, const Vec<2>&, std::array<Vec<2>, 2>& basis) const
+int BoundaryCurves::tangents(const Place& place, const Vec<2>&, std::array<Vec<2>, 2>& basis) const
 {
   basis[0] = this->curves_[this->pieces_[place.part].curve].direction(place.parameter);
   return 1;
@@ -420,7 +428,7 @@ int BoundaryCurves::tangents(
 std::optional<SlidingRange> BoundaryCurves::range(
   const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const
 {
-  std::vector<Index> ends; // over kept facets
+  std::vector<Index> ends; // the neighbours over kept facets
   for (Index c : star)
   {
     for (int i = 0; i < 3; ++i)
@@ -452,6 +460,7 @@ bool BoundaryCurves::mayJoin(
     return false;
   }
   const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
+  // At an ear (a cell with both neighbours) the contraction would fold the boundary.
   const bool isEar = std::any_of(star.begin(), star.end(),
     [&](Index c) { return mesh.localIndex(c, u) >= 0 && mesh.localIndex(c, w) >= 0; });
   const Span joined{ mesh.place(v).part, range->low, range->high };
@@ -463,7 +472,7 @@ bool BoundaryCurves::mayJoin(
   if (mesh.place(u).part == None && mesh.place(w).part == None)
   {
     const auto between = this->span(mesh, u, w);
-    return between && between->part == joined.part; // two corners may have several pieces between them
+    return between && between->part == joined.part; // several pieces may join two corners
   }
   return true;
 }

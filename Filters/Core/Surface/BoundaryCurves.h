@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file BoundaryCurves.h
-/// The curves that the boundary of a plane mesh follows, and where its nodes may slide along them.
+/// The curves that the boundary of a plane mesh follows, along which its nodes may slide.
 #ifndef meshopt_Surface_BoundaryCurves_h
 #define meshopt_Surface_BoundaryCurves_h
 
+#include "Mesh/MeshEditor.h"
 #include "Surface/LineNetwork.h"
 #include "Surface/PlaneCurve.h"
 #include "Surface/Surface.h"
-#include "Mesh/MeshEditor.h"
 
 #include <map>
 #include <optional>
@@ -17,34 +17,34 @@ namespace meshopt
 {
 struct CurveOptions
 {
-  /// Degrees. Where lines turn by more than this there is a corner; in any case where they turn back
-  /// (179 degrees), as at the tip of a slit.
+  /// Degrees. A point where lines turn by more than this is a corner. A point where they turn back
+  /// (by 179 degrees), as at the tip of a slit, is always one.
   double cornerAngle = 45.0;
-  /// Cubic B-splines through the points between two corners; else straight lines. Where a spline
-  /// would go farther from its points than a circle does that turns by cornerAngle from point to
-  /// point, there are corners after all: a straight side that goes over into an arc stays straight.
-  /// So there are where only a single point turns, by more than 10 degrees.
+  /// Cubic B-splines through the points between two corners; otherwise straight lines. There are
+  /// additional corners where a spline would be farther from its points than a circle that turns by
+  /// cornerAngle from point to point: so a straight side that continues in an arc stays straight. A
+  /// single point that turns by more than 10 degrees between points that do not is also a corner.
   bool splines = true;
 };
 
-/// The kept facets of a mesh are divided into pieces, each from one corner to the next, or closed.
-/// A corner is a point where not exactly two kept facets meet, where the line turns sharply, or
-/// that the caller fixed. Each piece lies on a curve: through its own points, or a part of the
-/// geometry that is given. Interfaces between regions and both sides of a crack are pieces like
+/// The kept facets of a mesh are divided into pieces. Each runs from one corner to the next, or is
+/// closed. A corner is a point where not exactly two kept facets meet, where the line turns
+/// sharply, or that the caller fixed. Each piece lies on a curve: one through its own points, or a
+/// part of the given geometry. Interfaces between regions and both sides of a crack are pieces like
 /// those of the outer boundary.
 ///
-/// Points of a piece, but for its corners, get a place: Freedom::Curve, the piece and the parameter.
-/// A piece is what Surface calls a part.
+/// The points of a piece, except its corners, get a place: Freedom::Curve, the piece and the
+/// parameter. A piece is what Surface calls a part.
 class BoundaryCurves final : public Surface<2>
 {
 public:
-  /// Makes the curves from the mesh's own kept facets; `corners`: one per point slot, or empty.
+  /// Makes the curves from the kept facets of the mesh. `corners`: one per point slot, or empty.
   void build(MeshEditor<2>& editor, const CurveOptions& options,
     const std::vector<std::uint8_t>& corners = {});
 
-  /// Makes them from `geometry`. Returns a sentence that says where mesh and geometry do not match:
-  /// a boundary point farther than 1e-3 of the diagonal from every curve, or a corner of the geometry
-  /// without a point of the mesh; the mesh then has no places.
+  /// Makes the curves from `geometry`. Returns a sentence that says where mesh and geometry do not
+  /// match: at a boundary point farther than 1e-3 of the diagonal from every curve, or at a corner
+  /// of the geometry without a point of the mesh. The mesh then has no places.
   std::string build(MeshEditor<2>& editor, const LineNetwork& geometry, const CurveOptions& options,
     const std::vector<std::uint8_t>& corners = {});
 
@@ -55,8 +55,7 @@ public:
     return this->curves_[this->pieces_[piece].curve].at(s);
   }
   Place project(const Place& place, const Vec<2>& x, Vec<2>& there) const override;
-  int tangents(
-    const Place& place, const Vec<2>& x, std::array<Vec<2>, 2>& basis) const override;
+  int tangents(const Place& place, const Vec<2>& x, std::array<Vec<2>, 2>& basis) const override;
   std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const override;
   std::optional<SlidingRange> range(
     const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const override;
@@ -65,17 +64,17 @@ public:
     return this->span(mesh, a, b).has_value();
   }
   bool maySwap(const SimplexMesh<2>&, Index, Index, Index, Index) const override { return false; }
-  /// v can only go along its piece, and not if that would fold the boundary, or leave the curve a
-  /// tenth of the new edge's length away from it.
-  bool mayJoin(const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v,
-    Index u) const override;
+  /// v can join only a neighbour on its piece. Not if that would fold the boundary, or if the curve
+  /// would be farther from the new edge than a tenth of its length.
+  bool mayJoin(
+    const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v, Index u) const override;
 
   double sagitta(const Span& s) const
   {
     return this->curves_[this->pieces_[s.part].curve].sagitta(s.from, s.to);
   }
-  /// Whether two neighbours on the piece may be so far apart, from one parameter to the other: not
-  /// if the way around a closed curve could no longer be told.
+  /// Whether two neighbours on the piece may be this far apart. Not if it would no longer be clear
+  /// which way round a closed curve is meant.
   bool mayBeNeighbours(const Span& s) const;
 
 private:
@@ -100,8 +99,8 @@ private:
 
   std::vector<PlaneCurve> curves_;
   std::vector<Piece> pieces_;
-  /// The piece by which two corners may be neighbours. Of several that join them it is the one that was
-  /// an edge of the input: there is at most one, and the others never become one.
+  /// The piece on which two corners may be neighbours. If several pieces join them, it is the one
+  /// that was an edge of the input: there is at most one, and the others never become an edge.
   std::map<std::array<Index, 2>, Index> betweenCorners_;
 };
 }

@@ -7,6 +7,7 @@
 namespace meshopt
 {
 namespace
+/// Edges longer than this (in units of the wanted length) call for a floor.
 {
 constexpr double LongEdge = 2.0;
 }
@@ -30,6 +31,7 @@ std::shared_ptr<const SizeFloor<2>> keptSizeFloor<2>(const SimplexMesh<2>& mesh,
     for (int i = 0; i < 3 && mesh.isAlive(c); ++i)
     {
       const Facet<2> f = mesh.facet(c, i);
+      // Only edges that must stay count. One that can be divided gets its sizes.
       if (!mesh.isConstrained(c, i) || (surface && surface->mayDivide(mesh, f[0], f[1])))
       {
         continue;

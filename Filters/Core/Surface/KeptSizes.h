@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file KeptSizes.h
-/// Which sizes can be had where edges must stay as they are.
+/// The sizes that can be reached beside edges that must stay as they are.
 #ifndef meshopt_Surface_KeptSizes_h
 #define meshopt_Surface_KeptSizes_h
 
@@ -11,10 +11,10 @@
 
 namespace meshopt
 {
-/// The least size that can be had beside the edges of a plane mesh that must stay: kept ones, but those
-/// that `surface` (null: none) lets be divided. `longest`: the longest of them, in the length wanted
-/// there. Null where that is at most 2: then what is wanted can be had. In space always null: there is
-/// no such floor yet, and `longest` stays as it is.
+/// The lowest sizes that can be reached beside edges of a plane mesh that must stay: kept edges,
+/// except those that `surface` (null: none) allows to be divided. `longest`: the longest of these
+/// edges, in units of the length wanted there. Null if that is at most 2: the wanted sizes can then
+/// be reached. Always null in 3D: there is no such floor yet, and `longest` is not changed.
 template <int D>
 std::shared_ptr<const SizeFloor<D>> keptSizeFloor(const SimplexMesh<D>& mesh,
   const NodalMetric<D>& metric, const Surface<D>* surface, double& longest);

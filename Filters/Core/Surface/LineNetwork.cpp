@@ -8,13 +8,13 @@ namespace meshopt
 {
 namespace
 {
-/// A line that is so much shorter than the next one has no direction: its ends are corners.
+/// A line shorter than this fraction of the next one has no direction: its ends are corners.
 constexpr double NoLength = 1e-9;
-/// Degrees. Where a line turns by more it goes back, as at the tip of a slit: always a corner.
+/// Degrees. A line that turns by more goes back, as at the tip of a slit: always a corner.
 constexpr double TurnsBack = 179.0;
 
-/// Radians: what turns less is taken for smooth. And how much of the turn of a point a neighbour of it
-/// must turn, at least, if both are to be on a curve.
+/// LeastKink, in radians: a smaller turn counts as smooth. KinkShare: if two neighbours are both on
+/// a curve, each turns at least by this fraction of the other's turn.
 constexpr double LeastKink = 0.17, KinkShare = 0.25;
 
 using Lines = std::vector<std::vector<Index>>;
@@ -41,7 +41,7 @@ Index otherEnd(const LineNetwork& network, Index line, Index p)
 
 }
 
-/// All kept facets, each once.
+/// All kept facets of the mesh, each once.
 LineNetwork keptLines(const SimplexMesh<2>& mesh)
 {
   LineNetwork result;
@@ -110,13 +110,14 @@ std::vector<LineChain> chains(const LineNetwork& network)
       }
       line = lines[p][0] == line ? lines[p][1] : lines[p][0];
     }
-    if (!network.corners[start]) // came back to where it began
+    if (!network.corners[start]) // closed: back at the start
     {
       chain.isClosed = true;
       chain.points.pop_back();
     }
     result.push_back(std::move(chain));
   };
+  // First the open chains, from their corners. All lines left over belong to closed chains.
   for (const bool fromCorners : { true, false })
   {
     for (std::size_t p = 0; p < lines.size(); ++p)
@@ -133,13 +134,13 @@ std::vector<LineChain> chains(const LineNetwork& network)
   return result;
 }
 
-/// A point where the line turns while it does not at the neighbours is no sample of a curve, but a
-/// corner that is not very sharp.
+/// A point where the line turns, between neighbours where it does not, is not a sample of a curve:
+/// it is a corner, if not a sharp one.
 void markKinks(LineNetwork& network)
 {
   const Lines lines = linesOfPoints(network);
   const std::vector<std::uint8_t> corners = network.corners;
-  const auto next = [&](Index from, Index p) // None beyond a corner
+  const auto next = [&](Index from, Index p) // None behind a corner
   {
     if (corners[p])
     {

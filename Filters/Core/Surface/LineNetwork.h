@@ -10,7 +10,7 @@
 
 namespace meshopt
 {
-/// Lines in the plane: the geometry that a boundary is to follow.
+/// Lines in the plane: the geometry that a boundary follows.
 struct LineNetwork
 {
   std::vector<Vec<2>> points;
@@ -18,26 +18,27 @@ struct LineNetwork
   std::vector<std::uint8_t> corners; ///< nonzero: the point is a corner; one per point, or empty
 };
 
-/// The lines from a corner to the next one, or a closed line; points by their ids.
+/// The lines from one corner to the next, or a closed line; points by their ids.
 struct LineChain
 {
   std::vector<Index> points;
   bool isClosed = false;
 };
 
-/// All kept facets of the mesh, each once; points have the ids of the mesh, those that the caller
+/// All kept facets of the mesh, each once. Points have the ids of the mesh. Points that the caller
 /// fixed are corners.
 LineNetwork keptLines(const SimplexMesh<2>& mesh);
 
-/// Marks the points where not exactly two lines meet, where they turn by more than cornerAngle (degrees,
-/// taken as 179 if it is more), and where one line has next to no length.
+/// Marks as corners: points where not exactly two lines meet, points where the line turns by more
+/// than cornerAngle (degrees; at most 179), and the ends of lines of almost no length.
 void markCorners(LineNetwork& network, double cornerAngle);
 
-/// Marks the points where the line turns by more than 10 degrees while it does not at the neighbours:
-/// those are no samples of a curve, but corners that are not very sharp.
+/// Marks the points where the line turns by more than 10 degrees while it does not at the
+/// neighbours. These are not samples of a curve, but corners, if not sharp ones.
 void markKinks(LineNetwork& network);
 
-/// Every line is in one chain; those that begin at corners come first, by the ids of their points.
+/// Divides the lines into chains; every line is in one. Chains that begin at corners come first.
+/// The order is that of the point ids.
 std::vector<LineChain> chains(const LineNetwork& network);
 }
 

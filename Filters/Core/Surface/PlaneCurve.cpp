@@ -12,16 +12,16 @@ namespace meshopt
 {
 namespace
 {
-/// A closed curve is fitted with so many points more on either side: what is done at the ends of
-/// the spline fades by 3.7 from point to point.
+/// A closed curve is fitted with this many additional points on either side: the influence of an
+/// end of the spline fades by a factor 3.7 per point.
 constexpr int Wrap = 16;
 constexpr int Samples = 8;
 constexpr int SearchSteps = 48; ///< to 1e-10 of a segment
 
-/// Points closer to a straight line than this part of its length are on it.
+/// Points closer to a straight line than this fraction of its length lie on it.
 constexpr double Straight = 1e-10;
 
-/// The parameter of the nearest point of segment ab, in [0, 1].
+/// The parameter of the point of segment ab nearest to x, in [0, 1].
 double alongSegment(const Vec<2>& a, const Vec<2>& b, const Vec<2>& x)
 {
   const Vec<2> d = b - a;
@@ -29,8 +29,8 @@ double alongSegment(const Vec<2>& a, const Vec<2>& b, const Vec<2>& x)
   return l > 0.0 ? std::clamp((x - a).dot(d) / l, 0.0, 1.0) : 0.0;
 }
 
-/// A straight line as a spline would come out straight to rounding only, and who looks for the points
-/// with x == 2 would miss some.
+/// Whether all points lie on a straight line. As a spline such a line would be straight only up to
+/// rounding, and a later selection of its points by x == 2 would miss some.
 bool isStraight(const std::vector<Vec<2>>& points)
 {
   const Vec<2> along = points.back() - points.front();
@@ -67,7 +67,7 @@ PlaneCurve::PlaneCurve(std::vector<Vec<2>> points, bool isClosed, bool isSpline)
   }
 }
 
-/// Control points by a sparse solve: Eigen's own SplineFitting works with a full matrix.
+/// Finds the control points by a sparse solve: Eigen's own SplineFitting uses a full matrix.
 void PlaneCurve::fit()
 {
   const int n = static_cast<int>(this->points_.size()) - (this->isClosed_ ? 1 : 0);
@@ -116,7 +116,7 @@ double PlaneCurve::inRange(double s) const
   return std::clamp(s, 0.0, this->length());
 }
 
-/// The number of the point at the end of the straight line that s is on.
+/// The number of the point at the end of the straight line that contains s.
 std::size_t PlaneCurve::segmentAt(double s) const
 {
   const auto next = std::upper_bound(this->knots_.begin(), this->knots_.end(), s);
@@ -149,7 +149,7 @@ Vec<2> PlaneCurve::direction(double s) const
   return Vec<2>(this->points_[k] - this->points_[k - 1]).normalized();
 }
 
-/// Golden section between the ends of a segment of the polygon.
+/// Searches for the nearest point on one segment of the polygon, by golden section.
 double PlaneCurve::refine(std::size_t segment, const Vec<2>& x, double& distance) const
 {
   const double s0 = this->knots_[segment], s1 = this->knots_[segment + 1];
@@ -164,7 +164,7 @@ double PlaneCurve::refine(std::size_t segment, const Vec<2>& x, double& distance
   double best = goldenSection(
     s0, s1, SearchSteps, [&](double s) { return -this->distanceAt(s, x); }, nearest);
   distance = -nearest;
-  for (double end : { s0, s1 }) // so that a point of the polygon gets its own parameter
+  for (double end : { s0, s1 }) // so that a point of the polygon gets exactly its own parameter
   {
     const double d = this->distanceAt(end, x);
     if (d <= distance)
@@ -178,7 +178,7 @@ double PlaneCurve::refine(std::size_t segment, const Vec<2>& x, double& distance
 
 double PlaneCurve::closest(const Vec<2>& x, double& distance) const
 {
-  // The curve is near its polygon: what is nearest lies on one of the nearest segments.
+  // The curve is near its polygon, so its nearest point lies on one of the few nearest segments.
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t k = 0; k + 1 < this->points_.size(); ++k)
   {

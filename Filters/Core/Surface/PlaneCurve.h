@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file PlaneCurve.h
-/// A curve in the plane through given points: straight between them, or a cubic B-spline.
+/// A plane curve through given points: straight lines between them, or a cubic B-spline.
 #ifndef meshopt_Surface_PlaneCurve_h
 #define meshopt_Surface_PlaneCurve_h
 
@@ -12,13 +12,14 @@
 
 namespace meshopt
 {
-/// Parameter: the length of the polygon through the points, from the first one on. Closed curves
-/// are periodic in it. Immutable: any number of threads may ask at the same time.
+/// The parameter is the length of the polygon through the points, from the first point on. Closed
+/// curves are periodic in it. Immutable: any number of threads may use it at the same time.
 class PlaneCurve
 {
 public:
-  /// At least two points (closed: three), neighbours at different places (two points alone may lie
-  /// at one). A spline goes through all points, with continuous curvature also where a closed curve closes.
+  /// Needs at least two points (closed: three), with neighbours at different places (except that
+  /// two points alone may coincide). A spline passes through all points, with continuous curvature,
+  /// also where a closed curve closes.
   PlaneCurve(std::vector<Vec<2>> points, bool isClosed, bool isSpline);
 
   bool isClosed() const { return this->isClosed_; }
@@ -28,18 +29,18 @@ public:
   double parameter(std::size_t k) const { return this->knots_[k]; }
 
   Vec<2> at(double s) const;
-  /// Unit vector along the curve at s; at a point between two straight lines that of the line after it.
+  /// Unit vector along the curve at s. At a point between two straight lines: that of the second.
   Vec<2> direction(double s) const;
 
-  /// Parameter of the point of the curve that is nearest to x, and the distance to it.
+  /// Parameter of the point of the curve nearest to x, and the distance to it.
   double closest(const Vec<2>& x, double& distance) const;
 
-  /// How far the curve goes from its chord between two parameters, at most (sampled).
+  /// Greatest distance of the curve from its chord between two parameters (sampled).
   double sagitta(double s0, double s1) const;
 
-  /// The segment between two neighbours of the points that the curve leaves farthest, in parts of the
-  /// segment's length: its number, and that part in `share`. A circle by points every a degrees has
-  /// tan(a / 4) / 2 everywhere.
+  /// The number of the segment between two neighbouring points from which the curve is farthest,
+  /// relative to the segment's length; `share` is that ratio. For a circle with a point every a
+  /// degrees it is tan(a / 4) / 2 for all segments.
   std::size_t mostCurvedSegment(double& share) const;
 
 private:
@@ -51,12 +52,12 @@ private:
   double distanceAt(double s, const Vec<2>& x) const { return (this->at(s) - x).norm(); }
   double refine(std::size_t segment, const Vec<2>& x, double& distance) const;
 
-  std::vector<Vec<2>> points_; ///< closed: the first one again at the end
-  std::vector<double> knots_;  ///< parameter of each
+  std::vector<Vec<2>> points_; ///< of a closed curve: the first one again at the end
+  std::vector<double> knots_;  ///< parameter of each point
   bool isClosed_;
   bool isSpline_;
   Spline spline_;
-  double splineBegin_ = 0.0, splineLength_ = 1.0; ///< Eigen's splines live on [0, 1]
+  double splineBegin_ = 0.0, splineLength_ = 1.0; ///< for Eigen's splines, whose range is [0, 1]
 };
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Surface.h
-/// What the surface of a mesh is where it takes part: curves and patches that nodes slide along.
+/// The surface of a mesh, where it takes part: curves and patches along which nodes slide.
 #ifndef meshopt_Surface_Surface_h
 #define meshopt_Surface_Surface_h
 
@@ -16,19 +16,19 @@ namespace meshopt
 struct Span
 {
   Index part;      ///< number of the curve
-  double from, to; ///< parameters; those of a closed curve may be out of its range
+  double from, to; ///< parameters; for a closed curve they may be out of its range
 };
 
-/// The neighbours of a point along its curve: between them it may slide.
+/// The neighbours of a point along its curve. The point may slide between them.
 struct SlidingRange
 {
   std::array<Index, 2> ends;
-  double low, high; ///< parameters of ends[0] and ends[1] as seen from the point; low need not be the less
+  double low, high; ///< parameters of ends[0] and ends[1] from the point; low may be the greater
 };
 
-/// Says what points of the surface may do. Where on the surface each point lies (SimplexMesh::place())
-/// is kept by the mesh, and changed by its editor; a surface itself never changes during a run, and
-/// any number of threads may ask it at the same time. Points without a place are fixed.
+/// Says what points of the surface may do. The mesh stores the place of each point on the surface
+/// (SimplexMesh::place()), and its editor changes it. A surface itself never changes during a run,
+/// and any number of threads may use it at the same time. Points without a place are fixed.
 template <int D>
 class Surface
 {
@@ -38,30 +38,30 @@ public:
   /// The point at a place on a curve.
   virtual Vec<D> at(Index part, double parameter) const = 0;
 
-  /// The place nearest to x on the part that `place` is on, and the point there.
+  /// The place nearest to x on the part of `place`, and the point there.
   virtual Place project(const Place& place, const Vec<D>& x, Vec<D>& there) const = 0;
 
-  /// Orthonormal directions in which a point at a place may move, in `basis`; returns how many: one
-  /// on a curve, two on a patch.
+  /// The orthonormal directions in which a point at a place may move, in `basis`. Returns their
+  /// number: one on a curve, two on a patch.
   virtual int tangents(const Place& place, const Vec<D>& x, std::array<Vec<D>, D>& basis) const = 0;
 
   /// The span of the kept edge from a to b. Empty if the edge is on no curve.
   virtual std::optional<Span> span(const SimplexMesh<D>& mesh, Index a, Index b) const = 0;
 
-  /// The neighbours of v along its curve; `star`: its cells. Empty if v does not slide along one.
+  /// The neighbours of v along its curve; `star`: its cells. Empty if v does not slide along a
+  /// curve.
   virtual std::optional<SlidingRange> range(
     const SimplexMesh<D>& mesh, const std::vector<Index>& star, Index v) const = 0;
 
-  /// Whether the edge from a to b, kept or of kept facets, may be divided.
+  /// Whether the edge from a to b, itself kept or in kept facets, may be divided.
   virtual bool mayDivide(const SimplexMesh<D>& mesh, Index a, Index b) const = 0;
 
-  /// Whether the two facets of the surface at the edge (a, b), with third nodes c and d, may become
-  /// those at the edge (c, d) (D = 3).
-  virtual bool maySwap(
-    const SimplexMesh<D>& mesh, Index a, Index b, Index c, Index d) const = 0;
+  /// Whether the two facets of the surface at the edge (a, b), with third nodes c and d, may be
+  /// replaced by those at the edge (c, d) (D = 3).
+  virtual bool maySwap(const SimplexMesh<D>& mesh, Index a, Index b, Index c, Index d) const = 0;
 
-  /// Whether v may vanish into its neighbour u: the surface stays what it is, nothing folds, and no
-  /// curve or corner is lost. `star`: the cells of v.
+  /// Whether v may vanish into its neighbour u: the shape of the surface stays, nothing folds, and
+  /// no curve or corner is lost. `star`: the cells of v.
   virtual bool mayJoin(
     const SimplexMesh<D>& mesh, const std::vector<Index>& star, Index v, Index u) const = 0;
 };

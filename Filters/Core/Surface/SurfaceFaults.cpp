@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Surface/SurfaceFaults.h"
 
+#include "Mesh/Ids.h"
 #include "Mesh/Predicates.h"
 
 #include <Eigen/Geometry>
@@ -14,7 +15,7 @@ namespace meshopt
 {
 namespace
 {
-/// The given cells and those that share a node with them, twice over.
+/// Marks the given cells and two layers around them; a layer shares nodes with the one before.
 template <int D>
 std::vector<char> neighbourhood(const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
 {
@@ -43,7 +44,7 @@ std::vector<char> neighbourhood(const SimplexMesh<D>& mesh, const std::vector<In
   return isNear;
 }
 
-/// A kept facet: its ids sorted, and from where it is seen (one side of it).
+/// A kept facet: its ids sorted, and its handle from one side.
 template <int D>
 struct Kept
 {
@@ -53,7 +54,7 @@ struct Kept
   bool operator==(const Kept& o) const { return this->nodes == o.nodes; }
 };
 
-/// Kept facets of the marked cells, once each.
+/// Kept facets of the marked cells, each once.
 template <int D>
 std::vector<Kept<D>> keptFacets(const SimplexMesh<D>& mesh, const std::vector<char>& isNear)
 {
@@ -64,8 +65,7 @@ std::vector<Kept<D>> keptFacets(const SimplexMesh<D>& mesh, const std::vector<ch
     {
       if (mesh.isConstrained(c, i))
       {
-        facets.push_back({ mesh.facet(c, i), SimplexMesh<D>::handle(c, i) });
-        std::sort(facets.back().nodes.begin(), facets.back().nodes.end());
+        facets.push_back({ sortedIds(mesh.facet(c, i)), SimplexMesh<D>::handle(c, i) });
       }
     }
   }
@@ -86,21 +86,21 @@ bool hasNoArea(const SimplexMesh<3>& mesh, const Facet<3>& f)
   return a.cross(b).norm() <= 1e-14 * longest;
 }
 
-/// Two edges of the plane from node p to a and b: one above the other?
+/// Whether two edges in the plane, from node p to a and to b, lie on each other.
 bool lieOnEachOther(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b)
 {
   return orient(p, a, b) == 0 && (a - p).dot(b - p) > 0.0;
 }
 
-/// Two triangles p, q, a and p, q, b: one above the other?
+/// Whether two triangles p, q, a and p, q, b lie on each other.
 bool lieOnEachOther(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b)
 {
   const Vec<3> e = q - p;
   return orient(p, q, a, b) == 0 && e.cross(Vec<3>(a - p)).dot(e.cross(Vec<3>(b - p))) > 0.0;
 }
 
-/// Angle of a cell between its facets that meet in what is left without nodes a and w; negative if
-/// the cell is inverted.
+/// The angle of a cell between its two facets without node a and without node w; negative if the
+/// cell is inverted.
 double angle(const SimplexMesh<2>& mesh, Index c, Index a, Index w)
 {
   const Corners<2> x = mesh.corners(c);
@@ -124,8 +124,9 @@ double angle(const SimplexMesh<3>& mesh, Index c, Index a, Index w)
   return orientation(mesh.corners(c)) * std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
-/// The angle that the cells from kept facet `handle` on fill around what the facet has without node
-/// a, up to the next kept facet, whose other node comes back in a. Far off if there is none.
+/// The angle filled by cells around the side that a kept facet has without its node a, from this
+/// facet (`handle`) to the next kept one. Returns the other node of that one in a. A huge value if
+/// there is none.
 template <int D>
 double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
 {
@@ -148,8 +149,8 @@ double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
   return 1e9;
 }
 
-/// Two facets that lie on each other and differ in a and b: is the mesh between them, with no room,
-/// or is it all around, as at the end of a closed crack?
+/// Two facets lie on each other and differ in the nodes a and b. True if the mesh is between them,
+/// where it has no room; false if it is all around them, as at the end of a closed crack.
 template <int D>
 bool isFolded(const SimplexMesh<D>& mesh, const Kept<D>& f, Index a, Index b)
 {
@@ -166,8 +167,8 @@ bool isFolded(const SimplexMesh<D>& mesh, const Kept<D>& f, Index a, Index b)
   return false;
 }
 
-/// Does the line of edge (p, q) pass through the inside of triangle (a, b, c), p and q on opposite
-/// sides of it? One of its edges may be hit; a node may not: surfaces that touch do that.
+/// Whether edge (p, q) passes through triangle (a, b, c), with p and q on opposite sides of it. It
+/// may hit an edge of the triangle, but not a node: that is what surfaces do that only touch.
 bool pierces(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b, const Vec<3>& c)
 {
   if (orient(a, b, c, p) * orient(a, b, c, q) >= 0)
@@ -208,7 +209,7 @@ bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
   return oneWay(f, g) || oneWay(g, f);
 }
 
-/// The fault of two facets, if they have one.
+/// Whether two facets have a fault, and of which kind.
 template <int D>
 bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
   typename SurfaceFault<D>::Kind& kind)
@@ -280,7 +281,7 @@ std::vector<SurfaceFault<D>> findSurfaceFaults(
       faults.push_back({ Fault::NoArea, { f.nodes, f.nodes } });
     }
   }
-  const std::vector<Box<D>> sorted = boxes(mesh, facets); // by their low x: a sweep meets all pairs
+  const std::vector<Box<D>> sorted = boxes(mesh, facets); // by low x: the sweep meets all pairs
   for (std::size_t i = 0; i < sorted.size(); ++i)
   {
     for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[0] <= sorted[i].high[0]; ++j)
@@ -303,7 +304,7 @@ std::vector<SurfaceFault<D>> findSurfaceFaults(
 
 namespace
 {
-/// How much of all directions the angle between these edges takes up.
+/// The fraction of all directions within the angle between these edges.
 double shareOfDirections(const std::array<Vec<2>, 2>& e)
 {
   const double cross = e[0][0] * e[1][1] - e[0][1] * e[1][0];

@@ -10,8 +10,8 @@ namespace meshopt::fem
 {
 namespace
 {
-/// Loads whose resultant along a free motion is less than this part of their sum are in equilibrium:
-/// rounding in coordinates and loads leaves no more.
+/// Loads are in equilibrium if their resultant along a free motion is less than this fraction of
+/// their sum. Rounding in coordinates and loads is smaller.
 constexpr double Equilibrium = 1e-6;
 
 /// Where the parts of the work end, as fractions of the progress.
@@ -78,7 +78,7 @@ private:
     return text.empty() ? check(this->mesh_, this->problem_) : Error{ text };
   }
 
-  /// Nothing may move freely, unless that is taken care of.
+  /// Free rigid motions are an error unless the problem says how to handle them.
   std::optional<Error> handleRigidMotions()
   {
     this->modes_ = findRigidModes(this->mesh_, this->constraints_);
@@ -99,11 +99,11 @@ private:
     if (!imbalance.empty())
     {
       return Error{
-        "The loads are not in equilibrium, and nothing holds against them: " + imbalance + "."
+        "The loads are not in equilibrium, and no constraint balances them: " + imbalance + "."
       };
     }
-    // Conjugate gradients stay orthogonal to the free motions by themselves; the factorizations need
-    // a regular matrix.
+    // Conjugate gradients stay orthogonal to the free motions by themselves. The factorizations
+    // need a regular matrix.
     if (this->problem_.rigidMotion == RigidMotion::Pin ||
       this->options_.solver.solver != Solver::ConjugateGradient)
     {
@@ -162,6 +162,7 @@ private:
       s.strainEnergyDensity[c] = 0.5 * this->d_.elasticity(cell).energyProduct(s.elementStress[c]);
       s.strainEnergy += this->d_.elements[c].volume * s.strainEnergyDensity[c];
     }
+    // Internal forces minus loads: only where a component is prescribed is the rest a reaction.
     const std::vector<Vec<D>> internal = internalForces(
       this->mesh_, this->d_, s.elementStress, this->control_);
     s.reaction.assign(internal.size(), Vec<D>::Zero());
@@ -196,6 +197,7 @@ private:
       squares += e * e;
     }
     s.totalErrorEstimate = std::sqrt(squares);
+    // The recovered solution has about the energy of the computed one plus that of the error.
     const double norm2 = 2.0 * s.strainEnergy + squares;
     s.relativeErrorEstimate = norm2 > 0.0 ? std::sqrt(squares / norm2) : 0.0;
   }

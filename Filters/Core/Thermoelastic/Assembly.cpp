@@ -33,7 +33,7 @@ ElementGeometry<D> elementGeometry(const Corners<D>& x)
   return g;
 }
 
-/// Cells around each point, by counting.
+/// Finds the cells around each point, by counting.
 template <int D>
 Rows findCellsOfPoints(const SimplexMesh<D>& mesh)
 {
@@ -62,7 +62,7 @@ Rows findCellsOfPoints(const SimplexMesh<D>& mesh)
   return rows;
 }
 
-/// Points that share a cell with point p, p included, ascending.
+/// Points that share a cell with point p, in ascending order and including p.
 template <int D>
 void findNeighbours(
   const SimplexMesh<D>& mesh, const Rows& cellsOfPoint, Index p, std::vector<Index>& neighbours)
@@ -77,7 +77,7 @@ void findNeighbours(
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
 }
 
-/// Block (i, j) of an element's matrix. Products are grouped such that block (j, i) is its exact
+/// Block (i, j) of an element's matrix. Products are grouped so that block (j, i) is its exact
 /// transpose.
 template <int D>
 Tensor<D> stiffnessBlock(const ElementGeometry<D>& g, const Elasticity<D>& e, int i, int j)
@@ -96,7 +96,8 @@ Tensor<D> stiffnessBlock(const ElementGeometry<D>& g, const Elasticity<D>& e, in
   return block;
 }
 
-/// What temperature and the strain out of the plane put on the right-hand side at node i.
+/// The part of the right-hand side at node i that comes from temperature and from the strain out of
+/// the plane.
 template <int D>
 Vec<D> initialForce(const Discretization<D>& d, Index cell, int i)
 {
@@ -106,7 +107,7 @@ Vec<D> initialForce(const Discretization<D>& d, Index cell, int i)
   return g.volume * (e.beta * d.rise(cell) - e.lambda * normal) * g.gradients[i];
 }
 
-/// Gathers the rows of one point after another.
+/// Gathers the rows of one point after the other.
 template <int D>
 class RowGatherer
 {
@@ -140,6 +141,7 @@ private:
     for (const Index* c = cells.begin(p); c != cells.end(p); ++c)
     {
       const int i = this->mesh_.localIndex(*c, p);
+      // neighbours_ is sorted: each block goes to the place of its column.
       for (int j = 0; j <= D; ++j)
       {
         const auto place = std::lower_bound(
@@ -166,6 +168,7 @@ private:
       {
         const Index dof = D * this->neighbours_[k] + b;
         const double value = this->blocks_[k](a, b);
+        // Known displacements go to the right-hand side.
         if (this->unknowns_.numbers[dof] == None)
         {
           right -= value * this->unknowns_.prescribed[dof];
@@ -189,7 +192,7 @@ private:
   Vec<D> force_;
 };
 
-/// Number of entries of the rows of each point.
+/// Number of entries in the rows of each point.
 template <int D>
 std::vector<int> countEntries(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   const Unknowns& unknowns, const Control& control)

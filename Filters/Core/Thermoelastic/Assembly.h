@@ -2,14 +2,14 @@
 /// @file Assembly.h
 /// From the mesh to the linear system: gradients, sparsity, matrix and right-hand side.
 ///
-/// Rows are gathered point by point from the cells around the point, in ascending order of their
-/// ids. No two threads write the same row, and no sum depends on who does what: the same bits for
-/// any number of threads. The matrix is symmetric bit by bit.
+/// Rows are gathered point by point from the cells around the point, in ascending order of cell
+/// ids. No two threads write the same row, and no sum depends on the distribution of work: the bits
+/// do not depend on the number of threads. The matrix is symmetric bit by bit.
 #ifndef meshopt_Thermoelastic_Assembly_h
 #define meshopt_Thermoelastic_Assembly_h
 
-#include "Mesh/SimplexMesh.h"
 #include "Base/Control.h"
+#include "Mesh/SimplexMesh.h"
 #include "Thermoelastic/Problem.h"
 
 #include <Eigen/SparseCore>
@@ -19,7 +19,7 @@
 
 namespace meshopt::fem
 {
-/// What an element's matrix is made of.
+/// The geometry that an element's matrix depends on.
 template <int D>
 struct ElementGeometry
 {
@@ -35,13 +35,13 @@ struct Rows
   const Index* end(Index i) const { return this->items.data() + this->offsets[i + 1]; }
 };
 
-/// A mesh made ready for finite elements.
+/// A mesh prepared for finite elements.
 template <int D>
 struct Discretization
 {
   std::vector<ElementGeometry<D>> elements;
   std::vector<Elasticity<D>> materials; ///< one, or one per cell
-  std::vector<double> temperatureRise;  ///< mean of each cell over the reference; empty: zero
+  std::vector<double> temperatureRise;  ///< mean of each cell above the reference; empty: zero
   Rows cellsOfPoint;                    ///< ascending
   double outOfPlaneStrain = 0.0;
 
@@ -55,16 +55,16 @@ struct Discretization
   }
 };
 
-/// Preconditions: check() has found nothing.
+/// Precondition: check() has found no error.
 template <int D>
 Discretization<D> discretize(
   const SimplexMesh<D>& mesh, const Problem<D>& problem, const Control& control);
 
-/// Which components of which points are unknown.
+/// The unknown components of the points.
 struct Unknowns
 {
-  /// Number of the unknown, or None where the displacement is prescribed or no cell uses the point;
-  /// D per point.
+  /// D per point: number of the unknown; None if the displacement is prescribed or no cell uses the
+  /// point.
   std::vector<Index> numbers;
   std::vector<double> prescribed; ///< D per point; zero where nothing is prescribed
   Index count = 0;
@@ -73,7 +73,7 @@ struct Unknowns
 template <int D>
 Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint>& constraints);
 
-/// Row major, so that its rows can be multiplied in parallel.
+/// Row major, so that rows can be multiplied in parallel.
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 struct LinearSystem
@@ -82,8 +82,8 @@ struct LinearSystem
   Eigen::VectorXd right;
 };
 
-/// The equations of the unknowns; prescribed displacements are on the right-hand side. A matrix of
-/// 2^31 entries or more is std::bad_alloc.
+/// The equations of the unknowns; prescribed displacements are on the right-hand side. Throws
+/// std::bad_alloc if the matrix has 2^31 entries or more.
 template <int D>
 LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& discretization,
   const Unknowns& unknowns, const std::vector<Vec<D>>& forces, const Control& control);
@@ -94,7 +94,7 @@ std::vector<Stress<D>> elementStresses(const SimplexMesh<D>& mesh,
   const Discretization<D>& discretization, const std::vector<Vec<D>>& displacement,
   const Control& control);
 
-/// Forces at each point that keep the element stresses in equilibrium: integral of B' sigma.
+/// Forces at each point that are in equilibrium with the element stresses: integral of B' sigma.
 template <int D>
 std::vector<Vec<D>> internalForces(const SimplexMesh<D>& mesh,
   const Discretization<D>& discretization, const std::vector<Stress<D>>& stress,

@@ -42,7 +42,7 @@ private:
   Eigen::IncompleteCholesky<double, Eigen::Lower> factor_;
 };
 
-/// How far the logarithm of the residual has come.
+/// Progress, from the logarithm of the residual.
 double fractionDone(double residual, double tolerance)
 {
   const double f = std::log(residual) / std::log(tolerance);
@@ -71,6 +71,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
       break;
     }
     multiply(system.matrix, p, control, product);
+    // Not positive: the matrix is singular or indefinite up to rounding.
     const double curvature = p.dot(product);
     const double step = rz / curvature;
     if (!(curvature > 0.0) || !std::isfinite(step))
@@ -104,7 +105,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
 SolverReport factorize(const LinearSystem& system, const SolverOptions& options, VectorXd& x)
 {
   SolverReport report;
-  // 64 bits: the factor can have far more entries than the matrix.
+  // 64 bits, since the factor can have far more entries than the matrix.
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
   const Matrix lower = system.matrix.triangularView<Eigen::Lower>();
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<std::int64_t>> factor(lower);

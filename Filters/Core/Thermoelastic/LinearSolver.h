@@ -2,9 +2,9 @@
 /// @file LinearSolver.h
 /// Solves the assembled system: conjugate gradients, or a factorization.
 ///
-/// The conjugate gradients are those of Eigen's class ConjugateGradient, step by step, with what it
-/// does not give: the residual after each step, products on several threads, progress, an end when
-/// the matrix turns out singular.
+/// The conjugate gradients follow Eigen's class ConjugateGradient step by step. They add what it
+/// does not have: the residual after each step, products on several threads, progress, and an end
+/// if the matrix turns out to be singular.
 #ifndef meshopt_Thermoelastic_LinearSolver_h
 #define meshopt_Thermoelastic_LinearSolver_h
 
@@ -17,12 +17,12 @@ namespace meshopt::fem
 {
 enum class Solver
 {
-  /// Conjugate gradients, preconditioned by the diagonal: the paper's.
+  /// Conjugate gradients, preconditioned by the diagonal, as in the paper.
   ConjugateGradient = 0,
-  /// The same, preconditioned by Eigen's incomplete Cholesky factorization: some three times fewer
+  /// The same, preconditioned by Eigen's incomplete Cholesky factorization. Some three times fewer
   /// steps, each twice as long; the preconditioner runs on one thread.
   IncompleteCholesky = 1,
-  /// Eigen's SimplicialLDLT. Memory and time grow fast: for some ten thousand points in space.
+  /// Eigen's SimplicialLDLT. Memory and time grow fast: for up to some ten thousand points in 3D.
   Direct = 2
 };
 
@@ -37,9 +37,9 @@ enum class SolverStatus
 {
   NotRun = 0,
   Converged,
-  IterationLimit, ///< the tolerance was not reached in so many steps
-  /// The matrix is not positive definite to rounding, or the residual is no number: no further
-  /// step is possible.
+  IterationLimit, ///< the tolerance was not reached in this many steps
+  /// The matrix is not positive definite up to rounding, or the residual is NaN: no further step is
+  /// possible.
   Breakdown,
   Cancelled
 };
@@ -50,17 +50,16 @@ const char* toString(SolverStatus status);
 struct SolverReport
 {
   SolverStatus status = SolverStatus::NotRun;
-  /// Steps, that is products with the matrix. (Eigen's iterations() is one less when it converges,
-  /// since it does not count the step that does.) 0 for Solver::Direct.
+  /// Steps, that is products with the matrix. (Eigen's iterations() is lower by one on convergence,
+  /// since it does not count the last step.) 0 for Solver::Direct.
   int iterations = 0;
-  double relativeResidual = 0.0; ///< |b - A x| / |b|; of conjugate gradients the recurrence's
-  /// Relative residual before the first and after each step.
+  double relativeResidual = 0.0; ///< |b - A x| / |b|; for conjugate gradients by recurrence
+  /// Relative residual before the first step and after each step.
   std::vector<double> history;
 };
 
-/// Solves from x = 0. A matrix that is only semidefinite is fine for ConjugateGradient if the right
-/// side is in its range. Cancelling: by `control.progress`, which is told a fraction of
-/// [first, last].
+/// Solves from x = 0. For ConjugateGradient the matrix may be semidefinite if the right-hand side
+/// is in its range. `control.progress` gets fractions of [first, last], and may cancel.
 SolverReport solve(const LinearSystem& system, const SolverOptions& options, const Control& control,
   double first, double last, Eigen::VectorXd& x);
 }

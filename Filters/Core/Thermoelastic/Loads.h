@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Loads.h
-/// Tractions on facets as the consistent forces on their points: f_i = integral of N_i t.
+/// Tractions on facets, as the consistent forces on their points: f_i = integral of N_i t.
 #ifndef meshopt_Thermoelastic_Loads_h
 #define meshopt_Thermoelastic_Loads_h
 
@@ -11,13 +11,13 @@
 
 namespace meshopt::fem
 {
-/// Facets of the surface, in the order of (cell, local facet). Ordered as in Local<D>::facets, so
-/// that areaVector() looks inward.
+/// Facets of the surface, ordered by (cell, local facet). Their points are ordered as in
+/// Local<D>::facets, so that areaVector() points inward.
 template <int D>
 std::vector<Facet<D>> surfaceFacets(const SimplexMesh<D>& mesh);
 
-/// Normal times area (length in the plane) of a facet; for a facet of surfaceFacets() it looks into
-/// the body.
+/// Normal times area (2D: length) of a facet. For a facet of surfaceFacets() it points into the
+/// body.
 template <int D>
 Vec<D> areaVector(const std::array<Vec<D>, D>& x);
 
@@ -32,14 +32,13 @@ std::array<Vec<D>, D> facetCorners(const SimplexMesh<D>& mesh, const Facet<D>& f
   return x;
 }
 
-/// Adds to `forces` (one per point) what a traction exerts that is linear on the facet with these
-/// values at its points: exact, measure / (D (D + 1)) (t_i + sum t).
+/// Adds to `forces` (one per point) the exact forces of a traction that is linear on the facet,
+/// with these values at its points: measure / (D (D + 1)) (t_i + sum t).
 template <int D>
 void addTraction(const SimplexMesh<D>& mesh, const Facet<D>& facet,
   const std::array<Vec<D>, D>& traction, std::vector<Vec<D>>& forces);
 
-/// The same for a pressure, positive when it pushes against the body, on a facet of
-/// surfaceFacets().
+/// The same for a pressure on a facet of surfaceFacets(); positive if it pushes against the body.
 template <int D>
 void addPressure(const SimplexMesh<D>& mesh, const Facet<D>& facet,
   const std::array<double, D>& pressure, std::vector<Vec<D>>& forces);

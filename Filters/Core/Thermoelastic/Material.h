@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Material.h
-/// The isotropic linear thermoelastic law, in space and in the plane.
+/// The isotropic linear thermoelastic law, in 3D and 2D.
 #ifndef meshopt_Thermoelastic_Material_h
 #define meshopt_Thermoelastic_Material_h
 
@@ -10,8 +10,8 @@
 
 namespace meshopt::fem
 {
-/// Material of an element. Any consistent units: stresses come out in those of Young's modulus.
-/// The defaults are uranium dioxide in SI.
+/// Material of an element, in any consistent units: stresses have the units of Young's modulus. The
+/// defaults are uranium dioxide in SI.
 struct Material
 {
   double youngsModulus = 2e11;    ///< E > 0
@@ -19,24 +19,24 @@ struct Material
   double thermalExpansion = 1e-5; ///< alpha, per unit of temperature; any finite value
 };
 
-/// What holds across the plane (D = 2 only).
+/// The state across the plane (D = 2 only).
 enum class PlaneState
 {
   PlaneStrain = 0, ///< the strain along the normal is given (zero, or Problem::outOfPlaneStrain)
   PlaneStress = 1  ///< the stress along the normal is zero
 };
 
-/// A sentence without subject that says why `m` is unusable, such as "Young's modulus is -1; ...",
-/// with `where` ("", " of cell 5") put behind the name; empty if it is usable.
+/// A sentence that says why `m` is unusable, such as "Young's modulus is -1; ...". `where` ("", "
+/// of cell 5") is put behind the name. Empty if `m` is usable.
 std::string checkMaterial(const Material& m, const std::string& where);
 
-/// The law in Lame's form: sigma = lambda tr(e) I + 2 mu e - beta dT I. For plane stress, lambda and
-/// beta are those of the condensed law, the trace is over the plane, and ZZ is zero.
+/// The law in Lame's form: sigma = lambda tr(e) I + 2 mu e - beta dT I. For plane stress, lambda
+/// and beta are those of the condensed law, the trace is over the plane, and ZZ is zero.
 template <int D>
 struct Elasticity
 {
   double lambda = 0.0, mu = 0.0;
-  double beta = 0.0; ///< stress per unit of temperature when all strain is prevented
+  double beta = 0.0; ///< stress per unit of temperature if all strain is prevented
   double youngsModulus = 0.0, poissonsRatio = 0.0;
   bool planeStress = false;
 
@@ -53,8 +53,8 @@ struct Elasticity
       m.thermalExpansion;
   }
 
-  /// Stress from the displacement gradient g(i, j) = d u_i / d x_j, a temperature above the
-  /// reference, and in the plane the strain along its normal.
+  /// Stress from the displacement gradient g(i, j) = d u_i / d x_j, the temperature above the
+  /// reference, and in 2D the strain along the normal.
   Stress<D> stress(const Tensor<D>& g, double dT, double outOfPlaneStrain) const
   {
     const double normal = D == 2 && !this->planeStress ? outOfPlaneStrain : 0.0;
@@ -77,7 +77,7 @@ struct Elasticity
     return s;
   }
 
-  /// What `dT` adds to a stress at the same strain.
+  /// The stress that `dT` adds at the same strain.
   Stress<D> thermalStress(double dT) const
   {
     Stress<D> s = Stress<D>::Zero();

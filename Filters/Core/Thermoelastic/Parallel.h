@@ -4,15 +4,15 @@
 #ifndef meshopt_Thermoelastic_Parallel_h
 #define meshopt_Thermoelastic_Parallel_h
 
-#include "Mesh/Types.h"
 #include "Base/Control.h"
+#include "Mesh/Types.h"
 
 #include <algorithm>
 
 namespace meshopt::fem
 {
 /// Calls body(begin, end) for parts of [0, n) on the caller's threads. The parts depend on n only.
-/// A body must write nothing that another part reads or writes.
+/// A body must not write anything that another part reads or writes.
 template <class Body>
 void parallelRanges(const Control& control, Index n, const Body& body)
 {

@@ -144,8 +144,8 @@ std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
     text
       << "Cell " << c << (s < -FlatShape ? " is inverted" : " is flat") << ": its "
       << (D == 3 ? "volume" : "area") << " is " << signedVolume(x)
-      << ". Every element needs a positive one; Mesh Optimize mends such cells where the surface "
-         "lets it.";
+      << ". Every element needs a positive one. Mesh Optimize repairs such cells where the surface "
+         "allows it.";
     return Error{ text.str(), c };
   }
   return std::nullopt;

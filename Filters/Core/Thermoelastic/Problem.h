@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Problem.h
-/// What is to be solved: material, temperature, loads and constraints on a mesh.
+/// The problem to be solved: material, temperature, loads and constraints on a mesh.
 #ifndef meshopt_Thermoelastic_Problem_h
 #define meshopt_Thermoelastic_Problem_h
 
@@ -13,7 +13,7 @@
 
 namespace meshopt::fem
 {
-/// Why a problem cannot be solved: a sentence for the user that names what is wrong and where.
+/// Why a problem cannot be solved: a sentence for the user that says what is wrong and where.
 struct Error
 {
   std::string message;
@@ -29,21 +29,21 @@ struct Constraint
   double value = 0.0;
 };
 
-/// What happens to rigid motions that the constraints leave free. They change no stress, but without
-/// a choice among them the equations have no unique solution.
+/// How to handle rigid motions that the constraints leave free. They do not change stress, but
+/// without a choice among them the solution is not unique.
 enum class RigidMotion
 {
   Forbid = 0, ///< an error that names one of them
-  /// As many components of single points are held at zero as there are free motions (the 3-2-1 rule
-  /// if nothing else is prescribed). The points are chosen far apart, see pinRigidMotions().
+  /// Single components of points are held at zero, as many as there are free motions (the 3-2-1
+  /// rule if nothing else is prescribed). The points are chosen far apart, see pinRigidMotions().
   Pin = 1,
-  /// The displacement is the one without a part in them: mean translation and rotation, weighted by
-  /// volume, are zero. Conjugate gradients need no pins for that and converge faster.
+  /// The free part of the displacement is removed: mean translation and rotation, weighted by
+  /// volume, are zero. Conjugate gradients need no pins for this, and converge faster.
   Project = 2
 };
 
-/// A linear thermoelastic problem on a SimplexMesh<D>: displacement per point, P1 elements. In the
-/// plane everything is per unit of thickness.
+/// A linear thermoelastic problem on a SimplexMesh<D>: displacement per point, P1 elements. In 2D
+/// everything is per unit of thickness.
 template <int D>
 struct Problem
 {
@@ -52,12 +52,12 @@ struct Problem
   PlaneState planeState = PlaneState::PlaneStrain; ///< D = 2 only
   double outOfPlaneStrain = 0.0;                   ///< D = 2 with PlaneStrain only
 
-  /// Per point, or empty: no thermal load. Linear in each element. Points that no cell uses may have
-  /// anything.
+  /// Per point; empty: no thermal load. Linear in each element. Points that no cell uses may have
+  /// any value.
   std::vector<double> temperature;
   double referenceTemperature = 0.0; ///< at which there is no thermal strain
 
-  std::vector<Constraint> constraints; ///< of one component twice: the last one counts
+  std::vector<Constraint> constraints; ///< if a component occurs twice, the last one counts
   std::vector<Vec<D>> forces;          ///< per point, or empty: none. See Loads.h
   RigidMotion rigidMotion = RigidMotion::Forbid;
 
@@ -67,25 +67,26 @@ struct Problem
   }
 };
 
-/// Least shape quality (2.3) of an element that is not taken for one of zero volume: below, rounding
-/// decides about the sign of the volume.
+/// Lowest shape quality (2.3) at which an element does not count as flat. Below it, rounding
+/// decides the sign of the volume.
 inline constexpr double FlatShape = 1e-12;
 
-/// Everything that can be said before solving: lengths of arrays, material, temperature, forces,
+/// All checks that are possible before solving: lengths of arrays, material, temperature, forces,
 /// constraints, inverted and flat cells. (Free rigid motions: see RigidModes.h.)
 template <int D>
 std::optional<Error> check(const SimplexMesh<D>& mesh, const Problem<D>& problem);
 
 /// The strain along `axis` (0 .. D - 1; for D = 2 also 2, the normal of the plane) at which a body
-/// with free sides carries no resultant force along it: the mean of alpha (T - Tref), weighted by
-/// E and volume. Exact for a prism along the axis where nu is the same everywhere. The sum runs over
-/// the elements with their mean temperature. Preconditions: check() has found nothing.
+/// with free sides has no resultant force along it. It is the mean of alpha (T - Tref), weighted by
+/// E and volume. Exact for a prism along the axis with the same nu everywhere. The sum is over the
+/// elements with their mean temperatures. Precondition: check() has found no error.
 template <int D>
 double freeAxialStrain(const SimplexMesh<D>& mesh, const Problem<D>& problem);
 
-/// Generalised plane strain: appends constraints such that the displacement along `axis` is zero at
-/// all points of the lowest plane and strain times height at all points of the highest; a point
-/// belongs to a plane within `tolerance` times the height. Their other components stay free.
+/// Generalised plane strain: appends constraints so that the displacement along `axis` is zero at
+/// all points of the lowest plane, and strain times height at all points of the highest plane. A
+/// point belongs to a plane if it is within `tolerance` times the height. Other components stay
+/// free.
 template <int D>
 void constrainEnds(
   const SimplexMesh<D>& mesh, int axis, double strain, double tolerance, Problem<D>& problem);

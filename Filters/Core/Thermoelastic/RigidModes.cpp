@@ -12,7 +12,7 @@ namespace meshopt::fem
 {
 namespace
 {
-/// Displacement at r from the centre by each of the motion's six (three) numbers.
+/// Displacement at r from the centre, for each of the six (2D: three) numbers of the motion.
 template <int D>
 using MotionMatrix = Eigen::Matrix<double, D, MotionSize<D>>;
 
@@ -57,7 +57,7 @@ struct Groups
     }
     return i;
   }
-  /// The lower id leads, so that the result does not depend on the order.
+  /// The lower id becomes the leader, so that the result does not depend on the order.
   void join(Index i, Index j)
   {
     i = this->find(i);
@@ -66,8 +66,8 @@ struct Groups
   }
 };
 
-/// Column echelon form with rotations eliminated first: columns without a rotation to stand on are
-/// translations; these come first. Each column ends with norm 1.
+/// Column echelon form that eliminates rotations first. Columns without a rotation as pivot are
+/// translations; these come first in the result. Each column gets norm 1.
 template <int D>
 Eigen::MatrixXd nameMotions(Eigen::MatrixXd m)
 {
@@ -79,7 +79,7 @@ Eigen::MatrixXd nameMotions(Eigen::MatrixXd m)
   {
     while (done < m.cols())
     {
-      // The greatest entry that is left; a margin, so that rounding does not choose.
+      // The greatest entry left, with a margin, so that rounding does not decide.
       Index row = None, column = None;
       double most = 1e-6;
       for (Index r = 0; r < m.rows(); ++r)
@@ -226,6 +226,7 @@ private:
     }
     for (Body& body : bodies)
     {
+      // Too many bodies for a dense problem: all get one place, as if they were one rigid body.
       body.place = sizes[body.group] > MostBodiesInGroup ? 0 : body.place;
     }
     this->modes_.groups.resize(sizes.size());
@@ -266,6 +267,7 @@ private:
       if (b != None)
       {
         const Body& body = this->modes_.bodies[b];
+        // A constrained component must not move: its row, squared, goes into the normal matrix.
         const Eigen::Matrix<double, 1, M> row = motionMatrix(
           this->modes_.groups[body.group], this->mesh_.point(c.point))
                                                   .row(c.component);
@@ -283,6 +285,7 @@ private:
       const Index i = M * a.place, j = M * this->modes_.bodies[h.bodyB].place;
       const MotionMatrix<D> m = motionMatrix(
         this->modes_.groups[a.group], this->mesh_.point(h.point));
+      // At a hinge both bodies must move alike: the square of the difference of their motions.
       const Eigen::Matrix<double, M, M> block = m.transpose() * m;
       Eigen::MatrixXd& normal = this->normals_[a.group];
       normal.template block<M, M>(i, i) += block;
@@ -298,6 +301,7 @@ private:
     {
       const Eigen::MatrixXd& normal = this->normals_[g];
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
+      // The null space: the motions that violate nothing, up to rounding.
       const double tiny = 1e-13 * std::max(1.0, normal.trace());
       Index count = 0;
       while (count < normal.rows() && eigen.eigenvalues()[count] < tiny)
@@ -313,10 +317,10 @@ private:
   RigidModes<D>& modes_;
   std::vector<Index> bodyOfCell_;
   std::vector<Hinge> hinges_;
-  std::vector<Eigen::MatrixXd> normals_; // of each group: squares of what must be at rest
+  std::vector<Eigen::MatrixXd> normals_; // per group: sum of squares of all that must be at rest
 };
 
-/// Rounded for the reader, without "-0".
+/// Rounded for output, without "-0".
 double tidy(double x, double scale)
 {
   const double unit = 1e-6 * scale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is done about rigid motions that are free: pins, projection, a check of the loads.
+// Handling of free rigid motions: pins, projection, a check of the loads.
 #include "Thermoelastic/RigidModes.h"
 
 #include <Eigen/Dense>
@@ -23,7 +23,8 @@ std::vector<std::vector<Index>> pointsOfGroups(const RigidModes<D>& modes)
   return points;
 }
 
-/// The component among those of `points` that the motions displace most, and by how much each.
+/// The component of `points` that the motions displace most; `row`: its displacement by each
+/// motion.
 template <int D>
 Constraint findPin(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
   const std::vector<Index>& points, const Eigen::MatrixXd& motions, Eigen::RowVectorXd& row)
@@ -35,7 +36,7 @@ Constraint findPin(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
     const Eigen::Matrix<double, D, Eigen::Dynamic> u = modes.displacements(mesh, p, motions);
     for (int i = 0; i < D; ++i)
     {
-      // A margin, so that rounding does not choose among points that are as good.
+      // With a margin, so that rounding does not choose among equally good points.
       if (u.row(i).squaredNorm() > most * (1.0 + 1e-9))
       {
         most = u.row(i).squaredNorm();
@@ -60,7 +61,7 @@ std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidM
     {
       Eigen::RowVectorXd row;
       pins.push_back(findPin(mesh, modes, points[g], left, row));
-      // What is left: the combinations that do not displace the pinned component.
+      // The motions left are the combinations that do not displace the pinned component.
       const Eigen::MatrixXd column = row.transpose();
       const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(column).householderQ();
       left = (left * q.rightCols(left.cols() - 1)).eval();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Stress.h
-/// Symmetric stress in Voigt's form, and what is read off it.
+/// Symmetric stress in Voigt's form, and quantities derived from it.
 #ifndef meshopt_Thermoelastic_Stress_h
 #define meshopt_Thermoelastic_Stress_h
 
@@ -12,8 +12,8 @@
 
 namespace meshopt::fem
 {
-/// Components of a stress: XX YY ZZ XY YZ XZ in space (VTK's order), XX YY ZZ XY in the plane, where
-/// Z is the normal of the plane.
+/// Components of a stress: XX YY ZZ XY YZ XZ in 3D (VTK's order), XX YY ZZ XY in 2D, where Z is the
+/// normal of the plane.
 template <int D>
 inline constexpr int StressSize = D == 3 ? 6 : 4;
 
@@ -58,7 +58,7 @@ double vonMises(const Stress<D>& s)
     0.5 * (a * a + b * b + c * c) + 3.0 * s.template tail<StressSize<D> - 3>().squaredNorm());
 }
 
-/// The three principal stresses, the greatest first.
+/// The three principal stresses, greatest first.
 template <int D>
 Vec<3> principalStresses(const Stress<D>& s)
 {

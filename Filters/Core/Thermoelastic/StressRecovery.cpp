@@ -13,10 +13,10 @@ namespace meshopt::fem
 {
 namespace
 {
-/// Layers of cells that a patch may get around a point.
+/// Greatest number of layers of cells in a patch around a point.
 constexpr int MostLayers = 4;
-/// Least ratio of the extents (squared) of the centroids of a patch in its thinnest and its widest
-/// direction: below, it is taken for flat and determines no polynomial.
+/// Least ratio of the squared extents of the centroids of a patch, in its thinnest and its widest
+/// direction. Below it the patch counts as flat and determines no polynomial.
 constexpr double ThinnestPatch = 1e-6;
 
 template <int D>
@@ -30,8 +30,8 @@ Vec<D> centroid(const SimplexMesh<D>& mesh, Index cell)
   return sum / (D + 1);
 }
 
-/// A linear polynomial: mean + slope (x - centre). Around the mean of the sample points, constant and
-/// slope are independent of each other.
+/// A linear polynomial: mean + slope (x - centre). The centre is the mean of the sample points:
+/// constant and slope then decouple.
 template <int D>
 struct Fit
 {
@@ -68,6 +68,7 @@ Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D
     spread += d * d.transpose();
     fit.slope += (stress[*c] - fit.mean) * d.transpose();
   }
+  // Only the ratio of extents matters, so that the test does not depend on units.
   const Eigen::Matrix<double, D, D> aligned = spread;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> eigen(
     aligned, Eigen::EigenvaluesOnly);
@@ -100,7 +101,7 @@ void sortUnique(std::vector<Index>& ids)
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/// Fits at the nodes that have a patch of their own, then what follows from them at the others.
+/// Fits at the nodes that have a patch of their own; the other nodes are derived from these.
 template <int D>
 class PatchRecovery
 {
@@ -125,6 +126,7 @@ public:
   {
     for (Index n = begin; n < end; ++n)
     {
+      // On the surface a patch is one-sided: by default such nodes take what the interior ones say.
       if (this->isLocal_ || !this->nodes_.isOnSurface[n])
       {
         const Rows& cells = this->nodes_.cellsOfNode;
@@ -150,6 +152,7 @@ private:
     Stress<D> sum = Stress<D>::Zero();
     int count = 0;
     const Rows& cells = this->nodes_.cellsOfNode;
+    // In ascending order, so that the sum always has the same bits.
     for (Index n : this->nodesAround(cells.begin(node), cells.end(node)))
     {
       if (this->fits_[n].isValid)
@@ -158,6 +161,7 @@ private:
         ++count;
       }
     }
+    // No interior neighbour has a fit, as in thin parts: only then the node's own surroundings.
     return count > 0 ? Stress<D>(sum / count) : this->byEnlargedPatch(node, x);
   }
 
@@ -174,6 +178,7 @@ private:
   }
 
   Stress<D> byEnlargedPatch(Index node, const Vec<D>& x) const
+  // Layer by layer, since a larger patch smooths more.
   {
     const Rows& cells = this->nodes_.cellsOfNode;
     std::vector<Index> around = this->nodesAround(cells.begin(node), cells.end(node));
@@ -206,7 +211,7 @@ private:
   std::vector<Fit<D>> fits_;
 };
 
-/// A pair (point, region) per corner of a cell, sorted: equal pairs are one node.
+/// A corner of a cell as (point, region). Sorted, equal pairs are neighbours and make one node.
 struct Corner
 {
   Index point, region, cell;
@@ -234,6 +239,7 @@ RecoveryMesh<D> makeRecoveryMesh(const SimplexMesh<D>& mesh)
       corners.push_back({ mesh.nodes(c)[i], mesh.region(c), c, i });
     }
   }
+  // By point first: stressAtPoints() needs the nodes of one point in a row.
   std::sort(corners.begin(), corners.end());
   nodes.cells.resize(cells);
   for (std::size_t k = 0; k < corners.size(); ++k)
@@ -254,6 +260,7 @@ RecoveryMesh<D> makeRecoveryMesh(const SimplexMesh<D>& mesh)
     for (int i = 0; i <= D; ++i)
     {
       const Index other = mesh.adjacent(c, i);
+      // A facet between regions counts as surface on both sides: stress may jump there.
       const bool isInside = other != None &&
         mesh.region(SimplexMesh<D>::cellOf(other)) == mesh.region(c);
       for (int k = 0; k < D && !isInside; ++k)
@@ -283,6 +290,7 @@ std::vector<Stress<D>> recoverStress(const SimplexMesh<D>& mesh, const RecoveryM
       });
     return stress;
   }
+  // Two loops over the nodes: the second one reads fits of other nodes.
   PatchRecovery<D> recovery(mesh, nodes, elementStress, method == StressRecovery::LocalPatch);
   parallelRanges(
     control, nodes.count(), [&](Index begin, Index end) { recovery.fitOwn(begin, end); });
@@ -318,6 +326,7 @@ std::vector<Stress<D>> stressAtPoints(const SimplexMesh<D>& mesh, const Recovery
       sum += v * nodalStress[last];
       volume += v;
     }
+    // In a single region the value stays as it is, without rounding by the division.
     stress[point] = last == first + 1 ? nodalStress[first] : Stress<D>(sum / volume);
     first = last;
   }
@@ -336,12 +345,13 @@ std::vector<double> estimateErrors(const SimplexMesh<D>& mesh, const Problem<D>&
     {
       for (Index c = begin; c < end; ++c)
       {
-        // With e linear, integral of q(e) = V / ((D + 1) (D + 2)) (sum of q(e_i) + q(sum of e_i)).
+        // For linear e: integral of q(e) = V / ((D + 1) (D + 2)) (sum of q(e_i) + q(sum of e_i)).
         const Elasticity<D>& law = d.elasticity(c);
         Stress<D> sum = Stress<D>::Zero();
         double squares = 0.0;
         for (int i = 0; i <= D; ++i)
         {
+          // The linear temperature makes the stress of the solution linear in the cell.
           const double here = problem.temperature.empty()
             ? 0.0
             : problem.temperature[mesh.nodes(c)[i]] - problem.referenceTemperature - d.rise(c);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Pass.hxx
-/// One pass of the fast engine: its bad cells are shared out among chunks, each drains its queue.
+/// One pass of the fast engine: the bad cells are shared out among chunks, and each chunk drains
+/// its queue.
 #ifndef meshopt_WorstFirst_Pass_hxx
 #define meshopt_WorstFirst_Pass_hxx
 
@@ -8,7 +9,7 @@ namespace meshopt
 {
 namespace worstfirst
 {
-/// One cell in a hundred, in small meshes more.
+/// How many cells count as few: see FewCells.
 template <int D, class Shape>
 long Schedule<D, Shape>::fewCells() const
 {
@@ -23,13 +24,15 @@ void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
   this->tried_.fill(0);
   this->done_.fill(0);
   this->drain(task, bad, MaximumChunks);
-  // Long cells lie across some border each time: they must not wait for better borders. Past the
-  // target there is time for that: stages are many, and one by one costs more than threads bring.
+  // Cells that are long compared with a chunk lie across some border in every pass and must not
+  // wait for better borders. Past the target they may wait: there are many stages, and a pass
+  // without borders uses one thread only.
   const bool past = this->guard_ && task.target > this->options_.targetQuality;
   const std::vector<Index>& heldUp = this->chunks_.heldUp();
   const bool many = this->guard_ && heldUp.size() > bad.size() / HeldUpPart;
   if (!heldUp.empty() && !past && (many || this->hardlyAny(bad)))
   {
+    // The first drain may have improved or removed cells that it held up earlier.
     std::vector<Index> rest;
     std::copy_if(heldUp.begin(), heldUp.end(), std::back_inserter(rest),
       [&](Index c) { return this->mesh().isAlive(c) && this->mesh().quality(c) < task.target; });
@@ -37,31 +40,35 @@ void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
   }
 }
 
-/// Shares the bad cells out and tries each until none gains.
+/// Shares out the bad cells and tries each, until no queue has a cell left.
 template <int D, class Shape>
 void Schedule<D, Shape>::drain(const Task& task, const std::vector<Index>& bad, int mostChunks)
 {
   const int n = this->numberOfChunks(bad.size(), mostChunks);
+  // Each drain with several chunks takes the next shift, so that a cell held up now is inside a
+  // chunk later.
   this->chunks_.open(n, n > 1 ? Shifts[this->variant_++ % std::size(Shifts)] : 0.0, bad);
   this->instruct(task);
-  this->chunks_.run(this->run_.control, [&](Worker& w) { this->work(w, task); },
+  this->chunks_.run(
+    this->run_.control, [&](Worker& w) { this->work(w, task); },
     [&] { return this->goesOn(task.target); });
   this->chunks_.close();
   this->gather();
 }
 
-/// As many as there is work for; but one where cells overlap, since checks then look anywhere.
+/// As many chunks as there is work for. But one if cells may overlap: the checks then look at cells
+/// anywhere in the mesh, which may belong to other chunks.
 template <int D, class Shape>
 int Schedule<D, Shape>::numberOfChunks(std::size_t numberOfBadCells, int most) const
 {
   const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
   int n = static_cast<int>(std::min<long>(
     this->mesh().numberOfCellSlots() / CellsPerChunk, static_cast<long>(numberOfBadCells) / each));
-  n -= n % 2; // the odd one would be left to one of two threads
+  n -= n % 2; // with an odd number, one of two threads would wait for the other
   return this->tangled_ ? 1 : std::min(std::max(n, 1), most);
 }
 
-/// Tells the judges of all chunks what is asked, and how many cells each may add.
+/// Tells the judges of all chunks the task, and how many cells each may add.
 template <int D, class Shape>
 void Schedule<D, Shape>::instruct(const Task& task)
 {
@@ -70,9 +77,12 @@ void Schedule<D, Shape>::instruct(const Task& task)
   const long few = this->fewCells();
   const long limit = onTheWay && task.level == Level::LookAhead ? few / n
                                                                 : std::numeric_limits<long>::max();
-  // While many cells are stuck it does not pay to lift one of them by making others bad.
+  // Where many cells are stuck, it does not pay to lift one of them by making others bad: all
+  // changes are then guarded at the target. Otherwise the guard only keeps cells from falling below
+  // the first stage.
   const bool many = onTheWay && task.level > 0 && task.below > few;
   const double guard = !this->guard_ ? -1.0 : many ? task.target : Stages[0];
+  // The shares are fixed before the pass: a chunk must not depend on what others use up meanwhile.
   const long reserve = this->guard_ ? this->reserve_ : 0;
   Growth share;
   share.left = (this->growth_ - reserve) / n;
@@ -92,7 +102,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
   }
 }
 
-/// Takes over what the workers have counted, and the growth that they have left.
+/// Collects the counts of the workers and the growth that they have left.
 template <int D, class Shape>
 void Schedule<D, Shape>::gather()
 {
@@ -113,8 +123,9 @@ void Schedule<D, Shape>::gather()
   this->growth_ = left + (this->guard_ ? this->reserve_ : 0);
 }
 
-/// The level of the next try of a worker. Insertion and look-ahead are given up for a pass in which
-/// they hardly ever help; cells are then still tried cheaply: a border may have kept them from it.
+/// The level of a worker's next try. Insertion and look-ahead are given up for a pass if they
+/// hardly ever help. The remaining cells are still tried at the lowest level: a border may have
+/// kept them from it until now.
 template <int D, class Shape>
 int Schedule<D, Shape>::patientLevel(Worker& w, int level) const
 {
@@ -126,7 +137,7 @@ int Schedule<D, Shape>::patientLevel(Worker& w, int level) const
   return w.isPatient ? level : Level::Topology;
 }
 
-/// Drains the queue of one chunk, up to a number of tries.
+/// Drains the queue of one chunk, up to a number of tries. What remains waits for the next round.
 template <int D, class Shape>
 void Schedule<D, Shape>::work(Worker& w, const Task& task)
 {
@@ -137,12 +148,16 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
     const auto [q, c] = w.queue.top();
     w.queue.pop();
     level = this->patientLevel(w, level);
+    // The queue is not updated when a quality changes: an entry with another quality is out of
+    // date. Cells without hope are skipped before they count as a try.
     if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
       this->caps_.isCapped(mesh, c))
     {
       continue;
     }
     --tries;
+    // Many tries per cell mean that the same nodes move again and again by little: ask for more
+    // then.
     if (++w.tries > Creeping * w.given && this->guard_)
     {
       w.improver.judge().setGain(std::max(this->gain_, CoarseGain));
@@ -150,6 +165,7 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
     w.editor.resetBlocked();
     if (w.improver.improve(c, level))
     {
+      // What the change has made and is still bad is tried again in this pass.
       ++w.kept;
       for (Index changed : w.improver.judge().changed())
       {
@@ -159,6 +175,7 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
         }
       }
     }
+    // A failure is remembered only if no border played a part in it: another pass may succeed.
     else if (!w.editor.blocked())
     {
       w.editor.setFailed(c, w.editor.clock(), this->rank(level));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Polish.hxx
-/// The end of a stage of the fast engine: the few worst cells get the hardest tries.
+/// The end of a stage of the fast engine: the few worst cells get the most expensive tries.
 #ifndef meshopt_WorstFirst_Polish_hxx
 #define meshopt_WorstFirst_Polish_hxx
 
@@ -8,9 +8,10 @@ namespace meshopt
 {
 namespace worstfirst
 {
-/// The few worst cells once more, now at the price of others becoming bad; again as long as that
-/// lifts the worst one. Where it does not, what surrounds them is lifted first, in ever wider
-/// neighbourhoods. Finely: for smaller gains, and closer to the caps.
+/// Tries the few worst cells again, now even if other cells become bad. Repeats this as long as the
+/// worst cell gets better. When it does not, more of the worst cells are taken, and then the cells
+/// around them are lifted first, in ever wider neighbourhoods. `finely`: for smaller gains, and
+/// closer to the caps. False if the run has to end.
 template <int D, class Shape>
 bool Schedule<D, Shape>::polish(double target, bool finely)
 {
@@ -22,25 +23,30 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
   const bool past = finely || this->isPast(target);
   bool more = true;
   std::vector<Entry> worst;
-  // Where facets have tiny caps the next worst cells, and what surrounds them, are spared on purpose.
+  // With tiny caps on facets the next worst cells and their surroundings are spared on purpose:
+  // there the search does not widen.
   const bool widens = past && !this->caps_.hasTiny();
   std::size_t wanted = PolishedCells;
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
   {
     const double worstOfAll = this->findWorst(target, wanted, worst);
-    // Where a cap is what limits the worst cell, the next ones are worth it only if they are bad and
-    // gain much.
+    // If a cap holds the worst cell, the next ones are tried only if they are bad (under the second
+    // stage), and have to gain more.
     if (worst.empty() || worst[0].first > std::max(worstOfAll, Stages[1]))
     {
       break;
     }
     const double before = this->worst();
     this->gain_ = worst[0].first > worstOfAll ? CoarseGain : leastGain;
-    // Near its cap a cell is not worth the work around it.
+    // Whether the worst cell is near its cap, by the usual fraction also when polishing finely:
+    // such a cell is not worth the work around it.
     this->caps_.setReached(CapReached);
     const bool nearCap = this->caps_.isCapped(this->mesh(), worst[0].second);
     this->caps_.setReached(reached);
+    // The target lies just above the last of these cells, so that the stage takes them and no
+    // others.
     more = this->stage(std::nextafter(worst.back().first, 1.0));
+    // The worst cell gained enough: start again with the smallest neighbourhood.
     if (this->worst() > before + RoundGain * this->gain_ * std::fabs(before))
     {
       layers = 0;
@@ -48,6 +54,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     }
     else if (!widens || nearCap)
     {
+      // First more cells; only then wider surroundings.
       break;
     }
     else if (worst.size() == wanted && wanted < MostPolishedCells)
@@ -55,6 +62,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
       wanted *= 2;
     }
     else if (more && ++layers <= LiftedLayers)
+    // The worst cells may be others by now.
     {
       wanted = PolishedCells;
       this->findWorst(target, wanted, worst);
@@ -71,7 +79,8 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
   return more;
 }
 
-/// The worst cells under target that no cap holds, in order; returns the worst quality of all.
+/// The `wanted` worst cells under target that no cap holds, in order. Returns the worst quality of
+/// all cells, capped ones included.
 template <int D, class Shape>
 double Schedule<D, Shape>::findWorst(
   double target, std::size_t wanted, std::vector<Entry>& worst) const
@@ -96,7 +105,7 @@ double Schedule<D, Shape>::findWorst(
   return worstOfAll;
 }
 
-/// The given cells, and so many layers of those that share a node with them.
+/// The given cells and `layers` layers around them; a layer shares a node with the one before.
 template <int D, class Shape>
 std::vector<Index> Schedule<D, Shape>::cellsAround(
   const std::vector<Entry>& cells, int layers) const
@@ -126,11 +135,13 @@ std::vector<Index> Schedule<D, Shape>::cellsAround(
   return zone;
 }
 
-/// Improves the cells in so many layers around the given ones towards a quality above theirs.
+/// Improves the cells of `layers` layers around the given ones. Their target lies above the quality
+/// of the worst given cell: LiftStep for each layer.
 template <int D, class Shape>
 bool Schedule<D, Shape>::liftAround(const std::vector<Entry>& cells, int layers)
 {
   const std::vector<Index> zone = this->cellsAround(cells, layers);
+  // All levels up to insertion, since these cells are not stuck yet: the cheap changes come first.
   const double gain = std::exchange(this->gain_, Gain);
   const double target = cells[0].first + layers * LiftStep;
   bool more = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Schedule.h
-/// One run of the fast engine for one shape measure: stages, their passes, and when to end. Only
-/// included by the few files that instantiate it.
+/// One run of the fast engine for one shape measure: its stages and passes, and when it ends.
+/// Included only by the few files that instantiate it.
 #ifndef meshopt_WorstFirst_Schedule_h
 #define meshopt_WorstFirst_Schedule_h
 
@@ -33,13 +33,13 @@ public:
 private:
   using Entry = std::pair<double, Index>;
 
-  /// Who works on one chunk.
+  /// Works on one chunk.
   struct Worker : ChunkWorker<D>
   {
     Improver<D, Shape> improver;
     long kept = 0, tries = 0; // in this pass
-    long limit = 0;           // of such tries
-    bool isPatient = true;    // insertion and look-ahead are still worth a try
+    long limit = 0;           // of the tries above the lowest level
+    bool isPatient = true;    // insertion and look-ahead are still tried
 
     Worker(const Run<D>& run, const QualityModel<D, Shape>& model, const Caps<D>& caps)
       : ChunkWorker<D>(run.editor)
@@ -53,7 +53,7 @@ private:
   {
     double target;
     int level;
-    long below; ///< cells under the target, also those that are not tried
+    long below; ///< cells under the target, including those not tried
   };
 
   void findTangle();
@@ -79,7 +79,7 @@ private:
     return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
   }
   bool worthTrying(Index c, int level) const;
-  /// How hard a try is: those without guard are the hardest.
+  /// How hard a try is, to compare with an earlier failure. Tries without guard are the hardest.
   int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }
   bool goesOn(double target);
   void setInverted(long cells);
@@ -87,7 +87,7 @@ private:
   StopReason reason();
 
   const SimplexMesh<D>& mesh() const { return this->run_.mesh(); }
-  bool isPast(double target) const { return target > this->options_.targetQuality + 1e-9; }
+  bool isPast(double target) const { return target > this->options_.targetQuality + SameTarget; }
   double worst() const { return this->run_.report.history.back().worst; }
 
   Run<D>& run_;
@@ -101,15 +101,15 @@ private:
   double usualGain_; ///< least gain of a change
   double gain_;
   double polishTarget_ = 0.0;
-  bool tangled_ = true;               ///< cells may lie on each other
+  bool tangled_ = true;               ///< cells may overlap
   bool inverted_ = true;              ///< some are inverted
   std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
   std::optional<bool> overlaps_;      ///< see mayOverlap(): known once no cell is inverted
   long growth_, mostGrowth_;          ///< see Growth
-  long allowed_;                      ///< growth_ at first
-  long reserve_;                      ///< of the growth, for polish()
-  bool isShort_ = false;              ///< a change has been left out for want of growth
-  long kept_ = 0;                     ///< changes of the pass
+  long allowed_;                      ///< growth_ at the start
+  long reserve_;                      ///< part of the growth reserved for polish()
+  bool isShort_ = false;              ///< a change was left out for lack of growth budget
+  long kept_ = 0;                     ///< accepted changes of the pass
   std::array<long, NumberOfOperations> tried_{}, done_{};
   double stageDone_ = 0.0;
   double passBegin_; ///< by the clock
@@ -130,18 +130,18 @@ Schedule<D, Shape>::Schedule(Run<D>& run)
   , reserve_(run.growth / ReservedPart)
   , passBegin_(run.clock.seconds())
 {
-  // Where sizes are wanted as many cells may go as must.
+  // If sizes are followed, any number of cells may vanish.
   this->mostGrowth_ = this->model_.plain
     ? run.growth + static_cast<long>(ShrinkBudget * this->mesh().countCells())
     : std::numeric_limits<long>::max();
 }
 
-/// Whether cells may lie on each other: checks are needed then that cost much.
+/// Finds out whether cells may overlap: every change then needs expensive checks.
 template <int D, class Shape>
 void Schedule<D, Shape>::findTangle()
 {
   this->tangled_ = this->run_.report.invertedBefore > 0 || this->mesh().numberOfFoldedFacets() > 0;
-  if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // else it costs time
+  if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // elsewhere too slow
   {
     this->pinched_ = pinchedPoints<D>(this->mesh());
     this->tangled_ = this->tangled_ || !this->pinched_.empty();
@@ -154,14 +154,16 @@ void Schedule<D, Shape>::findTangle()
   this->setInverted(inverted);
 }
 
-/// The stages below the target and the target itself; with the best effort also those above it.
+/// The stages below the target, then the target. With the best effort also those above it, up to
+/// the certified bound.
 template <int D, class Shape>
 std::vector<double> Schedule<D, Shape>::stages() const
 {
   std::vector<double> result;
   for (double s : Stages)
   {
-    if (s < this->options_.targetQuality - 1e-9)
+    // A little below the target, so that a stage equal to it is not run twice.
+    if (s < this->options_.targetQuality - SameTarget)
     {
       result.push_back(s);
     }
@@ -181,6 +183,7 @@ std::vector<double> Schedule<D, Shape>::stages() const
 template <int D, class Shape>
 int Schedule<D, Shape>::highestLevel() const
 {
+  // Polishing is for a few cells that all cheaper levels have failed on.
   if (!this->guard_)
   {
     return Level::LongLookAhead;
@@ -192,9 +195,11 @@ template <int D, class Shape>
 void Schedule<D, Shape>::optimize()
 {
   this->findTangle();
+  // Caps are needed up to the highest target of any stage: a cell above that is never tried.
   const double highest = this->options_.effort == Effort::Best
     ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
     : this->options_.targetQuality;
+  // No cap is certified if the metric varies or if the surface itself can change.
   this->caps_.build(this->mesh(), this->options_.measure, highest,
     this->run_.metric.isTrivial() && !this->run_.surface);
   this->caps_.setFull(this->options_.targetQuality / TinyReached);
@@ -211,17 +216,20 @@ void Schedule<D, Shape>::optimize()
     if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
     {
       more = this->polish(stages[k], false);
-      // What the worst cells cost others is made good where it can be.
+      // Polishing made other cells worse: repair these.
       if (more && !past)
       {
+        // Nothing comes after the last stage: it may use the reserve.
         this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
         more = this->weighedStage(stages[k]);
       }
     }
-    // Past the target, two stages that did not lift the worst cell are the end.
+    // Past the target the run ends after MostIdle stages that did not lift the worst cell.
     const bool stuck = this->worst() < before + Gain;
     idle = past && stuck ? idle + 1 : 0;
   }
+  // The fine polish also makes other cells worse. Bring those that can be repaired back to the
+  // target.
   if (more && this->options_.effort == Effort::Best && this->polish(stages.back(), true))
   {
     this->weighedStage(this->options_.targetQuality);
@@ -229,7 +237,7 @@ void Schedule<D, Shape>::optimize()
   this->run_.report.stopReason = this->reason();
 }
 
-/// A stage with qualities weighed; without tiny facets a stage like any other.
+/// A stage with weighted qualities (Weights.h). Without tiny caps it is a plain stage.
 template <int D, class Shape>
 bool Schedule<D, Shape>::weighedStage(double target)
 {
@@ -239,8 +247,8 @@ bool Schedule<D, Shape>::weighedStage(double target)
   return more;
 }
 
-/// Passes of rising effort over the cells under the target, until none is left or they get nowhere.
-/// False if the run has to end.
+/// Passes of rising effort over the cells under the target, until none is left or they gain hardly
+/// anything. False if the run has to end.
 template <int D, class Shape>
 bool Schedule<D, Shape>::stage(double target)
 {
@@ -248,10 +256,14 @@ bool Schedule<D, Shape>::stage(double target)
   const int highest = this->highestLevel();
   long below = 0;
   bool raised = false;
+  // Without guard (polishing) the first pass is at the highest level: it includes all cheaper
+  // operations, and those have just failed on these cells.
   for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
   {
     const int level = std::min(pass, highest);
     const long belowBefore = std::exchange(below, this->collect(target, level, bad));
+    // Most cells of a large mesh can be stuck. A pass that neither lifts the worst nor makes them
+    // clearly fewer then ends the stage.
     const bool idle = this->guard_ && pass > highest && !raised && below > this->fewCells() &&
       below > HardlyFewer * belowBefore;
     if ((bad.empty() && level == highest) || idle)
@@ -259,6 +271,7 @@ bool Schedule<D, Shape>::stage(double target)
       break;
     }
     const double before = this->worst();
+    // All have failed at this level: a higher one may help.
     if (bad.empty())
     {
       continue;
@@ -278,7 +291,7 @@ bool Schedule<D, Shape>::stage(double target)
   return true;
 }
 
-/// What has failed is tried again only harder, or once something has changed around it.
+/// A failed cell is tried again only with more effort, or after something has changed around it.
 template <int D, class Shape>
 bool Schedule<D, Shape>::worthTrying(Index c, int level) const
 {
@@ -289,7 +302,8 @@ bool Schedule<D, Shape>::worthTrying(Index c, int level) const
       [&](Index p) { return this->mesh().pointData(p).stamp > data.stamp; });
 }
 
-/// The cells under the target that are worth a try; returns how many are under it that no cap holds.
+/// Collects the cells under the target that are worth a try. Returns how many are under the target
+/// and not capped, tried or not.
 template <int D, class Shape>
 long Schedule<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
 {
@@ -323,7 +337,8 @@ bool Schedule<D, Shape>::goesOn(double target)
   return this->run_.clock.goesOn(this->stageDone_, text);
 }
 
-/// So many cells are inverted; where none is any more, cells may lie on each other all the same.
+/// Sets the number of inverted cells. Cells may overlap even if none is inverted: this is checked
+/// once, when no cell is inverted any more.
 template <int D, class Shape>
 void Schedule<D, Shape>::setInverted(long cells)
 {
@@ -339,7 +354,7 @@ void Schedule<D, Shape>::setInverted(long cells)
   }
 }
 
-/// A row of the history, with qualities as they are.
+/// Adds a row to the history. It shows the true qualities, not the weighted ones.
 template <int D, class Shape>
 void Schedule<D, Shape>::record(double target, int pass)
 {
@@ -361,7 +376,7 @@ void Schedule<D, Shape>::record(double target, int pass)
   const double now = this->run_.clock.seconds();
   row.seconds = now - std::exchange(this->passBegin_, now);
   std::vector<PassRecord>& history = this->run_.report.history;
-  if (history.back().stage == row.stage) // the many short passes of one polish make one row
+  if (history.back().stage == row.stage) // the many short passes of one polish become one row
   {
     row.addWork(history.back());
     history.pop_back();
@@ -375,7 +390,7 @@ StopReason Schedule<D, Shape>::reason()
 {
   long below = 0;
   long& capped = this->run_.report.cappedCells;
-  capped = 0; // there may have been a run before
+  capped = 0; // an earlier run may have set it
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
     if (this->mesh().isAlive(c) && this->mesh().quality(c) < this->options_.targetQuality)
@@ -388,6 +403,7 @@ StopReason Schedule<D, Shape>::reason()
   {
     return this->run_.stopped();
   }
+  // A small rest counts as used up: hardly any change fits into it.
   const double nothing = UsedUp * static_cast<double>(this->allowed_) + OneNode;
   const bool isUsedUp = this->isShort_ && static_cast<double>(this->growth_) <= nothing;
   return below == 0   ? StopReason::TargetReached

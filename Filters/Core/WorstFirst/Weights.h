@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Weights.h
-/// Cells on facets with tiny caps, judged by what they could have (Caps::weight()).
+/// Weighted qualities: cells on facets with tiny caps are judged by what they could reach
+/// (Caps::weight()).
 #ifndef meshopt_WorstFirst_Weights_h
 #define meshopt_WorstFirst_Weights_h
 
@@ -12,8 +13,8 @@
 
 namespace meshopt
 {
-/// Switches between qualities as they are and weighed ones, which the mesh then holds. Linear each
-/// time where facets have tiny caps; nothing at all where none has.
+/// Switches the qualities stored in the mesh between true and weighted ones. Each switch is linear
+/// in the size of the mesh, but costs nothing if no facet has a tiny cap.
 template <int D, class Shape>
 class Weights
 {
@@ -27,12 +28,14 @@ public:
 
   bool areOn() const { return this->model_.weights != nullptr; }
 
-  /// From now on qualities are weighed, but never such that one gets worse than the worst is now: that
-  /// is the floor. Called again, it raises the floor to what is the worst by then.
+  /// From now on qualities are weighted, except for cells whose true quality is under the floor:
+  /// the worst quality at this moment. No cell can therefore become worse than the floor and still
+  /// look good. A further call raises the floor to the worst quality by then.
   void switchOn()
   {
     if (this->caps_.hasTiny())
     {
+      // First the true qualities, for the floor; then the weighted ones.
       this->model_.floor = std::max(0.0, this->update(nullptr));
       this->update(&this->caps_);
       this->caps_.setWeighed(true);
@@ -48,7 +51,8 @@ public:
   }
 
 private:
-  /// Computes the qualities of cells with a weight anew; returns the worst of all.
+  /// Recomputes the quality of all cells that have a weight. Returns the worst quality of all
+  /// cells.
   double update(const Caps<D>* weights)
   {
     const SimplexMesh<D>& mesh = this->editor_.mesh();

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file WorstFirst.h
-/// The fast engine: bad cells, worst first, each met with the cheapest change that helps.
+/// The fast engine: takes bad cells worst first, and applies the cheapest change that helps each.
 ///
-/// In stages of rising targets. A stage makes passes over the cells under its target; passes are of
-/// rising effort (Level.h), and each drains a queue ordered by (quality, id), shared out among chunks
-/// of the mesh (ChunkedPass.h). What fails is tried again only after something has changed around it.
+/// It works in stages of rising targets. A stage makes passes of rising effort (Level.h) over the
+/// cells under its target. Each pass drains a queue ordered by (quality, id), which is shared out
+/// among chunks of the mesh (ChunkedPass.h). A failed cell is tried again only after something has
+/// changed around it, or with more effort.
 #ifndef meshopt_WorstFirst_WorstFirst_h
 #define meshopt_WorstFirst_WorstFirst_h
 
@@ -12,8 +13,8 @@
 
 namespace meshopt
 {
-/// Optimizes the mesh, whose qualities must be up to date (and are kept so); appends one row per
-/// stage and pass to the history and sets stopReason, bound and cappedCells of the report.
+/// Optimizes the mesh. Its qualities must be up to date, and are kept up to date. Appends one row
+/// per stage and pass to the history, and sets stopReason, bound and cappedCells of the report.
 template <int D>
 void optimizeWorstFirst(Run<D>& run);
 

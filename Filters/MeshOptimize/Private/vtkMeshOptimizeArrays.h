@@ -29,7 +29,7 @@ enum ArrayIndex
 };
 
 /**
- * The arrays of one grid; nullptr for those that are not wanted or not there.
+ * The arrays of one grid; nullptr for those that were not chosen or do not exist.
  */
 struct InputArrays
 {
@@ -41,22 +41,22 @@ struct InputArrays
 };
 
 /**
- * Chooses an array of this index by its name: vtkAlgorithm::SetInputArrayToProcess() with what the
- * array is on. nullptr or "": none.
+ * Chooses the array of this index by name, with vtkAlgorithm::SetInputArrayToProcess() for points
+ * or cells. nullptr or "": none.
  */
 void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name);
 
 /**
- * Finds the arrays that the caller of `filter` wants in `grid`, and checks types and numbers of
- * components. Returns a sentence about the first that cannot be used. One that is not there is no
+ * Finds the arrays in `grid` that the caller of `filter` chose, and checks their types and numbers
+ * of components. Returns a sentence about the first one that cannot be used. A missing array is no
  * error here: another block may have it.
  */
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays);
 
 /**
- * Returns a sentence about the first array that the caller of `filter` wants and none of `grids`
- * has; an empty string if there is none, or if no grid has cells (a process without a piece). The
- * array of index `elsewhere` has been found in another place.
+ * Returns a sentence about the first chosen array that none of `grids` has. An empty string if
+ * there is none, or if no grid has cells (a process without a piece). The array of index
+ * `elsewhere` was found in another place.
  */
 std::string CheckArraysAreThere(
   vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids, int elsewhere = -1);

@@ -38,7 +38,7 @@ vtkDataArray* FindCorners(vtkAlgorithm* filter, vtkPolyData* geometry)
 }
 
 /**
- * `corners`, if there is one, must have one number per point of `geometry`.
+ * `corners`, if given, must have one number per point of `geometry`.
  */
 std::string CheckCorners(vtkPolyData* geometry, vtkDataArray* corners)
 {
@@ -95,7 +95,8 @@ std::string FindUsedPoints(vtkPolyData* geometry, std::vector<char>& used)
 }
 
 /**
- * Points of `geometry`, those in use, must be finite and in the plane of the mesh; `box` is theirs.
+ * The points of `geometry` that are in use must be finite and in the plane of the mesh; `box` is
+ * theirs.
  */
 std::string CheckPoints(
   vtkPolyData* geometry, const std::vector<char>& used, const Frame<2>& frame, vtkBoundingBox& box)
@@ -129,8 +130,8 @@ std::string CheckPoints(
 }
 
 /**
- * The lines of `geometry` in the plane of the mesh. Points at the same place (but for rounding)
- * become one, and so do lines with the same ends: both sides of a crack may be given as one line or
+ * The lines of `geometry` in the plane of the mesh. Points at the same place (up to rounding)
+ * become one, and so do lines with the same ends: the sides of a crack may be given as one line or
  * as two.
  */
 std::string ReadLines(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The enums of the filters have the numbers of the core's: values are cast from one to the other.
+// The enums of the filters have the same numbers as the core's: values are cast between them.
 #include "vtkMeshOptimizeFilter.h"
 #include "vtkMeshQualityMinMax.h"
 #include "vtkSolutionMetricFilter.h"

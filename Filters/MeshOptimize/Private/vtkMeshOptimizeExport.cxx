@@ -38,7 +38,8 @@ void MapPoints(const Model<D>& model, OutputMap& map)
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
     const bool isOld = p < mesh.numberOfInputPoints();
-    // What no simplex has used, or another cell still uses, is not the optimizer's to take away.
+    // A point that no simplex used, or that another cell still uses, is not the optimizer's to
+    // remove.
     const bool isOthers = isOld && model.Cells.PointUse[p] != vtkMeshBridge::UsedBySimplex;
     if (!isOthers && !mesh.isPointAlive(p))
     {
@@ -57,7 +58,8 @@ void MapPoints(const Model<D>& model, OutputMap& map)
 }
 
 /**
- * Is the cell in slot k still simplex k of the grid? (Its last nodes may have been swapped.)
+ * Whether the cell in slot k is still simplex k of the grid. (Its last nodes may have been
+ * swapped.)
  */
 template <int D>
 bool IsStillThere(vtkUnstructuredGrid* grid, vtkIdType cell, const SimplexMesh<D>& mesh, Index k)
@@ -134,9 +136,9 @@ void ExportPoints(const Model<D>& model, const OutputMap& map, vtkUnstructuredGr
 }
 
 /**
- * Node ids of an output cell. The core's order is kept, to which the qualities that it reports
- * belong to the last bit: that of the grid but for cells that were renumbered, or taken apart and
- * put together again.
+ * Node ids of an output cell, in the core's order: the qualities that it reports are those of this
+ * order, to the last bit. It is the order of the grid, except for cells that were renumbered, or
+ * removed and made again.
  */
 template <int D>
 void GetOutputNodes(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh<D>& mesh,
@@ -189,7 +191,7 @@ void InsertPolyhedron(
 }
 
 /**
- * Cell by cell: needed only for polyhedra.
+ * Copies cell by cell, which only polyhedra need.
  */
 template <int D>
 void InsertCells(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh<D>& mesh,

@@ -15,14 +15,6 @@ namespace vtkMeshOptimizeBridge
 namespace
 {
 
-/**
- * Stems of column names, in the order of meshopt::Operation.
- */
-constexpr const char* OperationNames[] = { "NodeMotion", "EdgeRemoval", "FaceRemoval",
-  "EdgeContraction", "NodeInsertion", "NodeReplacement", "Retriangulation", "LookAhead" };
-static_assert(sizeof(OperationNames) / sizeof(OperationNames[0]) == meshopt::NumberOfOperations,
-  "a name for each operation");
-
 template <class Array>
 void AddColumn(vtkTable* table, const std::string& name)
 {
@@ -56,7 +48,7 @@ void StartHistory(vtkTable* table, bool isComposite)
   }
   AddColumn<vtkIntArray>(table, "Pass");
   AddColumn<vtkStringArray>(table, "Stage");
-  for (const std::string name : OperationNames)
+  for (const std::string name : meshopt::OperationNames)
   {
     AddColumn<vtkIdTypeArray>(table, name + "Tried");
     AddColumn<vtkIdTypeArray>(table, name + "Done");
@@ -80,7 +72,7 @@ void AppendHistory(const meshopt::Report& report, int block, vtkTable* table)
     Append<vtkStringArray>(table, "Stage", row.stage);
     for (int i = 0; i < meshopt::NumberOfOperations; ++i)
     {
-      const std::string name = OperationNames[i];
+      const std::string name = meshopt::OperationNames[i];
       Append<vtkIdTypeArray>(table, name + "Tried", row.tried[i]);
       Append<vtkIdTypeArray>(table, name + "Done", row.done[i]);
     }

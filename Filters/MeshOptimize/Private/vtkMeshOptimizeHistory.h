@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What the run has to tell: the history table and the figures in the field data.
+ * The results of a run: the history table and the figures in the field data.
  */
 #ifndef vtkMeshOptimizeHistory_h
 #define vtkMeshOptimizeHistory_h
@@ -14,12 +14,12 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Puts the columns into an empty table; the first is Block if `isComposite`.
+ * Adds the columns to an empty table; the first one is Block if `isComposite`.
  */
 void StartHistory(vtkTable* table, bool isComposite);
 
 /**
- * Adds the rows of one grid. `block` is its flat index, not looked at without a Block column.
+ * Adds the rows of one grid. `block` is its flat index; it is ignored without a Block column.
  */
 void AppendHistory(const meshopt::Report& report, int block, vtkTable* table);
 

@@ -19,7 +19,7 @@ namespace
 {
 
 /**
- * Points of cells that pass through, and those of the caller's mask.
+ * Fixes the points of cells that pass through, and those of the caller's mask.
  */
 template <int D>
 void ImportFixedPoints(const Cells& cells, vtkDataArray* mask, MeshInput<D>& input)
@@ -48,8 +48,7 @@ void KeepTriangle(const vtkIdType* ids, MeshInput<3>& input)
 }
 
 /**
- * Triangles and lines that pass through are kept as faces and edges of the mesh where they are
- * such.
+ * Keeps triangles and lines that pass through, if they are faces or edges of the mesh.
  */
 template <int D>
 void ImportKept(vtkUnstructuredGrid* grid, const Cells& cells, MeshInput<D>& input)

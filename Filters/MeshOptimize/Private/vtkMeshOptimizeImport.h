@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * grid -> core: the mesh of a model, with what must be kept.
+ * grid -> core: the mesh of a model, with all that must be kept.
  */
 #ifndef vtkMeshOptimizeImport_h
 #define vtkMeshOptimizeImport_h
@@ -13,15 +13,15 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Points and simplices with what must be kept: regions, fixed points, and what other cells touch.
- * Point ids of the core are those of the grid; its cell k is model.Cells.Simplices[k].
+ * Points and simplices with all that must be kept: regions, fixed points, and what other cells
+ * touch. Points of the core have the ids of the grid; its cell k is model.Cells.Simplices[k].
  */
 template <int D>
 meshopt::MeshInput<D> ImportMesh(const Model<D>& model);
 
 /**
- * Makes model.Mesh from the rest of the model. Returns the sentence of SimplexMesh::build(), with
- * the cell ids of the grid, or an empty string.
+ * Makes model.Mesh from the rest of the model. Returns an empty string, or the sentence of
+ * SimplexMesh::build() with the cell ids of the grid.
  */
 template <int D>
 std::string BuildMesh(Model<D>& model);

@@ -20,7 +20,7 @@ namespace vtkMeshOptimizeBridge
 template <int D>
 struct Model
 {
-  vtkUnstructuredGrid* Grid = nullptr; ///< the input, which stays as it is
+  vtkUnstructuredGrid* Grid = nullptr; ///< the input; never changed
   InputArrays Arrays;                  ///< of the grid
   vtkMeshBridge::Cells Cells;          ///< of the grid; the simplices are those of Mesh
   vtkMeshBridge::Frame<D> Frame;

@@ -29,7 +29,7 @@ vtkDoubleArray* AddQualityArray(vtkUnstructuredGrid* output)
 }
 
 /**
- * Core points of an output cell; false if it is no simplex of dimension D.
+ * Core points of an output cell; false if it is not a simplex of dimension D.
  */
 template <int D>
 bool GetSimplex(
@@ -77,7 +77,7 @@ void AddMeshQuality(const Model<D>& model, const OutputMap& map, const meshopt::
             corners[i] = model.Mesh.point(nodes[i]);
           }
           const meshopt::ElementMetric<D> metric = model.Metric.element(nodes);
-          // A ghost without a usable size is not measured: only the shape would count.
+          // A ghost without a usable size is not measured: only its shape would count.
           const bool isUsable = options.beta == 0.0 || !std::isnan(metric.desiredSize);
           values[c] = isUsable ? quality.value(corners, metric) : values[c];
         }

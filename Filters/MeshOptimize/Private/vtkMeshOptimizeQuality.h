@@ -15,8 +15,8 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Quality (2.2) of every output cell that is a simplex of dimension D (ghosts as well), by the
- * measure, beta and metric of the run; NaN for the others.
+ * Quality (2.2) of every output cell that is a simplex of dimension D (including ghosts), by the
+ * measure, beta and metric of the run; NaN for all other cells.
  */
 template <int D>
 void AddMeshQuality(const Model<D>& model, const OutputMap& map, const meshopt::Options& options,

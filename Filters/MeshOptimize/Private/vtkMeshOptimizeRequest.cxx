@@ -10,7 +10,7 @@ namespace
 {
 
 /**
- * Which of two stop reasons says more about a whole of several grids.
+ * The stop reason that says more about several grids together.
  */
 int Strength(meshopt::StopReason reason)
 {
@@ -54,9 +54,9 @@ meshopt::Options Request::OptionsNow() const
   if (options.timeLimit > 0.0)
   {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Start;
-    // 0 would mean no limit
-    options.timeLimit =
-      std::max(options.timeLimit - spent.count(), std::numeric_limits<double>::min());
+    // 0 would mean: no limit
+    options.timeLimit = std::max(
+      options.timeLimit - spent.count(), std::numeric_limits<double>::min());
   }
   return options;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What is wanted of a run, and what came out of it: what all its steps speak of.
+ * The request for a run and its outcome: the data shared by all its steps.
  */
 #ifndef vtkMeshOptimizeRequest_h
 #define vtkMeshOptimizeRequest_h
@@ -23,7 +23,7 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * What is wanted.
+ * The request.
  */
 struct Request
 {
@@ -31,48 +31,48 @@ struct Request
   meshopt::Options Options;
   meshopt::Control Control;
   int NumberOfThreads = 1;
-  /// The time limit counts from here on: reading the grid is part of it, and so are other grids.
+  /// The time limit counts from here: it includes reading the grid, and all grids of the input.
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-  double OptimizeBelow = 0.0; ///< only cells under it may change, and layers around; 0: all
+  double OptimizeBelow = 0.0; ///< only cells under it, and layers around them, may change; 0: all
   int NumberOfLayers = 0;
   bool Slide = false; ///< the boundary may be remeshed along its curves
   meshopt::CurveOptions Curves;
-  vtkPolyData* Geometry = nullptr; ///< what the curves are made from; nullptr: the mesh itself
+  vtkPolyData* Geometry = nullptr; ///< source of the curves; nullptr: the mesh itself
 
-  /// Sizes count for the quality, or the boundary follows them.
+  /// Whether sizes are used: in the quality, or because the boundary follows them.
   bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }
 
-  /// The options for a run that begins now: with what is left of the time limit.
+  /// The options for a run that begins now: the time limit is what remains of it.
   meshopt::Options OptionsNow() const;
 };
 
 /**
- * What came out, for one grid or, after Add(), several.
+ * The outcome for one grid or, after Add(), for several.
  */
 struct Outcome
 {
   meshopt::Report Report;
-  vtkIdType NumberOfCells = 0; ///< that were optimized, after it
+  vtkIdType NumberOfCells = 0; ///< optimized cells, afterwards
   vtkIdType NumberOfCellsBefore = 0;
   vtkIdType NumberOfSimplices = 0; ///< linear ones of the greatest dimension, in the input
   vtkIdType NumberOfGhostSimplices = 0;
-  vtkIdType NumberOfSurfaceTriangles = 0; ///< of volumes that are no tetrahedra
+  vtkIdType NumberOfSurfaceTriangles = 0; ///< of volumes that are not tetrahedra
   vtkIdType NumberOfReorientedCells = 0;
   vtkIdType NumberOfQuadraticSimplices = 0;
   vtkIdType NumberOfOperations = 0;
   double Seconds = 0.0;
-  meshopt::EdgeLengths Lengths; ///< in the end; no edges if neither sizes nor a metric are given
-  std::string Sizes;            ///< what the user should know about the wanted sizes; or empty
-  std::string Overlap;          ///< about cells of the input that lie on each other; or empty
+  meshopt::EdgeLengths Lengths; ///< at the end; no edges if neither sizes nor a metric are given
+  std::string Sizes;            ///< information for the user about the wanted sizes, or empty
+  std::string Overlap;          ///< about cells of the input that overlap, or empty
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
-  /// Takes another grid's outcome in: minima, means by number of cells, sums, the strongest stop
+  /// Adds another grid's outcome: minima, means by number of cells, sums, the strongest stop
   /// reason, sentences. Histories are not joined.
   void Add(const Outcome& other);
 };
 
 /**
- * Two sentences, either of which may be empty, as one text.
+ * Two sentences as one text; either may be empty.
  */
 std::string Joined(const std::string& a, const std::string& b);
 

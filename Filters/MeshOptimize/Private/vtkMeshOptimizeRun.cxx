@@ -71,8 +71,8 @@ void Optimize(
 }
 
 /**
- * The same for the part that may change, if not all may. Where cells overlap, a zone that has
- * changed may not fit to the rest any more: its points are then moved only, which always fits.
+ * The same for the part that may change, if not all may. If cells overlap, a changed zone may not
+ * fit to the rest any more. Then its points are only moved, which always fits.
  */
 template <int D>
 void OptimizeZone(
@@ -127,7 +127,7 @@ Model<D> StartModel(vtkUnstructuredGrid* input, const InputArrays& arrays,
 }
 
 /**
- * Makes the rest of a model that has been started, and the curves of its boundary.
+ * Completes a model that has been started, and makes the curves of its boundary.
  */
 template <int D>
 std::string MakeModel(const Request& request, Model<D>& model, meshopt::BoundaryCurves& curves)

@@ -17,8 +17,8 @@ namespace vtkMeshOptimizeBridge
 
 /**
  * Optimizes `input`, which has these `arrays`, into `output`, which shares nothing with it. Returns
- * an empty string, or one sentence about what makes the input unusable; `output` is then as good as
- * empty.
+ * an empty string, or one sentence about what makes the input unusable; `output` is then not
+ * usable.
  */
 std::string OptimizeGrid(vtkUnstructuredGrid* input, const InputArrays& arrays,
   const Request& request, vtkUnstructuredGrid* output, Outcome& outcome);

@@ -21,7 +21,7 @@ namespace
 {
 
 /**
- * Core ids, ascending, of the simplices of the input that are gone or have a node that moved.
+ * Core ids, ascending, of the input simplices that have vanished or have a node that moved.
  */
 template <int D>
 std::vector<Index> ListChangedSimplices(const Model<D>& model, const OutputMap& map)
@@ -60,13 +60,13 @@ Background<D> MakeBackground(const Model<D>& model, const std::vector<Index>& ch
   std::vector<vtkIdType> simplices(changed.size());
   std::transform(changed.begin(), changed.end(), simplices.begin(),
     [&](Index k) { return model.Cells.Simplices[k]; });
-  SimplexMesh<D> mesh; // building went well with all of them
+  SimplexMesh<D> mesh; // cannot fail: the whole mesh was built before
   SimplexMesh<D>::build(vtkMeshBridge::ImportGeometry(model.Grid, simplices, model.Frame), mesh);
   return Background<D>(mesh);
 }
 
 /**
- * A cell of the background near the point in slot p: one of its own, or the parent of a new one.
+ * A cell of the background near the point in slot p: one of the point, or the parent of a new cell.
  */
 template <int D>
 Index FindHint(const Background<D>& background, const std::vector<Index>& changed,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Where in the input the moved and new points of the output lie.
+ * The places in the input of the moved and new points of the output.
  */
 #ifndef vtkMeshOptimizeSampling_h
 #define vtkMeshOptimizeSampling_h
@@ -14,7 +14,7 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * A place in the input: corners of a cell, and their weights, which sum to 1; none is negative.
+ * A place in the input: corners of a cell, and their weights. These sum to 1, and none is negative.
  * Corners that are not needed have weight 0.
  */
 struct Sample
@@ -26,10 +26,10 @@ struct Sample
 };
 
 /**
- * Finds each of map.SampledPoints in the input mesh; points outside take the nearest place.
+ * Finds each of map.SampledPoints in the input mesh; points outside of it get the nearest place.
  *
- * It is looked for among the simplices that are not in the output as they were: these fill the very
- * part of space that the changed cells of the output fill. So the cost is that of what has changed.
+ * The search is restricted to the simplices that are changed in the output. These fill the same
+ * part of space as the changed cells of the output, so the cost is proportional to the change.
  */
 template <int D>
 std::vector<Sample> SampleInput(const Model<D>& model, const OutputMap& map);

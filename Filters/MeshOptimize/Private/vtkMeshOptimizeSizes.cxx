@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr double MostElements = 1e8; // memory, and the core's 32-bit ids
-constexpr double LongEdge = 2.0;     // of an edge that is kept, in the wanted length
+constexpr double LongEdge = 2.0;     // length of a kept edge in units of the wanted length
 constexpr double AreaChange = 0.1;
 
 std::string NameOf(const char* what, vtkDataArray* array)
@@ -28,7 +28,7 @@ std::string NameOf(const char* what, vtkDataArray* array)
   return std::string(what) + (name ? " '" + std::string(name) + "'" : "") + ": ";
 }
 
-/// The sizes, if they count.
+/// The sizes, if they are used.
 template <int D>
 vtkDataArray* SizesOf(const Request& request, const Model<D>& model)
 {
@@ -40,7 +40,7 @@ constexpr vtkMeshBridge::Kind SimplexKind = D == 3 ? vtkMeshBridge::Kind::Tetrah
                                                    : vtkMeshBridge::Kind::Triangle;
 
 /**
- * What NodalMetric::set() would make of the values at a point. Either array may be nullptr.
+ * The result of NodalMetric::set() for the values at one point. Either array may be nullptr.
  */
 template <int D>
 typename meshopt::NodalMetric<D>::Sample ReadSample(
@@ -121,10 +121,9 @@ std::string CheckCount(const Request& request, const Model<D>& model)
     return {};
   }
   std::ostringstream text;
-  text
-    << "The wanted sizes stand for some " << count
-    << " elements, more than can be made (1e8). Is the size in the units of the coordinates, or, "
-       "with a metric, of the metric?";
+  text << "The wanted sizes need about " << count
+       << " elements; the limit is 1e8. Is the size in the units of the coordinates, or, "
+          "with a metric, of the metric?";
   return text.str();
 }
 
@@ -136,27 +135,25 @@ std::string DescribeSizes(const meshopt::Report& report, const Request& request)
   text.precision(3);
   if (sizes.isGivenUp)
   {
-    text << "The wanted sizes have been given up: with them the worst quality would be "
-         << sizes.worstWithSizes << ", lower than before (" << report.worstBefore
-         << ") and than the target (" << request.Options.targetQuality
-         << "). A lower target takes them. ";
+    text << "The wanted sizes were given up: with them the worst quality would be "
+         << sizes.worstWithSizes << ", which is lower than before (" << report.worstBefore
+         << ") and lower than the target (" << request.Options.targetQuality
+         << "). Choose a lower target to get the sizes. ";
   }
   if (sizes.cellsAtBrake > 0)
   {
-    text << "No more edges were split when there were " << sizes.cellsAtBrake
-         << " elements where the wanted sizes stand for "
+    text << "Splitting of edges was stopped at " << sizes.cellsAtBrake << " elements; "
          << static_cast<long>(std::round(sizes.predictedCells))
-         << ": the sizes, or the directions of the metric, change faster from point to point than "
-            "elements can follow. Give them on a finer mesh, or smoother (Gradation and Maximum "
+         << " were predicted. The sizes, or the directions of the metric, change faster from point "
+            "to point than elements can follow. Give them on a finer mesh, or smoother (Gradation "
+            "and Maximum "
             "Anisotropy of Solution Metric). ";
   }
   if (sizes.longestKept > LongEdge)
   {
-    text << "Edges that are kept are up to " << sizes.longestKept
-         << " times as long as wanted, and elements beside them can only grow towards the wanted "
-            "size"
-         << (request.Slide ? "."
-                           : ": set the boundary mode to Slide to have the boundary divided.");
+    text << "Kept edges are up to " << sizes.longestKept
+         << " times as long as wanted, and elements beside them can only approach the wanted size."
+         << (request.Slide ? "" : " Set the boundary mode to Slide to have the boundary divided.");
   }
   std::string result = text.str();
   result.erase(result.find_last_not_of(' ') + 1);

@@ -24,7 +24,7 @@ namespace
 constexpr std::size_t NumberOfExamples = 5;
 
 /**
- * The first three as in SurfaceFault::Kind.
+ * The first three are the same as in SurfaceFault::Kind.
  */
 enum Reason
 {
@@ -38,12 +38,12 @@ enum Reason
 };
 
 /**
- * Cells of the output with one reason.
+ * Cells of the output with the same reason.
  */
 struct Group
 {
   std::vector<std::size_t> Cells;
-  std::string Faces; ///< of the surface, for the first one
+  std::string Faces; ///< of the surface, for the first cell
 };
 
 template <int D>
@@ -66,7 +66,7 @@ std::string ListFaces(const SurfaceFault<D>& fault)
 }
 
 /**
- * Faults by their points, and those of facets without area by their facet.
+ * Faults by point; those of facets without area by facet.
  */
 template <int D>
 class FaultFinder
@@ -87,13 +87,13 @@ public:
       {
         for (Index p : facet)
         {
-          this->FaultOfPoint[p] = &*fault; // the first one of the list stays
+          this->FaultOfPoint[p] = &*fault; // the first fault in the list stays
         }
       }
     }
   }
 
-  /// What explains a cell: a facet of its own without area, else a fault at its neighbours' nodes.
+  /// Explains a cell: by an own facet without area, otherwise by a fault at its neighbours' nodes.
   const SurfaceFault<D>* Find(Index slot) const
   {
     const SurfaceFault<D>* found = this->FindFacet(slot);

@@ -17,13 +17,13 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * A sentence for the user about the cells of the output whose quality is not positive, or an empty
- * string if there is none. For each reason: how many, the first few by their ids in the input, new
- * ones by their ids in the output and their places, and an example. Reasons, the first that
- * applies:
+ * A sentence for the user about the cells of the output whose quality is not positive; an empty
+ * string if there are none. For each reason it has the number of cells, an example, and the first
+ * few cells: by their ids in the input, or for new ones by their ids in the output and their
+ * places. The reasons, of which the first that applies is given:
  * - a kept face without area: its cells have no volume;
- * - kept faces that are folded onto each other or pass through each other, near the cell;
- * - the run ended before its time (aborted, a limit);
+ * - kept faces near the cell that are folded onto each other or pass through each other;
+ * - the run ended early (aborted, a limit);
  * - all nodes are kept, and no other connection was found;
  * - none of these.
  *
@@ -34,8 +34,8 @@ std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
   const meshopt::SimplexMesh<D>& mesh, const meshopt::Report& report);
 
 /**
- * A sentence about cells of the input that lie on each other though none of them is inverted, or an
- * empty string if there are none.
+ * A sentence about cells of the input that overlap although none of them is inverted; an empty
+ * string if there are none.
  */
 template <int D>
 std::string DescribeOverlap(const meshopt::SimplexMesh<D>& mesh);

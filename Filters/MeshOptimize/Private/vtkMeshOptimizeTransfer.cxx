@@ -28,8 +28,9 @@ bool IsNamed(vtkAbstractArray* array, const char* name)
 }
 
 /**
- * An array like `source` whose tuple i is its tuple ids[i]. (vtkDataSetAttributes::CopyData()
- * leaves global ids out or makes them the active ones again, and points need more than copies.)
+ * An array like `source`; its tuple i is tuple ids[i] of `source`.
+ * (vtkDataSetAttributes::CopyData() drops global ids or makes them active again, and points need
+ * more than copies.)
  */
 vtkSmartPointer<vtkAbstractArray> Gather(vtkAbstractArray* source, vtkIdList* ids)
 {
@@ -48,7 +49,7 @@ vtkSmartPointer<vtkAbstractArray> Gather(vtkAbstractArray* source, vtkIdList* id
 }
 
 /**
- * v = v0 + sum w_i (v_i - v0), v0 the value with the greatest weight: a constant comes out exactly.
+ * v = v0 + sum w_i (v_i - v0), with v0 the value of the greatest weight: constants are exact.
  */
 double Interpolate(vtkDataArray* source, int component, const Sample& sample)
 {
@@ -58,7 +59,7 @@ double Interpolate(vtkDataArray* source, int component, const Sample& sample)
   double value = v0;
   for (std::size_t i = 0; i < sample.Corners.size(); ++i)
   {
-    if (i != base && sample.Weights[i] != 0.0) // a NaN far away must not come in
+    if (i != base && sample.Weights[i] != 0.0) // a NaN with weight 0 must not spread
     {
       value += sample.Weights[i] * (source->GetComponent(sample.Corners[i], component) - v0);
     }
@@ -80,7 +81,7 @@ void InterpolateSamples(vtkDataArray* source, const OutputMap& map,
 }
 
 /**
- * New tuples [first, end) get one value: they are nobody's copy.
+ * Sets the new tuples [first, end) to one value: they are not copies of any tuple.
  */
 void FillNew(vtkAbstractArray* abstract, vtkIdType first, double value)
 {
@@ -95,9 +96,9 @@ void FillNew(vtkAbstractArray* abstract, vtkIdType first, double value)
 }
 
 /**
- * Adds `array` and makes it the active scalars, vectors, ... that array `index` of the input is.
- * Not the active global ids: those must be unique over all blocks and processes, new points and
- * cells have none.
+ * Adds `array`, and makes it the active scalars, vectors, ... if array `index` of the input is
+ * that. Except for the active global ids: these must be unique over all blocks and processes, and
+ * new points and cells have none.
  */
 void AddArray(
   vtkDataSetAttributes* input, int index, vtkAbstractArray* array, vtkDataSetAttributes* output)
@@ -111,8 +112,8 @@ void AddArray(
 }
 
 /**
- * Output points that take the data of one input point: themselves if they have not moved, else the
- * nearest.
+ * For each output point, an input point whose data it takes: itself if it has not moved, otherwise
+ * the nearest one.
  */
 void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool movedKeepTheirOwn,
   vtkIdList* sources)

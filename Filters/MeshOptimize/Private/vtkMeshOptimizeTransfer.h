@@ -21,7 +21,7 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
   const std::vector<Sample>& samples, vtkDataSetAttributes* output);
 
 /**
- * Cell data of the output; an array `MeshQuality` of an earlier run is left out.
+ * Cell data of the output, without the array `MeshQuality` of an earlier run.
  */
 void TransferCellData(
   vtkDataSetAttributes* input, const OutputMap& map, vtkDataSetAttributes* output);

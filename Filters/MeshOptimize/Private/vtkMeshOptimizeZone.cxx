@@ -47,7 +47,7 @@ bool IsReversed(vtkUnstructuredGrid* grid, vtkIdType cell, const meshopt::Simple
 }
 
 /**
- * Which points the cells in `isInside` have.
+ * Marks the points of the cells in `isInside`.
  */
 template <int D>
 std::vector<char> MarkPoints(const SimplexMesh<D>& mesh, const std::vector<char>& isInside)
@@ -107,7 +107,7 @@ LeftOut SumUp(const SimplexMesh<D>& mesh, const std::vector<double>& qualities, 
 }
 
 /**
- * The cells that are to change: those under the threshold, and layers around them.
+ * The cells that may change: those under the threshold, and layers around them.
  */
 template <int D>
 std::vector<char> MarkZone(
@@ -129,8 +129,8 @@ std::vector<char> MarkZone(
 }
 
 /**
- * Takes simplices off the list: those that `isKept`, one value for each of them, does not name pass
- * through from now on, as ghost cells do.
+ * Removes simplices from the list. `isKept` has one value for each simplex; those with false pass
+ * through from now on, like ghost cells.
  */
 void KeepSimplices(
   vtkUnstructuredGrid* grid, const std::vector<char>& isKept, vtkMeshBridge::Cells& cells)
@@ -159,7 +159,7 @@ void KeepSimplices(
 }
 
 /**
- * Builds the mesh of the simplices inside, which alone the model's cells name by now.
+ * Builds the mesh of the simplices inside: the model's cells now list only these.
  */
 template <int D>
 void BuildZone(const std::vector<char>& isInside, Model<D>& model)
@@ -174,7 +174,7 @@ void BuildZone(const std::vector<char>& isInside, Model<D>& model)
     }
   }
   input.isOriented = true;
-  SimplexMesh<D>::build(input, model.Mesh); // went well with all of them
+  SimplexMesh<D>::build(input, model.Mesh); // cannot fail: the whole mesh was built before
 }
 
 } // namespace

@@ -23,8 +23,8 @@ namespace
 constexpr vtkIdType Grain = 8192;
 
 /**
- * A sentence if an array has another number of values than the grid has points or cells. A broken
- * grid may have such arrays.
+ * A sentence if an array does not have one value per point or cell of the grid. A broken grid may
+ * have such arrays.
  */
 std::string CheckLength(vtkDataArray* array, vtkIdType wanted, const char* noun)
 {
@@ -108,8 +108,8 @@ std::vector<vtkIdType> Grid::ListTriangles(bool areGhosts) const
 }
 
 /**
- * The triangles that count make the plane, since they are what others look at; ghosts must lie in
- * it, since they are measured in it.
+ * The plane is that of the triangles that count, since these are judged. Ghosts must lie in it,
+ * too, since they are measured in it.
  */
 void Grid::FindPlane()
 {
@@ -135,7 +135,7 @@ void Grid::FindPlane()
 
 //------------------------------------------------------------------------------
 /**
- * All points are looked at first, which is fast; only if they do not pass, those that count.
+ * First checks all points, which is fast; only if they do not pass, those that count.
  */
 std::string Grid::CheckExtent() const
 {
@@ -173,7 +173,7 @@ void Grid::ReadRegions(vtkDataArray* array)
 
 //------------------------------------------------------------------------------
 /**
- * Of the cells that count.
+ * Reads the metric of the cells that count.
  */
 std::vector<bool> Grid::FindUsedPoints() const
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A grid as vtkMeshQualityMinMax measures it: any grid, also a broken one, with its regions, sizes
+ * A grid as vtkMeshQualityMinMax measures it: any grid, even a broken one, with its regions, sizes
  * and metric.
  */
 #ifndef vtkMeshQualityGrid_h
@@ -26,21 +26,21 @@ class Grid
 {
 public:
   /**
-   * `grid` must live as long as this.
+   * `grid` must outlive this object.
    */
   explicit Grid(vtkUnstructuredGrid* grid);
 
   /**
-   * Reads the arrays; they may be null. Returns a sentence about the first value that cannot be
-   * used, or about coordinates that are out of range; else an empty string. Values that only ghost
-   * cells need may be anything.
+   * Reads the arrays; they may be null. Returns an empty string, or a sentence about the first
+   * unusable value or about coordinates out of range. Values that only ghost cells need may be
+   * anything.
    */
   std::string Read(const vtkMeshOptimizeBridge::InputArrays& arrays, bool useSizes);
 
   vtkIdType GetNumberOfCells() const { return this->View.GetNumberOfCells(); }
   vtkIdType GetNumberOfPoints() const { return this->View.GetNumberOfPoints(); }
   Kind GetKind(vtkIdType cell) const { return this->View.GetKind(cell); }
-  /// Measured, not counted.
+  /// Ghost cells are measured, but not counted.
   bool IsGhost(vtkIdType cell) const { return this->View.IsGhost(cell); }
   bool GetCorners(vtkIdType cell, int n, vtkIdType* ids) const
   {
@@ -52,8 +52,8 @@ public:
   bool HasTriangles() const { return this->NumberOfTriangles > 0; }
 
   /**
-   * True if there are triangles only and all lie in one plane: then their areas have signs. Those
-   * with a corner that is not there or not finite do not matter.
+   * True if there are only triangles and all lie in one plane: their areas then have signs.
+   * Triangles with a corner that does not exist or is not finite do not matter.
    */
   bool IsFlat() const { return this->Flat; }
   const vtkMeshBridge::Frame<2>& GetFrame() const { return this->Frame; } ///< of that plane
@@ -72,11 +72,11 @@ public:
   const std::vector<long long>& GetRegions() const { return this->Regions; }
 
   /**
-   * ln h* at the points; empty where there is no array.
+   * ln h* at the points; empty without an array.
    */
   const std::vector<double>& GetLogSizes() const { return this->LogSizes; }
   /**
-   * ln M at the points: of dimension 2 if the grid is flat, else 3; the other one is empty.
+   * ln M at the points: of dimension 2 if the grid is flat, otherwise 3. The other one is empty.
    */
   template <int D>
   const std::vector<meshopt::Tensor<D>>& GetLogTensors() const;

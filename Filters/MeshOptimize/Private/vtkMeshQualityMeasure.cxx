@@ -82,7 +82,7 @@ private:
     return ValueIn(this->MetricOf<3>(ids), this->Solid, x);
   }
 
-  /// NaN for a ghost without a usable size: without it only the shape would count.
+  /// NaN for a ghost without a usable size: otherwise only its shape would count.
   template <int D, class Quality>
   static double ValueIn(const ElementMetric<D>& metric, const Quality& quality, const Corners<D>& x)
   {
@@ -103,7 +103,7 @@ private:
       const vtkMeshBridge::Frame<2>& frame = this->Mesh.GetFrame();
       const Corners<2> y = { frame.ToCore(x[0].data()), frame.ToCore(x[1].data()),
         frame.ToCore(x[2].data()) };
-      // not finite in the coordinate across the plane only: still no number
+      // only the coordinate across the plane is not finite: still NaN
       const double finite = 0.0 * (x[0].sum() + x[1].sum() + x[2].sum());
       return ValueIn(this->MetricOf<2>(ids), this->Flat, y) + finite;
     }
@@ -120,7 +120,7 @@ private:
     return ValueIn(size, this->Flat, Unfold(x));
   }
 
-  /// In the metric of the n nodes; that of NodalMetric::element().
+  /// In the metric of the n nodes, the same as NodalMetric::element().
   template <int D>
   ElementMetric<D> MetricOf(const vtkIdType* ids, int n = D + 1) const
   {

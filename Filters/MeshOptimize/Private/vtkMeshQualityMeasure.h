@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The quality of every cell of a grid, and its sums: over the grid and over each region.
+ * The quality of every cell of a grid, and its statistics over the grid and over each region.
  */
 #ifndef vtkMeshQualityMeasure_h
 #define vtkMeshQualityMeasure_h
@@ -16,7 +16,7 @@ namespace vtkMeshQualityBridge
 {
 
 /**
- * What is measured.
+ * What to measure, and how.
  */
 struct Options
 {
@@ -42,7 +42,7 @@ struct Sums
 };
 
 /**
- * All that is known of one grid, of several, or of all ranks.
+ * All figures of one grid, of several, or of all ranks.
  */
 struct Figures
 {
@@ -60,15 +60,15 @@ struct Figures
 };
 
 /**
- * Writes the quality of each cell to `quality` (one per cell; NaN for cells that are neither
- * triangles nor tetrahedra, that lack a point, or have a coordinate that is not finite) and sums up
- * those that are not ghosts. `part` goes into the worst elements. The same bits for any number of
- * threads.
+ * Writes the quality of each cell to `quality` (one per cell), and sums up those that are not
+ * ghosts. It is NaN for cells that are neither triangles nor tetrahedra, that lack a point, or have
+ * a coordinate that is not finite. `part` goes into the worst elements. The bits do not depend on
+ * the number of threads.
  */
 Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part, double* quality);
 
 /**
- * Adds the certified bound of the grid's surface and the number of cells that it caps to `figures`.
+ * Adds to `figures` the certified bound of the grid's surface and the number of cells that it caps.
  */
 void MeasureSurface(
   const Grid& grid, const Options& options, const double* quality, Figures& figures);

@@ -26,7 +26,7 @@ namespace vtkMeshQualityBridge
 namespace
 {
 
-// Counts are 64 bits wide to the stream.
+// Counts are 64 bits wide in the stream.
 void Put(vtkMultiProcessStream& stream, std::int64_t count)
 {
   stream << static_cast<vtkTypeInt64>(count);

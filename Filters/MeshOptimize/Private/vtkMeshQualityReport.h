@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * From figures to what a person reads: one set of figures for all ranks, tables, the worst cells as
- * a grid.
+ * Makes figures readable: one set of figures for all ranks, tables, the worst cells as a grid.
  */
 #ifndef vtkMeshQualityReport_h
 #define vtkMeshQualityReport_h
@@ -20,9 +19,9 @@ namespace vtkMeshQualityBridge
 {
 
 /**
- * Merges the figures of all ranks, in the order of the ranks, so that all get the same bits.
- * Returns false if some rank says that it failed; all ranks must call this, also those that failed.
- * A null controller: this rank only.
+ * Merges the figures of all ranks in the order of the ranks, so that all get the same bits. Returns
+ * false if a rank says that it failed. All ranks must call this, including those that failed. A
+ * null controller means this rank only.
  */
 bool Reduce(vtkMultiProcessController* controller, bool failed, std::size_t numberOfWorstCells,
   Figures& figures);
@@ -33,7 +32,7 @@ bool Reduce(vtkMultiProcessController* controller, bool failed, std::size_t numb
 void Reduce(vtkMultiProcessController* controller, meshopt::QualityHistogram& histogram);
 
 /**
- * The greatest value that the measure can have for the cells that were seen.
+ * The greatest possible value of the measure for the kinds of cells that occurred.
  */
 double GreatestQuality(const Options& options, const Figures& figures);
 
@@ -47,7 +46,7 @@ void FillSummary(const Options& options, const Figures& figures, vtkTable* table
 void FillHistogram(const meshopt::QualityHistogram& histogram, vtkTable* table);
 
 /**
- * A grid and its number, by which its worst cells are known.
+ * A grid and its number, which identifies its worst cells.
  */
 struct Block
 {
@@ -58,8 +57,8 @@ struct Block
 };
 
 /**
- * Copies those of the worst cells that are in `blocks` to `output`, worst first. `isComposite`:
- * with an array that says from which block.
+ * Copies the worst cells that are in `blocks` to `output`, worst first. `isComposite`: adds an
+ * array with the block of each cell.
  */
 void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
   const std::vector<Block>& blocks, int rank, bool isComposite, vtkUnstructuredGrid* output);

@@ -3,11 +3,11 @@
  * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without
  * building the adjacency of all cells, and has their bound computed.
  *
- * Each facet gets a random-looking 64-bit key, the same from both of its cells. Both cells
- * exclusive-or it into a number at the facet's lowest point: facets with two cells cancel out.
- * Points whose number is not 0 have some kept facet; only the facets at those are compared one by
- * one, which are few. A number is 0 by chance once in 2^64. The order in which numbers are combined
- * does not matter, so that threads may do it.
+ * Each facet gets a pseudo-random 64-bit key, the same from both of its cells. Each cell combines
+ * it by exclusive or with a number at the facet's lowest point: facets with two cells cancel out.
+ * Points whose number is not 0 have some kept facet; only the facets at those few points are
+ * compared one by one. A number is 0 by chance once in 2^64. The order of combination does not
+ * matter, so several threads may do it.
  */
 #include "vtkMeshQualityMeasure.h"
 
@@ -32,7 +32,7 @@ using Key = std::uint64_t;
 constexpr vtkIdType Length = 16384;
 
 /**
- * A random-looking number for a number (the finalizer of splitmix64).
+ * A pseudo-random number for a number (the finalizer of splitmix64).
  */
 Key Scramble(Key x)
 {
@@ -105,7 +105,7 @@ private:
     std::array<Key, D + 1> Keys;
     vtkIdType Lowest,
       Next;       ///< the two lowest points; the facet opposite to the lowest begins at the next
-    int Opposite; ///< local number of the lowest: its facet has not got it
+    int Opposite; ///< local number of the lowest point, which its facet does not contain
   };
 
   bool GetFacets(vtkIdType cell, Facets& f) const
@@ -183,7 +183,7 @@ private:
   }
 
   /**
-   * Leaves out what occurs twice or more, by a hash table with open addressing.
+   * Removes what occurs twice or more, by a hash table with open addressing.
    */
   static std::vector<Candidate> KeepSingle(std::vector<Candidate> all)
   {
@@ -228,7 +228,7 @@ meshopt::Vec<2> PlaceOf(const Grid& grid, vtkIdType p, std::integral_constant<in
 }
 
 /**
- * Points of the surface, numbered anew and in the dimension of the core.
+ * Points of the surface, renumbered, and in the dimension of the core.
  */
 template <int D>
 class SurfacePoints
@@ -287,7 +287,7 @@ void MeasureSurfaceOf(
   {
     const auto result = meshopt::surfaceBound<D>(
       points.Places.data(), std::move(sides[r]), boundOptions);
-    Index lastCapped = meshopt::None; // sides of one cell follow each other
+    Index lastCapped = meshopt::None; // the sides of one cell are consecutive
     std::int64_t capped = 0;
     for (std::size_t s = 0; s < result.sides.size(); ++s)
     {
@@ -314,7 +314,8 @@ void MeasureSurfaceOf(
 void MeasureSurface(
   const Grid& grid, const Options& options, const double* quality, Figures& figures)
 {
-  // With a metric that varies nothing is certain; nor is it for triangles that are not in a plane.
+  // With a varying metric nothing is certain, and neither is it for triangles that are not in a
+  // plane.
   const bool known = !grid.HasMetric() && (grid.HasTetrahedra() || grid.IsFlat()) &&
     grid.GetNumberOfPoints() < std::numeric_limits<Index>::max() &&
     grid.GetNumberOfCells() < std::numeric_limits<Index>::max();

@@ -42,7 +42,7 @@ constexpr bridge::ArrayRole ErrorRole = { "error indicator array", nullptr, true
   { { 1, 0 } } };
 
 /**
- * `name` is what was chosen: nullptr or "" stands for the active scalars.
+ * `name` is the chosen name: nullptr or "" means the active scalars.
  */
 std::string DescribeMissing(
   const bridge::ArrayRole& role, const char* name, vtkDataSetAttributes* others)
@@ -72,7 +72,7 @@ std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& 
   {
     std::swap(attributes, others);
   }
-  // an empty name, which is what ParaView gives until one is chosen, stands for the active scalars
+  // An empty name, as ParaView gives until one is chosen, means the active scalars.
   vtkInformation* wanted = filter->GetInputArrayInformation(request.UseErrors ? 1 : 0);
   const char* name = wanted->Get(vtkDataObject::FIELD_NAME());
   const int attribute = wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
@@ -97,8 +97,8 @@ namespace
 {
 
 /**
- * All cells of the greatest dimension must be simplices: a function cannot be differentiated
- * across cells that are not looked at.
+ * All cells of the greatest dimension must be simplices: a function cannot be differentiated across
+ * cells that are ignored.
  */
 std::string CheckCells(vtkUnstructuredGrid* grid, const bridge::Cells& cells)
 {
@@ -178,7 +178,7 @@ double RelativePrecision(vtkDataArray* array)
 Tensor<3> ToGrid(const Tensor<3>& m, const bridge::Frame<3>&) { return m; }
 
 /**
- * Across the plane stands the geometric mean of the eigenvalues in it.
+ * Across the plane it has the geometric mean of the eigenvalues in the plane.
  */
 Tensor<3> ToGrid(const Tensor<2>& m, const bridge::Frame<2>& frame)
 {
@@ -198,7 +198,7 @@ Tensor<D> InverseRoot(const Tensor<D>& m)
 }
 
 /**
- * A symmetric tensor per point, as VTK orders its components.
+ * A symmetric tensor per point, with VTK's order of components.
  */
 template <class F>
 vtkSmartPointer<vtkDoubleArray> MakeTensors(const char* name, vtkIdType n, F&& tensor)

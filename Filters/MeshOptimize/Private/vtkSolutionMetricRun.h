@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * grid -> core -> arrays of the grid: what vtkSolutionMetricFilter does.
+ * grid -> core -> arrays of the grid: the work of vtkSolutionMetricFilter.
  */
 #ifndef vtkSolutionMetricRun_h
 #define vtkSolutionMetricRun_h
@@ -18,15 +18,15 @@ namespace vtkSolutionMetricBridge
 {
 
 /**
- * What is wanted. A wanted number of elements of 0 stands for that of the grid.
+ * The request. A wanted number of elements of 0 means that of the grid.
  */
 struct Request
 {
-  bool UseErrors = false;                ///< the error of cells; else the solution at points
-  meshopt::SolutionMetricOptions Metric; ///< without UseErrors
-  meshopt::ErrorIndicatorOptions Errors; ///< with it
+  bool UseErrors = false;                ///< use errors of cells; otherwise the solution at points
+  meshopt::SolutionMetricOptions Metric; ///< if not UseErrors
+  meshopt::ErrorIndicatorOptions Errors; ///< if UseErrors
   bool ComputeSizeTensor = false;
-  vtkDataArray* Values = nullptr; ///< the solution or the errors: FindArray()
+  vtkDataArray* Values = nullptr; ///< the solution or the errors, from FindArray()
 };
 
 struct Outcome
@@ -39,14 +39,14 @@ struct Outcome
 };
 
 /**
- * Finds the array that the caller of `filter` wants: index 0 among the points, or index 1 among the
- * cells if request.UseErrors. Returns a sentence if it is not there or cannot be used.
+ * Finds the array that the caller of `filter` chose: index 0 on points, or index 1 on cells if
+ * request.UseErrors. Returns a sentence if it does not exist or cannot be used.
  */
 std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& request);
 
 /**
  * Adds the arrays to `grid`. Returns an empty string, or one sentence about what makes the grid or
- * the options unusable; `grid` is then unchanged. A grid without cells is left as it is.
+ * the options unusable; `grid` is then unchanged. A grid without cells stays as it is.
  */
 std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome& outcome);
 

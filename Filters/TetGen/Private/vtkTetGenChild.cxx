@@ -30,7 +30,8 @@ constexpr int PollMilliseconds = 100;
 constexpr std::size_t KeptText = std::size_t(4) << 20;
 
 /**
- * What the child sends, followed by the three arrays. The magic number tells a complete message.
+ * The header of the child's message, followed by the three arrays. The magic number marks a
+ * complete message.
  */
 struct Header
 {
@@ -52,7 +53,7 @@ public:
     }
     for (const int end : this->Ends)
     {
-      // Other programs that this process starts meanwhile must not hold the pipe open.
+      // Other programs that this process starts in the meantime must not hold the pipe open.
       ::fcntl(end, F_SETFD, FD_CLOEXEC);
     }
   }
@@ -108,14 +109,15 @@ bool WriteArray(int file, const std::vector<T>& array)
 }
 
 /**
- * The life of the child. It ends by _exit: destructors and exit handlers belong to the parent.
+ * The life of the child. It ends with _exit(): destructors and exit handlers belong to the parent.
  */
 [[noreturn]] void BeChild(const Job& job, int textFile, int meshFile)
 {
 #ifdef __linux__
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // not left behind when the application is killed
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL); // die with the application if that is killed
 #endif
-  // A crash of the child is an error message of the filter: no handler of the application, no core.
+  // A crash of the child becomes an error message of the filter: no handler of the application, no
+  // core dump.
   for (const int deadly : { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGINT })
   {
     std::signal(deadly, SIG_DFL);
@@ -124,8 +126,8 @@ bool WriteArray(int file, const std::vector<T>& array)
   ::setrlimit(RLIMIT_CORE, &none);
   ::dup2(textFile, STDOUT_FILENO);
   ::dup2(textFile, STDERR_FILENO);
-  // What TetGen prints must be out before it crashes: line by line. That may be set before the first
-  // use of a stream only, and the application may have printed already: the stream is opened anew.
+  // TetGen's output must be flushed before a crash: line by line. This can be set only before a
+  // stream is first used, and the application may have printed already: the stream is opened again.
   if (std::freopen("/dev/null", "w", stdout))
   {
     ::dup2(textFile, ::fileno(stdout));
@@ -157,8 +159,8 @@ bool WriteArray(int file, const std::vector<T>& array)
 
 //------------------------------------------------------------------------------
 /**
- * How far along TetGen is when it begins to print about a phase. The shares are rough: refinement
- * takes most of the time where there is any.
+ * The progress at which TetGen begins to print about a phase. The shares are rough: refinement, if
+ * there is any, takes most of the time.
  */
 struct Phase
 {
@@ -180,7 +182,7 @@ constexpr std::array<Phase, 10> Phases = { {
 } };
 
 /**
- * Takes what TetGen prints and knows the phase it is in.
+ * Receives TetGen's output and determines the current phase.
  */
 class TextReader
 {
@@ -203,7 +205,7 @@ public:
 };
 
 /**
- * Reads what is there and appends it. False at the end of the file.
+ * Reads the available data and appends it. False at the end of the file.
  */
 template <typename Append>
 bool ReadSome(int file, const Append& append)
@@ -218,7 +220,7 @@ bool ReadSome(int file, const Append& append)
 }
 
 /**
- * Reads both pipes until the child has closed them. Returns false when progress said to stop.
+ * Reads both pipes until the child has closed them. Returns false if progress asked to stop.
  */
 bool Listen(int textFile, int meshFile, const ChildProgress& progress, TextReader& text,
   std::vector<char>& message)
@@ -258,7 +260,7 @@ const char* Unpack(const char* from, std::uint64_t length, std::vector<T>& array
 }
 
 /**
- * The mesh out of what the child has sent, if that is complete. `error` is TetGen's own number.
+ * The mesh from the child's message, if that is complete. `error` is TetGen's error number.
  */
 bool Unpack(const std::vector<char>& message, std::int64_t& error, Mesh& mesh)
 {
@@ -282,7 +284,7 @@ bool Unpack(const std::vector<char>& message, std::int64_t& error, Mesh& mesh)
 }
 
 /**
- * Waits for the end of the child and says how it ended.
+ * Waits for the child and describes how it ended.
  */
 std::string Bury(pid_t child)
 {
@@ -309,8 +311,8 @@ std::string Bury(pid_t child)
 //------------------------------------------------------------------------------
 ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mesh)
 {
-  // A child of another thread must not inherit the writing ends: this one would never see the end
-  // of the file.
+  // A child of another thread must not inherit the writing ends: this process would then never see
+  // the end of the file.
   static std::mutex oneFork;
   std::unique_lock<std::mutex> lock(oneFork);
   ChildOutcome outcome;
@@ -320,7 +322,7 @@ ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mes
     outcome.Reason = std::strerror(errno);
     return outcome;
   }
-  std::fflush(stdout); // else the child would print again what waits there
+  std::fflush(stdout); // otherwise the child would print buffered text again
   const pid_t child = ::fork();
   if (child < 0)
   {

@@ -2,9 +2,9 @@
 /**
  * TetGen in a process of its own.
  *
- * TetGen 1.5 as a library prints to stdout, keeps its state in statics, frees its memory twice
- * after most errors, and ends the process by assertions. In a forked child all this does no harm,
- * the user can abort at any time, and what it prints becomes progress and error messages.
+ * As a library TetGen 1.5 prints to stdout, keeps its state in statics, frees its memory twice
+ * after most errors, and ends the process by assertions. In a forked child none of this does harm,
+ * and the user can abort at any time. What it prints becomes progress and error messages.
  */
 #ifndef vtkTetGenChild_h
 #define vtkTetGenChild_h
@@ -22,17 +22,17 @@ struct ChildOutcome
   enum StateType
   {
     Done,      ///< the mesh is there
-    Failed,    ///< TetGen said no, or the child came to grief
+    Failed,    ///< TetGen reported an error, or the child crashed
     Aborted,   ///< the progress callback said so
-    NotStarted ///< no pipe or no process to be had
+    NotStarted ///< no pipe or no process available
   };
   StateType State = NotStarted;
-  std::string Text;   ///< all that TetGen has printed (the first megabytes)
-  std::string Reason; ///< how a child that Failed has ended, or why it did NotStart; else empty
+  std::string Text;   ///< the output of TetGen (the first megabytes)
+  std::string Reason; ///< how a child that Failed ended, or why it did NotStart; else empty
 };
 
 /**
- * Gets a fraction in [0, 1] and the name of a phase, some ten times a second. False: stop.
+ * Receives a fraction in [0, 1] and the name of a phase, some ten times a second. False: stop.
  */
 using ChildProgress = std::function<bool(double fraction, const std::string& phase)>;
 

@@ -72,7 +72,7 @@ void ExportCells(
 }
 
 /**
- * Nothing is known about new points. Global ids cannot be made up and are left out.
+ * Nothing is known about new points. Global ids cannot be invented, so they are left out.
  */
 void ExportPointData(vtkPolyData* input, vtkUnstructuredGrid* output)
 {
@@ -122,7 +122,7 @@ double Side(const double* a, const double* b, const double* c, const double* x)
 }
 
 /**
- * A tetrahedron that holds x, or -1.
+ * A tetrahedron that contains x, or -1.
  */
 std::ptrdiff_t FindTetrahedron(const Mesh& mesh, const double* x)
 {

@@ -18,15 +18,15 @@ namespace vtkTetGenBridge
 {
 
 /**
- * Points of `input` first, all of them and with their ids, then the new ones; the cell array
- * `Region`; point data of `input`, new points having NaN (integers: 0); field data.
+ * First all points of `input`, with their ids, then the new ones; the cell array `Region`; point
+ * data of `input`, with NaN for new points (integers: 0); field data.
  */
 void ExportMesh(
   vtkPolyData* input, const Surface& surface, const Mesh& mesh, vtkUnstructuredGrid* output);
 
 /**
- * What became of the points that mark regions (`regions`: x y z attribute volume): a warning about
- * each that lies in no tetrahedron, or in one that another point has marked.
+ * Checks the points that mark regions (`regions`: x y z attribute volume). Returns a warning about
+ * each that lies in no tetrahedron, or in a region that another point has marked.
  * O(tetrahedra * regions).
  */
 std::vector<std::string> CheckRegions(const std::vector<double>& regions, const Mesh& mesh);

@@ -21,8 +21,8 @@ double* NewArray(const std::vector<double>& values)
 }
 
 /**
- * Fills TetGen's own structure, which deletes its arrays itself. Facet markers are the indices of
- * triangles, counted from 1: 0 would mean "no marker".
+ * Fills TetGen's own structure, which deletes its arrays itself. Facet markers are triangle indices
+ * counted from 1, since 0 means "no marker".
  */
 void FillSurface(const Job& job, tetgenio& in)
 {
@@ -76,8 +76,8 @@ bool HasRegionVolumes(const Job& job)
 }
 
 /**
- * Switches go through TetGen's parser, since it derives further values from them; numbers are set
- * afterwards, since it would cut them off.
+ * Switches go through TetGen's parser, which derives further values from them. Numbers are set
+ * afterwards, since the parser would truncate them.
  */
 void FillBehavior(const Job& job, tetgenbehavior& behavior)
 {
@@ -95,16 +95,17 @@ void FillBehavior(const Job& job, tetgenbehavior& behavior)
   behavior.parse_commandline(&switches[0]);
 
   behavior.maxvolume = byVolume ? job.MaximumVolume : -1.0;
-  // Without a limit on shapes (0) TetGen would still use its own.
+  // Without a limit on shapes (0) TetGen would still use its own default.
   behavior.minratio = job.MaximumRadiusEdgeRatio > 0.0 ? job.MaximumRadiusEdgeRatio : 1e30;
   behavior.mindihedral = job.MinimumDihedralAngle;
-  // Level 0 leaves out flips, smoothing and splitting altogether; the parser raises it for points.
+  // Level 0 switches off flips, smoothing and splitting; the parser would raise it if there are
+  // points.
   behavior.optlevel = job.OptimizationLevel;
 }
 
 /**
- * Points of the surface stay first, also unused ones, so that they keep their numbers. Of the
- * others those go that no tetrahedron uses (interior points that lie on the surface).
+ * Points of the surface stay first, even unused ones, so that they keep their numbers. Other points
+ * are removed if no tetrahedron uses them (interior points that lie on the surface).
  */
 void Collect(const Job& job, const tetgenio& out, Mesh& mesh)
 {
@@ -140,7 +141,7 @@ void Collect(const Job& job, const tetgenio& out, Mesh& mesh)
 
 int RunTetGen(const Job& job, Mesh& mesh)
 {
-  std::srand(1); // TetGen draws from rand(): the same mesh every time
+  std::srand(1); // TetGen uses rand(): the same mesh every time
   tetgenio in, out, interior;
   FillSurface(job, in);
   FillSeeds(job, in);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * One run of TetGen: what goes in and what comes out, as plain arrays. The only place that knows
- * tetgen.h.
+ * One run of TetGen: input and output as plain arrays. The only place that includes tetgen.h.
  */
 #ifndef vtkTetGenJob_h
 #define vtkTetGenJob_h
@@ -12,7 +11,7 @@ namespace vtkTetGenBridge
 {
 
 /**
- * What TetGen is to do. Points, triangles and so on are flat: x y z x y z ...
+ * The input of TetGen. Points, triangles and so on are flat: x y z x y z ...
  */
 struct Job
 {
@@ -31,8 +30,8 @@ struct Job
 };
 
 /**
- * A mesh. The points of the surface come first, in the order of Job::Points; then those that TetGen
- * has added and a tetrahedron uses.
+ * A mesh. The points of the surface come first, in the order of Job::Points, then those that TetGen
+ * has added and that a tetrahedron uses.
  */
 struct Mesh
 {
@@ -42,9 +41,9 @@ struct Mesh
 };
 
 /**
- * Runs TetGen in this process and returns 0, or TetGen's error number. TetGen 1.5 does not fail
- * cleanly: it prints, and on most errors it frees its memory twice, or an assertion ends the
- * process. Therefore call this in a child only, see RunInChild().
+ * Runs TetGen in this process. Returns 0, or TetGen's error number. TetGen 1.5 does not fail
+ * cleanly: it prints, and after most errors it frees its memory twice or an assertion ends the
+ * process. Therefore call this only in a child, see RunInChild().
  */
 int RunTetGen(const Job& job, Mesh& mesh);
 

@@ -27,9 +27,10 @@ using Triangle = std::array<int, 3>;
 using Edge = std::array<int, 2>;
 
 const char* const CellIdName = "vtkTetGenCellId";
-/// A triangle whose height is less than this part of its longest edge has no area.
+/// A triangle whose height is below this fraction of its longest edge has no area.
 constexpr double Flat = 1e-14;
-/// Nearer than this part of the box's diagonal is on the surface: TetGen's own tolerance.
+/// Points nearer than this fraction of the box's diagonal are on the surface: TetGen's own
+/// tolerance.
 constexpr double OnSurface = 1e-8;
 
 const double* At(const Surface& surface, int point)
@@ -91,7 +92,7 @@ std::string CheckCells(vtkPolyData* input)
           std::to_string(input->GetNumberOfPoints()) + " points.";
       }
       const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-      if (!isStrip && twice != sorted.end()) // a strip may come back to a point
+      if (!isStrip && twice != sorted.end()) // a strip may return to a point
       {
         return name + " of the surface has point " + std::to_string(*twice) + " twice.";
       }
@@ -101,7 +102,7 @@ std::string CheckCells(vtkPolyData* input)
 }
 
 /**
- * A polygon of n points is n - 2 triangles; vtkTriangleFilter gives fewer where it finds no way.
+ * A polygon of n points has n - 2 triangles; vtkTriangleFilter returns fewer if it fails.
  */
 std::string CheckTriangulation(vtkPolyData* input, const std::vector<vtkIdType>& cellIds)
 {
@@ -468,7 +469,7 @@ int FindLostTriangle(const Surface& surface, const std::vector<int>& tetrahedra)
         }
       }
       std::sort(face.begin(), face.end());
-      if (face[2] < corners) // else not of the surface
+      if (face[2] < corners) // otherwise not of the surface
       {
         faces.push_back(face);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The surface as TetGen wants it, and everything that is wrong with it said in terms of the input.
+ * The surface in the form that TetGen needs. All its errors are described in terms of the input.
  */
 #ifndef vtkTetGenSurface_h
 #define vtkTetGenSurface_h
@@ -17,7 +17,7 @@ namespace vtkTetGenBridge
 {
 
 /**
- * Triangles of a vtkPolyData. Points that no triangle uses are left out: TetGen would take them for
+ * Triangles of a vtkPolyData. Points that no triangle uses are left out: TetGen would treat them as
  * nodes wanted inside.
  */
 struct Surface
@@ -30,36 +30,35 @@ struct Surface
 
 /**
  * Reads triangles, polygons and strips of `input`. Polygons are cut into triangles
- * (vtkTriangleFilter); vertices and lines are no part of a surface. Returns an error, or "".
+ * (vtkTriangleFilter); vertices and lines are not part of a surface. Returns an error, or "".
  */
 std::string ReadSurface(vtkPolyData* input, Surface& surface);
 
 /**
- * Is the surface one that can be filled? Finds points that are not finite or lie on each other,
- * triangles without area, triangles twice, open edges. Edges of three and more triangles are no
- * fault: inner walls have them. O(n log n). Returns an error that says where, or "".
+ * Whether the surface can be filled. Finds points that are not finite or coincide, triangles
+ * without area, duplicate triangles, open edges. Edges with three or more triangles are allowed:
+ * inner walls have them. O(n log n). Returns an error that says where, or "".
  */
 std::string CheckSurface(const Surface& surface);
 
 /**
- * Which of `points` (three numbers each) lie away from the surface, by more than 1e-8 of its size?
- * TetGen would cut a triangle by a point on it, even where the surface is to be kept.
+ * Marks those of `points` (three numbers each) that are farther from the surface than 1e-8 of its
+ * size. TetGen would cut a triangle at a point on it, even if the surface is to be kept.
  */
 std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<double>& points);
 
 /**
- * Where a triangle is: "cell 7 (points 1, 2, 3 around (x, y, z))", ids being those of the input.
+ * The place of a triangle: "cell 7 (points 1, 2, 3 around (x, y, z))", with ids of the input.
  */
 std::string DescribeTriangle(const Surface& surface, int triangle);
 
 /**
- * The pairs of triangles in what TetGen prints when asked for intersections, each once, sorted.
+ * The pairs of triangles in TetGen's output of a test for intersections, each once, sorted.
  */
 std::vector<std::pair<int, int>> ParseIntersections(const std::string& text);
 
 /**
- * "The surface intersects itself ...", with the number of pairs, of which there is one at least,
- * and the first ones.
+ * "The surface intersects itself ...", with the number of pairs (at least one) and the first pairs.
  */
 std::string DescribeIntersections(
   const Surface& surface, const std::vector<std::pair<int, int>>& pairs);

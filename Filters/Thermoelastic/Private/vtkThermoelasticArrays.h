@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The input arrays of vtkThermoelasticFilter: found, under the names chosen or their default ones,
- * and checked.
+ * The input arrays of vtkThermoelasticFilter: found under the chosen or the default names, and
+ * checked.
  */
 #ifndef vtkThermoelasticArrays_h
 #define vtkThermoelasticArrays_h
@@ -34,18 +34,18 @@ enum ArrayIndex
 };
 
 /**
- * The arrays of a grid; nullptr for those that are not there.
+ * The arrays of a grid; nullptr for those that do not exist.
  */
 using InputArrays = std::array<vtkDataArray*, NumberOfInputArrays>;
 
 /**
- * Name under which an array is looked for that the caller has not chosen; nullptr: none.
+ * The name of an array that the caller has not chosen; nullptr: none.
  */
 const char* DefaultName(ArrayIndex index);
 
 /**
- * Finds the arrays of `grid`. Returns a sentence about the first that was chosen and is not there,
- * or that cannot be used because of its type or its number of components; else an empty string.
+ * Finds the arrays of `grid`. Returns an empty string, or a sentence about the first array that was
+ * chosen but does not exist, or whose type or number of components is unusable.
  */
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays);
 

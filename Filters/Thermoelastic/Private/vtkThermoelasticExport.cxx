@@ -48,7 +48,7 @@ Tensor<3> StressToGrid(const Frame<2>& frame, const Stress<2>& s)
 }
 
 /**
- * A new array of that many tuples, filled with one value, in the place of any of the same name.
+ * A new array with this many tuples of one value; it replaces any array of the same name.
  */
 vtkDoubleArray* AddArray(vtkDataSetAttributes* attributes, const char* name, int components,
   vtkIdType tuples, double value, const char* const* componentNames = nullptr)
@@ -101,7 +101,7 @@ void ExportPointStress(
   vtkDoubleArray* principal = AddArray(data, "PrincipalStress", 3, n, NaN, PrincipalNames);
   for (vtkIdType p = 0; p < n; ++p)
   {
-    // A point may be used by ghost cells only, which are no part of the mesh.
+    // A point that only ghost cells use is not part of the mesh.
     if (model.Mesh.isPointAlive(static_cast<Index>(p)))
     {
       SetStress(tensors, p, StressToGrid(model.Frame, stress[p]));

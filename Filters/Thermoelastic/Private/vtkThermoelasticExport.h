@@ -13,16 +13,15 @@ namespace vtkThermoelasticBridge
 {
 
 /**
- * Adds the point and cell arrays of the results to `output`, a copy of model.Grid. What was not
- * solved for (points and cells that do not belong to the mesh) is NaN, displacements and reactions
- * there are 0.
+ * Adds the point and cell arrays of the results to `output`, a copy of model.Grid. Points and cells
+ * that are not part of the mesh get NaN; displacements and reactions there are 0.
  */
 template <int D>
 void ExportSolution(
   const Model<D>& model, const meshopt::fem::Solution<D>& solution, vtkUnstructuredGrid* output);
 
 /**
- * Adds the point array `Temperature`, as it was used.
+ * Adds the point array `Temperature` with the values used.
  */
 void ExportTemperature(const std::vector<double>& temperature, vtkUnstructuredGrid* output);
 

@@ -22,8 +22,8 @@ namespace
 {
 
 /**
- * Adds a load to a facet of the surface: value `ids[k]` of `array` at its k-th point, three
- * components a traction, one a pressure.
+ * Adds a load to a facet of the surface. Value `ids[k]` of `array` is that of its k-th point: a
+ * traction if it has three components, a pressure if it has one.
  */
 template <int D>
 void AddLoad(
@@ -75,8 +75,8 @@ bool IsFinite(vtkDataArray* array, vtkIdType id)
 }
 
 /**
- * Facets whose points all carry a load. That there are loads and no such facet is an error: nobody
- * wants a load to be lost.
+ * Facets whose points all carry a load. Loads without any such facet are an error: a load must not
+ * be lost silently.
  */
 template <int D>
 std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& model)
@@ -116,7 +116,7 @@ std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
 }
 
 /**
- * Cells of the grid that are facets: triangles, in the plane lines.
+ * Cells of the grid that are facets: triangles in 3D, lines in 2D.
  */
 template <int D>
 std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& model)

@@ -11,9 +11,8 @@ namespace vtkThermoelasticBridge
 {
 
 /**
- * Adds the pressure on the whole surface, the traction array at points and the one on facets to
- * model.Problem.forces. Returns a sentence about the first value that cannot be used, or an empty
- * string.
+ * Adds the pressure on the whole surface, and the tractions at points and on facets, to
+ * model.Problem.forces. Returns an empty string, or a sentence about the first unusable value.
  */
 template <int D>
 std::string SetLoads(const Request& request, Model<D>& model);

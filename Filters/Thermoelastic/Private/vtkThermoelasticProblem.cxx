@@ -21,13 +21,13 @@ namespace
 {
 
 /**
- * Points within this part of the extent belong to an end of the body.
+ * Points within this fraction of the extent belong to an end of the body.
  */
 constexpr double EndTolerance = 1e-6;
 
 /**
- * Coordinate of the grid that is component `i` of the core; -1 where there is none (a plane that is
- * not parallel to two axes).
+ * The coordinate of the grid that is component `i` of the core; -1 if there is none (in a plane
+ * that is not parallel to two axes).
  */
 int GridAxis(const Frame<3>&, int i) { return i; }
 int GridAxis(const Frame<2>& frame, int i) { return frame.Direct[i]; }
@@ -103,7 +103,7 @@ void Prescribe(Model<D>& model, vtkIdType p, int component, const Vec<D>& value)
 }
 
 /**
- * Which components of a point are held: 0 where the mask is 0, all if it has one component.
+ * The components of a point that are held: none where the mask is 0; all if it has one component.
  */
 void ReadMask(vtkDataArray* mask, vtkIdType p, bool held[3])
 {
@@ -114,8 +114,8 @@ void ReadMask(vtkDataArray* mask, vtkIdType p, bool held[3])
 }
 
 /**
- * Components of the core are components of the grid where the plane is parallel to two axes; else
- * all or none of a point can be held.
+ * Components of the core are components of the grid if the plane is parallel to two axes. Otherwise
+ * all components of a point must be held, or none.
  */
 template <int D>
 std::string SetConstraints(Model<D>& model)
@@ -170,7 +170,7 @@ std::string SetGeneralizedPlaneStrain(const Request& request, Model<D>& model, d
   {
     return "Generalized plane strain: the mesh lies in a plane that is not parallel to two axes.";
   }
-  // Material and temperature must be fit for a mean before the strain is.
+  // The strain is a mean of material and temperature: check these first.
   const auto error = meshopt::fem::check(model.Mesh, model.Problem);
   if (error)
   {
@@ -208,7 +208,7 @@ std::string MakeProblem(const Request& request, Model<D>& model, double& axialSt
     return error;
   }
   SetMaterials(request, model);
-  // The ends first, so that constraints of single points take precedence.
+  // The ends come first, so that constraints of single points take precedence.
   error = SetGeneralizedPlaneStrain(request, model, axialStrain);
   if (error.empty())
   {

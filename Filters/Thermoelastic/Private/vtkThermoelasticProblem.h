@@ -43,9 +43,8 @@ inline meshopt::Vec<2> VectorToCore(const vtkMeshBridge::Frame<2>& frame, const 
 }
 
 /**
- * Fills model.Problem from the arrays and the request. Returns a sentence about the first thing
- * that cannot be used, or an empty string. `axialStrain` is set to what is prescribed along the
- * axis.
+ * Fills model.Problem from the arrays and the request. Returns an empty string, or a sentence about
+ * the first unusable thing. `axialStrain` receives the strain prescribed along the axis.
  */
 template <int D>
 std::string MakeProblem(const Request& request, Model<D>& model, double& axialStrain);

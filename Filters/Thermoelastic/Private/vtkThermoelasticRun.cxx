@@ -23,7 +23,7 @@ namespace
 {
 
 /**
- * Dimension of a type of cells; types that VTK does not know count as volumes.
+ * Dimension of a type of cells; types unknown to VTK count as volumes.
  */
 int DimensionOf(int type)
 {
@@ -33,8 +33,8 @@ int DimensionOf(int type)
 }
 
 /**
- * Every cell of the mesh's dimension must be a linear simplex: to leave one out would be to solve
- * for another body. Cells of lower dimension are marks on it.
+ * Every cell of the mesh's dimension must be a linear simplex: without such a cell it would be
+ * another body. Cells of lower dimension are marks on the body.
  */
 std::string CheckCellTypes(vtkUnstructuredGrid* grid, int dimension)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What vtkThermoelasticFilter does with a grid, from import to export.
+ * The work of vtkThermoelasticFilter on a grid, from import to export.
  */
 #ifndef vtkThermoelasticRun_h
 #define vtkThermoelasticRun_h
@@ -20,7 +20,7 @@ namespace vtkThermoelasticBridge
 {
 
 /**
- * The filter's properties. Numbers mean what the enums of vtkThermoelasticFilter say.
+ * The filter's properties. Numbers are those of the enums of vtkThermoelasticFilter.
  */
 struct Request
 {
@@ -53,14 +53,14 @@ struct Outcome
   double StrainEnergy = 0.0;
   double ErrorEstimate = 0.0;
   double RelativeErrorEstimate = 0.0;
-  double AxialStrain = 0.0; ///< that was prescribed
+  double AxialStrain = 0.0; ///< the prescribed strain
   double AssemblySeconds = 0.0, SolveSeconds = 0.0, RecoverySeconds = 0.0;
 };
 
 /**
  * Solves on the tetrahedra of `input`, or on its triangles if it has no tetrahedra. `output`
- * becomes a copy with the results, `history` the residuals. Returns a sentence about what is wrong,
- * or an empty string. After an abort `output` and `history` are left empty.
+ * becomes a copy with the results, `history` receives the residuals. Returns an empty string, or a
+ * sentence about what is wrong. After an abort `output` and `history` are empty.
  */
 std::string SolveGrid(vtkUnstructuredGrid* input, const Request& request,
   vtkUnstructuredGrid* output, vtkTable* history, Outcome& outcome);

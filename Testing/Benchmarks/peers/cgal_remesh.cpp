@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CGAL's tetrahedral remeshing with the boundary kept, for peers.py: a program of its own, since CGAL's remeshing is GPL.
+// CGAL's tetrahedral remeshing with the boundary kept, for peers.py: a program of its own, since
+// CGAL's remeshing is GPL.
 //
 //   cgal_remesh IN.mesh OUT.mesh [rounds]
 //
-// Medit files. The edge length aimed at is the mean over the cells of IN.mesh. Prints the seconds of the remeshing.
+// Medit files. The edge length aimed at is the mean over the cells of IN.mesh. Prints the seconds
+// of the remeshing.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/File_medit.h>
 #include <CGAL/Tetrahedral_remeshing/Remeshing_triangulation_3.h>

@@ -1,8 +1,8 @@
 // The adaptive loop: a plate with a hole under tension, its mesh made for the solution on it.
-//   mesh -> vtkThermoelasticFilter -> vtkSolutionMetricFilter -> vtkMeshOptimizeFilter -> and again, until two successive
-//   meshes are close enough.
-// The plate is a quarter, and so large a piece of the infinite plane: its outer sides are displaced as G. Kirsch (1898)
-// has it, so that the stress at the top of the hole is 3 times the tension.
+//   mesh -> vtkThermoelasticFilter -> vtkSolutionMetricFilter -> vtkMeshOptimizeFilter -> and
+//   again, until two successive meshes are close enough.
+// The plate is a quarter, and so large a piece of the infinite plane: its outer sides are displaced
+// as G. Kirsch (1898) has it, so that the stress at the top of the hole is 3 times the tension.
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkMath.h>
@@ -72,7 +72,8 @@ void exactDisplacement(const double x[3], double u[3])
   u[2] = 0.0;
 }
 
-/// Adds the arrays that say how the plate is held: outer sides displaced, no motion across the lines of symmetry.
+/// Adds the arrays that say how the plate is held: outer sides displaced, no motion across the
+/// lines of symmetry.
 void addConstraints(vtkUnstructuredGrid* mesh)
 {
   vtkNew<vtkDoubleArray> constraint, displacement;

@@ -165,7 +165,8 @@ TEST(EdgeBound, NoFillingByOneOrTwoIsBetter)
 
 namespace
 {
-/// Two kept facets with the edge (0, 0, 0), (1, 0, 0) in common, at the angle theta; some are needles.
+/// Two kept facets with the edge (0, 0, 0), (1, 0, 0) in common, at the angle theta; some are
+/// needles.
 struct Wedge
 {
   Vec<3> a = Vec<3>(0, 0, 0), b = Vec<3>(1, 0, 0), c, d;
@@ -257,8 +258,8 @@ TEST(PairBound, AgainstBruteForce)
 
 TEST(PairBound, NeedlesOfTheDinosaur)
 {
-  // The edge that limits CGAL's dino. By angles alone two elements could have .0859 there, but not with
-  // one node: three can have .081 at most, by their angles.
+  // The edge that limits CGAL's dino. By angles alone two elements could have .0859 there, but not
+  // with one node: three can have .081 at most, by their angles.
   const Vec<3> points[4] = { Vec<3>(0, 0, 0), Vec<3>(56.043, 6.976, -13.05),
     Vec<3>(55.704, 14.619, -9.98), Vec<3>(-5.683, 4.337, -0.62) };
   const double bound =

@@ -2,8 +2,8 @@
 // Facets whose own shape caps their cell very low: weights, and that the neighbours are spared.
 #include "Bound/Caps.h"
 #include "Bound/ApexBound.h"
-#include "Optimize/Optimizer.h"
 #include "Edit/QualityModel.h"
+#include "Optimize/Optimizer.h"
 #include "Run/Summary.h"
 #include "TestMeshes.h"
 
@@ -131,7 +131,8 @@ TEST(Caps, WithoutTinyFacetsAllWeighTheSame)
   }
 }
 
-/// A cell with the best apex on a needle has neighbours at the needle's short edge that are no better.
+/// A cell with the best apex on a needle has neighbours at the needle's short edge that are no
+/// better.
 TEST(Caps, CellsBesideTinyFacetsAreSpared)
 {
   SimplexMesh<3> mesh = buildMesh(withNeedles(8, 0.06));

@@ -185,7 +185,8 @@ TEST(SurfaceBound, OtherMeasures)
 
 TEST(SurfaceBound, PlaneCorner)
 {
-  // a corner of 20 degrees between edges of length 1 and 0.5: one triangle has it all, or several share it
+  // a corner of 20 degrees between edges of length 1 and 0.5: one triangle has it all, or several
+  // share it
   const double theta = 20.0 * pi / 180.0;
   MeshInput<2> in;
   in.points = { Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(0.5 * std::cos(theta), 0.5 * std::sin(theta)) };

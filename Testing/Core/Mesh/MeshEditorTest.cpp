@@ -10,7 +10,7 @@ class Editor : public ::testing::Test
 };
 TYPED_TEST_SUITE(Editor, TestDimensions);
 
-// ---- replace -------------------------------------------------------------------------------------
+// ---- replace ------------------------------------------------------------------------------------
 
 TEST(Editor2D, SwapAndBack)
 {
@@ -155,7 +155,7 @@ TEST(Editor3D, KeptEdgesAreHandedOn)
   EXPECT_EQ(marks, 4); // each of both edges in two of the four cells
 }
 
-// ---- undo ----------------------------------------------------------------------------------------
+// ---- undo ---------------------------------------------------------------------------------------
 
 TYPED_TEST(Editor, RollbackRestoresEveryByte)
 {
@@ -208,7 +208,7 @@ TYPED_TEST(Editor, ANewEditorGoesOnWithClockAndMarks)
   EXPECT_FALSE(second.isMarked(3, second.newMark()));
 }
 
-// ---- editors that own a part ---------------------------------------------------------------------
+// ---- editors that own a part --------------------------------------------------------------------
 
 TYPED_TEST(Editor, OwnersKeepToTheirPart)
 {

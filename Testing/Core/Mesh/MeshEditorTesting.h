@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of the editor share: cavities made and replaced at random, and the state that undoing must restore.
+// What the tests of the editor share: cavities made and replaced at random, and the state that
+// undoing must restore.
 #ifndef meshopt_Testing_MeshEditorTesting_h
 #define meshopt_Testing_MeshEditorTesting_h
 

@@ -68,7 +68,7 @@ TEST(MeshRing, AcrossKeptFacets)
   EXPECT_EQ(sorted({ ring.front(), ring.back() }), sorted({ 1, 2 }));
 }
 
-// ---- what is kept --------------------------------------------------------------------------------
+// ---- what is kept -------------------------------------------------------------------------------
 
 TYPED_TEST(MeshKept, RegionsAreKeptApart)
 {

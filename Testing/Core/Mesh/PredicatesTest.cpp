@@ -58,7 +58,8 @@ Corners<D> toDoubles(const Lattice<D>& p, int exponent)
 double naive(const Corners<3>& x) { return signedVolume(x); }
 double naive(const Corners<2>& x) { return signedVolume(x); }
 
-/// Nearly degenerate simplices: the last node is an integer combination of the others, moved by at most 1.
+/// Nearly degenerate simplices: the last node is an integer combination of the others, moved by at
+/// most 1.
 template <int D>
 void nearlyDegenerate(long range, int& wrong, int& zeros)
 {
@@ -121,7 +122,8 @@ TEST(Predicates, SpaceAgainstIntegers)
 
 TEST(Predicates, WideRangeOfSizes)
 {
-  // (tiny, 0), (0, 1), (1, -1 / tiny): off the line by one unit in the last place of 1 / tiny, or on it
+  // (tiny, 0), (0, 1), (1, -1 / tiny): off the line by one unit in the last place of 1 / tiny, or
+  // on it
   for (int e = 1; e < 50; ++e)
   {
     const double tiny = std::ldexp(1.0, -e);
@@ -138,7 +140,8 @@ TEST(Predicates, WideRangeOfSizes)
 
 TEST(Predicates, SpaceFarFromTheOrigin)
 {
-  // a plane through points with large coordinates; one unit in the last place above, on and below it
+  // a plane through points with large coordinates; one unit in the last place above, on and below
+  // it
   const double far = 1e15;
   const Vec<3> a(far, far, far), b(far + 1, far, far + 1), c(far, far + 1, far + 1);
   const Vec<3> on(far + 1, far + 1, far + 2);

@@ -54,7 +54,7 @@ class Mesh : public ::testing::Test
 };
 TYPED_TEST_SUITE(Mesh, TestDimensions);
 
-// ---- errors --------------------------------------------------------------------------------------
+// ---- errors -------------------------------------------------------------------------------------
 
 TYPED_TEST(Mesh, PointIdsOutOfRangeAreNamed)
 {
@@ -157,7 +157,7 @@ TYPED_TEST(Mesh, EmptyInputIsAnEmptyMesh)
   expectSound(mesh);
 }
 
-// ---- numbering -----------------------------------------------------------------------------------
+// ---- numbering ----------------------------------------------------------------------------------
 
 TYPED_TEST(Mesh, AWhollyReversedMeshIsRenumbered)
 {
@@ -247,9 +247,10 @@ TYPED_TEST(Mesh, AReallyInvertedCellStaysNegative)
   EXPECT_FALSE(mesh.audit(true).empty());
 }
 
-// ---- adjacency, stars, rings ---------------------------------------------------------------------
+// ---- adjacency, stars, rings --------------------------------------------------------------------
 
-/// Both cells lie on the same side of their common facet. To turn one of them would make it inverted.
+/// Both cells lie on the same side of their common facet. To turn one of them would make it
+/// inverted.
 TYPED_TEST(Mesh, PositiveCellsThatLieOnEachOtherAreNotRenumbered)
 {
   constexpr int D = TypeParam::dimension;
@@ -343,7 +344,7 @@ TEST(MeshRing, LargeStarIsComplete)
   EXPECT_EQ(sorted(ring), cellsAt(mesh, { 0, 1 }));
 }
 
-// ---- counts --------------------------------------------------------------------------------------
+// ---- counts -------------------------------------------------------------------------------------
 
 TYPED_TEST(Mesh, VolumeAndEulerCharacteristic)
 {

@@ -307,7 +307,8 @@ TEST_F(Metric2, ErrorsNameThePoint)
   EXPECT_TRUE(metric.element(this->mesh_.nodes(0)).euclidean);
 }
 
-/// What many edges ask for is found without looking at all of them; sizes are raised to it everywhere.
+/// What many edges ask for is found without looking at all of them; sizes are raised to it
+/// everywhere.
 TEST(NodalMetric, RaisedToAFloor)
 {
   std::mt19937 random(5);

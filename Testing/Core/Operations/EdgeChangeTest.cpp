@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Edges split and contracted one by one, those of the boundary and of interfaces included.
+#include "MeshSnapshot.h"
 #include "Operations/EdgeContraction.h"
 #include "Operations/EdgeSplit.h"
-#include "MeshSnapshot.h"
 #include "PlaneMeshes.h"
 
 using namespace meshopt;

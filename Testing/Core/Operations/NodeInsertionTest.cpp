@@ -54,7 +54,8 @@ TYPED_TEST(InsertingNode, NeedsRoomForItsCells)
 {
   constexpr int D = TypeParam::dimension;
   Bench<D> b(fromOneCorner<D>());
-  // Whatever cavity is taken: it has no inner point, and at least D facets more than cells.
+  // Whatever cavity is taken: f of its facets less its cells are at least D, as it has no inner
+  // point.
   b.judge.growth.left = D - 1;
   Insertion<D> insertion;
   expectRefused(b, [&] { return insertion.improve(b.judge, 0, Level::Insertion); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A flat patch of the surface of tetrahedra that takes part: a node slides on it, an edge is swapped, a
-// node is contracted into its neighbour, an edge is divided; each done, and undone to the bit.
+// A flat patch of the surface of tetrahedra that takes part: a node slides on it, an edge is
+// swapped, a node is contracted into its neighbour, an edge is divided; each done, and undone to
+// the bit.
 #include "Edit/Judge.h"
 #include "MeshSnapshot.h"
 #include "Operations/EdgeContraction.h"
@@ -43,8 +44,7 @@ public:
   {
     return slides(mesh, a) && isOn(mesh, b);
   }
-  bool maySwap(
-    const SimplexMesh<3>& mesh, Index a, Index b, Index c, Index d) const override
+  bool maySwap(const SimplexMesh<3>& mesh, Index a, Index b, Index c, Index d) const override
   {
     return isOn(mesh, a) && isOn(mesh, b) && isOn(mesh, c) && isOn(mesh, d);
   }

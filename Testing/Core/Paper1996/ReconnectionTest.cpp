@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The operations of the paper's figure 1, each on a case made by hand, and the iteration of 2.3.
-#include "Run/Summary.h"
 #include "Paper1996/Reconnection.h"
+#include "Run/Summary.h"
 #include "TestMeshes.h"
 
 using namespace meshopt;
@@ -28,8 +28,7 @@ ReconnectionResult run(SimplexMesh<D>& mesh, std::vector<Filling> kinds, bool na
     }
   }
   ReconnectionMemory<D> memory;
-  return reconnect<D>(
-    editor, metric, Measure::Shape, 0.0, parameters, memory, keepGoing, sequence);
+  return reconnect<D>(editor, metric, Measure::Shape, 0.0, parameters, memory, keepGoing, sequence);
 }
 
 template <int D>
@@ -194,8 +193,7 @@ TEST(Reconnection, ConstrainedEdgeStays)
   bool found = false;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
-    found = found ||
-      (mesh.isAlive(c) && mesh.localIndex(c, 0) >= 0 && mesh.localIndex(c, 1) >= 0);
+    found = found || (mesh.isAlive(c) && mesh.localIndex(c, 0) >= 0 && mesh.localIndex(c, 1) >= 0);
   }
   EXPECT_TRUE(found);
   expectSound(mesh);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The battery that every shape measure has to pass, in 2D and 3D. A new measure is one more line in Measures.
+// The battery that every shape measure has to pass, in 2D and 3D. A new measure is one more line in
+// Measures.
 #include "Quality/ElementQuality.h"
+#include "Quality/Measures.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -133,6 +135,16 @@ using MeasuresOf = testing::Types<Case<D, MeanEdgeShape<D>, Measure::Shape>,
   Case<D, WarpedSineShape<D>, Measure::WarpedSine>,
   Case<D, VolumeLengthShape<D>, Measure::VolumeLength>,
   Case<D, MinimumAngleShape<D>, Measure::MinimumDihedralAngle>>;
+
+template <class List>
+struct NumberOfCases;
+template <class... Cases>
+struct NumberOfCases<testing::Types<Cases...>>
+{
+  static constexpr std::size_t value = sizeof...(Cases);
+};
+static_assert(NumberOfCases<MeasuresOf<3>>::value == std::tuple_size_v<MeasureTable>,
+  "a case for each measure");
 
 TYPED_TEST_SUITE_P(ShapeMeasure);
 

@@ -226,10 +226,10 @@ void fastPathEqualsGeneric()
   }
 }
 
-// ---- the step ------------------------------------------------------------------------------------
+// ---- the step -----------------------------------------------------------------------------------
 
-/// max over d of min_k (q_k + g_k . d) - |d|^2 / (2 tau), by its dual over all subsets: on each, the
-/// stationary point of the affine hull counts if its weights are not negative.
+/// max over d of min_k (q_k + g_k . d) - |d|^2 / (2 tau), by its dual over all subsets: on each,
+/// the stationary point of the affine hull counts if its weights are not negative.
 template <int D>
 double dual(const std::vector<typename ProximalStep<D>::Function>& f, double tau)
 {

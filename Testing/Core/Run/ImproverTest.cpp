@@ -2,8 +2,8 @@
 // Single improvements: where metric and size vary from place to place each must raise the sorted
 // vector of qualities, as they really are after it; and the limits of what may go.
 #include "Run/Improver.h"
-#include "Run/Run.h"
 #include "Quality/Shape.h"
+#include "Run/Run.h"
 #include "TestMeshes.h"
 
 using namespace meshopt;

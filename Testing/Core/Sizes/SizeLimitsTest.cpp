@@ -8,9 +8,9 @@ using namespace meshopt;
 namespace
 {
 /// How many regular triangles fill the cells of `in` where edges of the boundary stay and `wanted`
-/// is wanted: 4 / sqrt(3) int dA / s^2. The size s is what edges of length l leave to the distance
-/// d from them, the greatest l - .7 d (SizeFloor), or what is wanted if that is more. Midpoint rule
-/// on n^2 parts of each cell.
+/// is wanted: 4 / sqrt(3) int dA / s^2, with s what the nearest edges of length l leave to the
+/// distance d, the greatest l - .7 d (SizeFloor), or what is wanted. By the midpoint rule on n^2
+/// parts of each cell.
 double trianglesBeside(const MeshInput<2>& in, double wanted)
 {
   constexpr int n = 60;
@@ -63,7 +63,8 @@ TEST(SizeLimits, FixedBoundaryKeepsWhatItHas)
   EXPECT_LT(huge.cells, 32);
 }
 
-/// In this metric the corners of the square are sharp, and two triangles in them already have the best shape.
+/// In this metric the corners of the square are sharp, and two triangles in them already have the
+/// best shape.
 TEST(SizeLimits, SizesAreGivenUpWhereTheWorstWouldFall)
 {
   const Tensor<2> m = (Tensor<2>() << 5.05, -4.95, -4.95, 5.05).finished(); // 45 degrees, 1 : 10
@@ -86,7 +87,8 @@ TEST(SizeLimits, SizesAreGivenUpWhereTheWorstWouldFall)
   EXPECT_LE(made.report.worstAfter, best + 1e-9); // no mesh has more
 }
 
-/// Edges of .39, and .01 is wanted: elements grow from the one to the other, and inside all is as wanted.
+/// Edges of .39, and .01 is wanted: elements grow from the one to the other, and inside all is as
+/// wanted.
 TEST(SizeLimits, SizesFallFromAFixedCoarseBoundary)
 {
   const Result<2> run = optimized<2>(disc(16), NodalMetric<2>(0.01), options(1.0), false);
@@ -111,7 +113,8 @@ TEST(SizeLimits, SizesFallFromAFixedCoarseBoundary)
   EXPECT_GE(worstInside, 0.6);
 }
 
-/// A metric that turns by far more than its elements are short: what is made must not grow without end.
+/// A metric that turns by far more than its elements are short: what is made must not grow without
+/// end.
 TEST(SizeLimits, SplittingHasABrake)
 {
   constexpr double ratio = 100.0, wanted = 0.3;
@@ -137,8 +140,8 @@ TEST(SizeLimits, SplittingHasABrake)
   EXPECT_LT(run.cells, 1.1 * most);
 }
 
-// In a mesh of some ten triangles one node is a fifth of them: to correct the number to a few percent
-// made the worst element bad, and then the sizes were given up.
+// In a mesh of some ten triangles one node is a fifth of them: to correct the number to a few
+// percent made the worst element bad, and then the sizes were given up.
 TEST(SizeLimits, SmallMeshesGetTheirSizes)
 {
   for (unsigned seed : { 3, 18, 28 })

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes that get the size they are asked for, their boundary sliding or not: what comes out, what stays.
+// Meshes that get the size they are asked for, their boundary sliding or not: what comes out, what
+// stays.
 #include "Sizes/SizeStage.h"
 #include "Run/Summary.h"
 #include "SizeRuns.h"
@@ -25,7 +26,7 @@ double outOfRound(const SimplexMesh<2>& mesh)
 }
 }
 
-// ---- what is asked for ---------------------------------------------------------------------------
+// ---- what is asked for --------------------------------------------------------------------------
 
 TEST(SizeStage, FromTwoTriangles)
 {
@@ -66,8 +67,9 @@ TEST(SizeStage, FineMeshesGetCoarse)
   }
 }
 
-// A layer that the kept surface does not fit: the same edges are split and contracted round by round,
-// which must not keep the number of elements from being corrected (1.46 to 1.58 times the predicted one).
+// A layer that the kept surface does not fit: the same edges are split and contracted round by
+// round, which must not keep the number of elements from being corrected (1.46 to 1.58 times the
+// predicted one).
 TEST(SizeStage, EdgesThatGoToAndFroDoNotHoldUpTheCount)
 {
   for (unsigned seed : { 4, 23, 30 })
@@ -161,7 +163,7 @@ TEST(SizeStage, VeryAnisotropicMetric)
   }
 }
 
-// ---- boundaries ----------------------------------------------------------------------------------
+// ---- boundaries ---------------------------------------------------------------------------------
 
 TEST(SizeStage, CurvedInterfaceSlides)
 {
@@ -314,7 +316,7 @@ TEST(SizeStage, InSpaceTheSurfaceStays)
   }
 }
 
-// ---- the same again, and not to the end ----------------------------------------------------------
+// ---- the same again, and not to the end ---------------------------------------------------------
 
 TEST(SizeStage, SameBitsForAnyNumberOfThreadsAndRuns)
 {
@@ -397,7 +399,7 @@ TEST(SizeStage, PowersOfTwoScale)
   }
 }
 
-// ---- options -------------------------------------------------------------------------------------
+// ---- options ------------------------------------------------------------------------------------
 
 TEST(SizeStage, KindsOfChangeCanBeSwitchedOff)
 {

@@ -193,3 +193,44 @@ TEST(PlaneCurve, PowersOfTwoScaleBitwise)
     }
   }
 }
+
+/// Against differences, for curves of both kinds, open and closed.
+TEST(PlaneCurve, DirectionIsTheDerivative)
+{
+  constexpr double step = 1e-6;
+  for (bool spline : { false, true })
+  {
+    const PlaneCurve curves[] = { PlaneCurve(wave(9), false, spline),
+      PlaneCurve(circle(16, 2.0), true, spline),
+      PlaneCurve({ { 0, 0 }, { 3, 4 } }, false, spline) };
+    for (const PlaneCurve& curve : curves)
+    {
+      for (int k = 0; k < 200; ++k)
+      {
+        const double s = curve.length() * (k + 0.37) / 200;
+        const Vec<2> d = curve.at(s + step) - curve.at(s - step);
+        EXPECT_NEAR(curve.direction(s).norm(), 1.0, 1e-14);
+        EXPECT_LT((curve.direction(s) - d.normalized()).norm(), 1e-8) << s;
+      }
+    }
+  }
+}
+
+TEST(PlaneCurve, DirectionAtEndsAndBetweenLines)
+{
+  const std::vector<Vec<2>> points{ { 0, 0 }, { 2, 0 }, { 2, 1 }, { 0, 1 } };
+  const PlaneCurve open(points, false, false), closed(points, true, false);
+  const Vec<2> east(1, 0), north(0, 1), south(0, -1);
+  for (const PlaneCurve* curve : { &open, &closed })
+  {
+    EXPECT_EQ(curve->direction(0.0), east);
+    EXPECT_EQ(curve->direction(2.0), north); // that of the line after the point
+    EXPECT_EQ(curve->direction(3.0), -east);
+  }
+  EXPECT_EQ(open.direction(5.0), -east); // the end: there is none after it
+  EXPECT_EQ(open.direction(9.0), -east);
+  EXPECT_EQ(closed.direction(5.0), south);
+  EXPECT_EQ(closed.direction(5.5), south);
+  EXPECT_EQ(closed.direction(6.0), east); // and around again
+  EXPECT_EQ(closed.direction(-0.5), south);
+}

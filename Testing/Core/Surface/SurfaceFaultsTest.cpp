@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults of kept surfaces: made one by one, found with the right facets, and not where there are none.
+// Faults of kept surfaces: made one by one, found with the right facets, and not where there are
+// none.
 #include "Surface/SurfaceFaults.h"
 
 #include "TestMeshes.h"

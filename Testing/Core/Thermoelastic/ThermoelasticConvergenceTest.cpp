@@ -252,8 +252,8 @@ TYPED_TEST(ThermoelasticConvergence, HotCylinder)
   EXPECT_LT(fine[1], D == 3 ? 0.02 : 0.005);
 }
 
-// The strain at which the ends carry no force, from the elements alone, is that of the exact solution;
-// and the ends carry none then.
+// The strain at which the ends carry no force, from the elements alone, is that of the exact
+// solution; and the ends carry none then.
 TEST(ThermoelasticConvergenceCylinder, FreeAxialStrain)
 {
   const HotCylinder exact;

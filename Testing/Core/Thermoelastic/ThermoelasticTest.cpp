@@ -161,7 +161,8 @@ TYPED_TEST(Thermoelastic, PressureAllAround)
   }
 }
 
-// Two materials in a row, pulled: each has its own strain, both have one stress; statics and energy.
+// Two materials in a row, pulled: each has its own strain, both have one stress; statics and
+// energy.
 TYPED_TEST(Thermoelastic, TwoMaterialsInARow)
 {
   constexpr int D = TypeParam::dimension;

@@ -151,8 +151,8 @@ double largestDifference(const std::vector<A>& a, const std::vector<A>& b)
   return most;
 }
 
-/// L2 norm of value - exact over the root of the volume, values being linear in each cell. By the rule
-/// of degree 2 with D + 1 points.
+/// L2 norm of value - exact over the root of the volume, values being linear in each cell. By the
+/// rule of degree 2 with D + 1 points.
 template <int D, class Value>
 double l2Error(const SimplexMesh<D>& mesh, const std::vector<Value>& values,
   const std::function<Value(const Vec<D>&)>& exact)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes whose cells overlap: what geometry forbids elsewhere must be looked at, so that they stay meshes.
-#include "Surface/SurfaceFaults.h"
+// Meshes whose cells overlap: what geometry forbids elsewhere must be looked at, so that they stay
+// meshes.
 #include "Mesh/CavityFit.h"
 #include "Mesh/PinchedPoints.h"
 #include "Optimize/Optimizer.h"
 #include "PlaneMeshes.h"
+#include "Surface/SurfaceFaults.h"
 
 #include <Eigen/Geometry>
 
@@ -39,7 +40,8 @@ SimplexMesh<2> heap()
     { { 2, 0, 3 }, { 0, 3, 1 }, { 1, 3, 4 }, { 2, 5, 3 }, { 3, 6, 4 }, { 5, 7, 6 } });
 }
 
-/// An inverted cell that a cavity can surround: a node joined to all that is around it closes a bubble.
+/// An inverted cell that a cavity can surround: a node joined to all that is around it closes a
+/// bubble.
 SimplexMesh<2> crumpledGrid()
 {
   return build({ { 0, 0 }, { 0.533456, 0.845828 }, { 1.066913, 1.691655 }, { 1.7781, -0.63998 },
@@ -174,7 +176,8 @@ TEST(Overlap, CrumpledGridsAreUntangledAndNotPinched)
 
 TEST(Overlap, NodesDoNotFlyOff)
 {
-  // a surface that passes through itself: some cells stay inverted, and the farther a node, the flatter they are
+  // a surface that passes through itself: some cells stay inverted, and the farther a node, the
+  // flatter they are
   TestRandom random(1);
   for (int k = 0; k < 10; ++k)
   {
@@ -231,8 +234,8 @@ TEST(Overlap, SizesInACrumpledMesh)
 
 namespace
 {
-/// Nodes thrown until cells are inverted, and these renumbered: all volumes are positive, but cells lie
-/// on each other.
+/// Nodes thrown until cells are inverted, and these renumbered: all volumes are positive, but cells
+/// lie on each other.
 template <int D>
 MeshInput<D> foldedGrid(unsigned seed)
 {

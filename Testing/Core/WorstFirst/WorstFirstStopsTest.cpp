@@ -11,7 +11,7 @@ class WorstFirstStops : public ::testing::Test
 };
 TYPED_TEST_SUITE(WorstFirstStops, TestDimensions);
 
-// ---- options -------------------------------------------------------------------------------------
+// ---- options ------------------------------------------------------------------------------------
 
 TYPED_TEST(WorstFirstStops, KindsOfOperationsCanBeSwitchedOff)
 {
@@ -45,7 +45,8 @@ TYPED_TEST(WorstFirstStops, KindsOfOperationsCanBeSwitchedOff)
   }
 }
 
-/// A finely divided cube's surface, all joined to one node: it takes many more nodes to make that good.
+/// A finely divided cube's surface, all joined to one node: it takes many more nodes to make that
+/// good.
 MeshInput<3> conedCube(const Vec<3>& apex)
 {
   const SimplexMesh<3> cube = buildMesh(jitteredGrid<3>(8, 0.0));
@@ -105,7 +106,7 @@ TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
   EXPECT_EQ(growthOf(options, 12, 2), 0);
 }
 
-// ---- why it stops --------------------------------------------------------------------------------
+// ---- why it stops -------------------------------------------------------------------------------
 
 /// One cell whose fourth node is the best there is for its first facet: it has all that is allowed.
 TEST(WorstFirstStops3D, StopsWhereTheSurfaceCaps)

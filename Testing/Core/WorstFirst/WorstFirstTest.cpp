@@ -10,7 +10,7 @@ class WorstFirst : public ::testing::Test
 };
 TYPED_TEST_SUITE(WorstFirst, TestDimensions);
 
-// ---- what it reaches -----------------------------------------------------------------------------
+// ---- what it reaches ----------------------------------------------------------------------------
 
 TYPED_TEST(WorstFirst, ReachesTheTarget)
 {
@@ -101,7 +101,7 @@ TEST(WorstFirst3D, TriesCellsAcrossEveryBorder)
   EXPECT_EQ(report.stopReason, StopReason::TargetReached) << report.worstAfter;
 }
 
-// ---- what it keeps -------------------------------------------------------------------------------
+// ---- what it keeps ------------------------------------------------------------------------------
 
 TYPED_TEST(WorstFirst, KeepsWhatMustStay)
 {
@@ -162,7 +162,7 @@ TYPED_TEST(WorstFirst, KeepsWhatMustStay)
   }
   EXPECT_NEAR(regionVolume, expected, 1e-12);
 }
-// ---- sizes and metrics ---------------------------------------------------------------------------
+// ---- sizes and metrics --------------------------------------------------------------------------
 
 TYPED_TEST(WorstFirst, SizesAndMetrics)
 {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file TrustRegion.h
+/// The ascent that StarProblem (one node) and ClusterProblem (several) share.
+///
+/// A step is the best one for the linearized functions less |d|^2 / (2 tau). The trust tau follows
+/// what steps really gain, beside what the linearization promised.
+#ifndef meshopt_Reposition_TrustRegion_h
+#define meshopt_Reposition_TrustRegion_h
+
+namespace meshopt
+{
+struct TrustRegion
+{
+  static constexpr int Trials = 5; ///< steps tried from one place, each with less trust
+  /// A step is taken if it gains this part of what was promised ...
+  static constexpr double LeastShare = 0.1;
+  /// ... and the trust grows if it gains this part.
+  static constexpr double GoodShare = 0.7;
+  static constexpr double Growth = 3.0, Shrinkage = 0.25; ///< of the trust
+  /// Trust at the start, as a part of L^2: a unit gradient per length L moves a node by L / 10.
+  static constexpr double FirstShare = 0.1;
+};
+
+/// Raises `worst` in at most `maximumSteps` steps; returns what is reached. Stops when that is at
+/// least `enough`, or when no step promises to gain more than `gain`. The problem has
+///  - linearize(worst): at the place where it is;
+///  - predict(tau): finds the step, returns the linearized minimum after it;
+///  - tryStep(required): returns the worst after the step; if that is at most `required`, any such
+///    value may be returned;
+///  - accept(): goes there.
+template <class Problem>
+double ascend(
+  Problem& problem, double worst, double tau, double enough, double gain, int maximumSteps)
+{
+  for (int step = 0; step < maximumSteps && worst < enough;)
+  {
+    problem.linearize(worst);
+    bool moved = false;
+    for (int trial = 0; trial < TrustRegion::Trials && step < maximumSteps && !moved;
+         ++trial, ++step)
+    {
+      const double predicted = problem.predict(tau) - worst;
+      if (!(predicted > gain))
+      {
+        return worst;
+      }
+      const double required = worst + TrustRegion::LeastShare * predicted;
+      const double there = problem.tryStep(required);
+      moved = there > required;
+      tau *= there > worst + TrustRegion::GoodShare * predicted ? TrustRegion::Growth
+        : moved                                                 ? 1.0
+                                                                : TrustRegion::Shrinkage;
+      if (moved)
+      {
+        problem.accept();
+        worst = there;
+      }
+    }
+    if (!moved)
+    {
+      break;
+    }
+  }
+  return worst;
+}
+}
+
+#endif

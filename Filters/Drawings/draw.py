@@ -1,0 +1,418 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The drawings of Filters/ARCHITECTURE.md, as SVG. Needs Python alone.
+
+    python3 Filters/Drawings/draw.py            draws them beside this script
+    python3 Filters/Drawings/draw.py --check    exit status 1 if a drawing is not what this script draws (a test)
+
+What can be read from the code is read from it: the local numbering from Core/Mesh/Types.h, the order of the operations from
+Core/Run/Improver.h, the rooms from Testing/Core/rooms.py.
+"""
+import importlib.util
+import math
+import pathlib
+import re
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+CORE = HERE.parent / "Core"
+
+INK, SOFT, PALE = "#1d2733", "#6b7a89", "#f2f5f8"
+BAD, BAD_LINE = "#f6b9ae", "#b5301c"
+NEW, NEW_LINE = "#cfe9d0", "#23752b"
+BLUE, BLUE_LINE = "#d5e4f5", "#1c4f8a"
+CHUNKS = ["#cfe0f4", "#d6ecd2", "#fbe3c4", "#e5d9f0"]
+HELD = "#9aa4ae"
+
+
+class Svg:
+    def __init__(self, width, height):
+        self.size = width, height
+        self.items = []
+
+    def add(self, text):
+        self.items.append(text)
+
+    def polygon(self, points, fill=PALE, stroke=SOFT, width=1.2):
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        self.add(f'<polygon points="{path}" fill="{fill}" stroke="{stroke}" stroke-width="{width}" stroke-linejoin="round"/>')
+
+    def line(self, a, b, stroke=SOFT, width=1.2, dash="", arrow=False):
+        extra = f' stroke-dasharray="{dash}"' if dash else ""
+        extra += ' marker-end="url(#arrow)"' if arrow else ""
+        self.add(f'<line x1="{a[0]:.1f}" y1="{a[1]:.1f}" x2="{b[0]:.1f}" y2="{b[1]:.1f}" stroke="{stroke}" '
+                 f'stroke-width="{width}" stroke-linecap="round"{extra}/>')
+
+    def dot(self, p, fill=INK, radius=4.0, stroke="white"):
+        self.add(f'<circle cx="{p[0]:.1f}" cy="{p[1]:.1f}" r="{radius}" fill="{fill}" stroke="{stroke}" stroke-width="1"/>')
+
+    def text(self, p, words, size=13, anchor="middle", color=INK, bold=False, mono=False):
+        words = words.replace("&", "&amp;").replace("<", "&lt;")
+        family = "DejaVu Sans Mono, monospace" if mono else "DejaVu Sans, Helvetica, Arial, sans-serif"
+        weight = ' font-weight="bold"' if bold else ""
+        self.add(f'<text x="{p[0]:.1f}" y="{p[1]:.1f}" font-family="{family}" font-size="{size}" fill="{color}" '
+                 f'text-anchor="{anchor}"{weight}>{words}</text>')
+
+    def box(self, x, y, w, h, words, fill=BLUE, stroke=BLUE_LINE, size=13, bold_first=True):
+        self.add(f'<rect x="{x:.1f}" y="{y:.1f}" width="{w:.1f}" height="{h:.1f}" rx="6" fill="{fill}" stroke="{stroke}" '
+                 'stroke-width="1.3"/>')
+        step = size + 4
+        top = y + h / 2 - step * (len(words) - 1) / 2 + size * 0.36
+        for k, line in enumerate(words):
+            self.text((x + w / 2, top + k * step), line, size if k == 0 else size - 1.5, bold=bold_first and k == 0)
+
+    def __str__(self):
+        w, h = self.size
+        marker = ('<defs><marker id="arrow" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" markerHeight="7" '
+                  f'orient="auto-start-reverse"><path d="M0,0 L10,5 L0,10 z" fill="{SOFT}"/></marker></defs>')
+        head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}">'
+        return "\n".join([head, marker, f'<rect width="{w}" height="{h}" fill="white"/>', *self.items, "</svg>", ""])
+
+
+# ---- geometry ------------------------------------------------------------------------------------
+def middle(*points):
+    return sum(p[0] for p in points) / len(points), sum(p[1] for p in points) / len(points)
+
+
+def towards(a, b, part):
+    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])
+
+
+def around(centre, radius, degrees):
+    angle = math.radians(degrees)
+    return centre[0] + radius * math.cos(angle), centre[1] - radius * math.sin(angle)
+
+
+def chance(k):
+    """The same numbers in [0, 1[ on all machines."""
+    return (k * 2654435761 % 2**32 ^ (k * 40503 % 2**16) << 7) * 2246822519 % 2**32 / 2**32
+
+
+# ---- what the code says --------------------------------------------------------------------------
+def local_numbering(dimension):
+    """facets and edges of Local<D>."""
+    text = (CORE / "Mesh" / "Types.h").read_text()
+    text = text[text.index(f"struct Local<{dimension}>"):]
+    tables = []
+    for name in ("facets", "edges"):
+        body = re.search(rf" {name}\[\d\]\[\d\] = (.*?);", text, re.DOTALL).group(1)
+        tables.append([[int(n) for n in re.findall(r"\d", row)] for row in re.findall(r"\{([\d, ]+)\}", body)])
+    return tables
+
+
+def operations():
+    """Names and levels, in the order in which they are tried."""
+    text = (CORE / "Run" / "Improver.h").read_text()
+    names = re.findall(r"(\w+)<D, Shape>", re.search(r"using OperationList = std::tuple<(.*?)>;", text, re.DOTALL).group(1) + ">")
+    levels = []
+    for name in names:
+        levels.append(re.search(r"int level = Level::(\w+);", (CORE / "Operations" / f"{name}.h").read_text()).group(1))
+    return list(zip(names, levels))
+
+
+def rooms():
+    path = HERE.parents[1] / "Testing" / "Core" / "rooms.py"
+    spec = importlib.util.spec_from_file_location("rooms", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.ROOMS, module.MODULES
+
+
+# ---- numbering -----------------------------------------------------------------------------------
+def draw_numbering():
+    s = Svg(900, 330)
+    facets, edges = local_numbering(2)
+    corner = [(60, 240), (300, 240), (180, 60)]
+    s.text((180, 26), "Triangle", 15, bold=True)
+    s.polygon(corner)
+    for i, nodes in enumerate(facets):
+        a, b = (corner[n] for n in nodes)
+        place = towards(middle(*corner), middle(a, b), 1.3)
+        anchor = "start" if place[0] > 190 else "end" if place[0] < 170 else "middle"
+        s.text((place[0], place[1] + 5), f"facet {i}", 13, anchor, color=BLUE_LINE)
+    for i, p in enumerate(corner):
+        s.dot(p)
+        out = towards(middle(*corner), p, 1.16)
+        s.text((out[0], out[1] + 5), str(i), 16, bold=True)
+    s.text((180, 300), "facet i lies opposite to node i", 12, color=SOFT)
+
+    facets, edges = local_numbering(3)
+    corner = [(390, 225), (560, 262), (610, 180), (500, 62)]
+    s.text((500, 26), "Tetrahedron", 15, bold=True)
+    hidden = {0, 2}
+    s.polygon([corner[0], corner[1], corner[3]])
+    s.polygon([corner[1], corner[2], corner[3]], fill="#e6ecf2")
+    for e, (a, b) in enumerate(edges):
+        back = {a, b} == hidden
+        s.line(corner[a], corner[b], SOFT, 1.2, "5,4" if back else "")
+        m = towards(corner[a], corner[b], 0.5)
+        s.add(f'<circle cx="{m[0]:.1f}" cy="{m[1]:.1f}" r="9" fill="white" stroke="{SOFT}" stroke-width="0.8"/>')
+        s.text((m[0], m[1] + 4), str(e), 12, color=SOFT)
+    for i, p in enumerate(corner):
+        s.dot(p)
+        out = towards(middle(*corner), p, 1.17)
+        s.text((out[0], out[1] + 5), str(i), 16, bold=True)
+    s.text((500, 300), "edges in circles; x1 - x0, x2 - x0, x3 - x0 are right-handed", 12, color=SOFT)
+
+    s.text((780, 60), "nodes of facet i", 13, bold=True)
+    for i, nodes in enumerate(facets):
+        s.text((780, 92 + 26 * i), f"{i}: " + " ".join(map(str, nodes)), 14, mono=True, color=BLUE_LINE)
+    for k, line in enumerate(("(facet nodes, node i) is an even", "permutation: a point on the same",
+                              "side as node i makes a simplex", "of positive volume with them.")):
+        s.text((780, 216 + 19 * k), line, 12, color=SOFT)
+    return s
+
+
+# ---- star, link, ring ----------------------------------------------------------------------------
+def draw_star():
+    s = Svg(900, 370)
+    # star of a free node
+    c = (150, 200)
+    spread = [12, 66, 118, 182, 236, 300]
+    rim = [around(c, r, a) for a, r in zip(spread, [105, 112, 108, 100, 112, 106])]
+    s.text((150, 28), "Star and link of a node", 15, bold=True)
+    for k, p in enumerate(rim):
+        s.polygon([c, p, rim[(k + 1) % len(rim)]], fill=BLUE)
+    for k, p in enumerate(rim):
+        s.line(p, rim[(k + 1) % len(rim)], BLUE_LINE, 3.5)
+    for p in rim:
+        s.dot(p)
+    s.dot(c, BAD_LINE, 5.5)
+    s.text((c[0] + 2, c[1] + 26), "v", 15, bold=True)
+    s.text((150, 342), "star: the cells of v", 12, color=SOFT)
+    s.text((150, 359), "link, blue: the facets opposite to v", 12, color=SOFT)
+
+    # ring of an edge, seen along it
+    c = (450, 200)
+    rim = [around(c, 108, a) for a in (20, 92, 164, 236, 308)]
+    s.text((450, 28), "Ring of an edge", 15, bold=True)
+    for k, p in enumerate(rim):
+        s.polygon([c, p, rim[(k + 1) % 5]], fill=NEW)
+        s.text(middle(c, p, rim[(k + 1) % 5]), f"cell {k}", 12, color=NEW_LINE)
+    for p in rim:
+        s.dot(p)
+    s.dot(c, BAD_LINE, 6.5)
+    s.text((c[0], c[1] + 26), "a b", 13, bold=True)
+    s.text((450, 342), "seen along the edge a b: edge removal fills the", 12, color=SOFT)
+    s.text((450, 359), "ring without it. Closed: no kept facet in it", 12, color=SOFT)
+
+    # an open ring at the surface
+    c = (750, 215)
+    rim = [around(c, 112, a) for a in (0, 48, 98, 140, 180)]
+    s.text((750, 28), "Ring at a kept facet", 15, bold=True)
+    for k in range(4):
+        s.polygon([c, rim[k], rim[k + 1]], fill=PALE)
+        s.text(middle(c, rim[k], rim[k + 1]), f"cell {k}", 12, color=SOFT)
+    for p in (rim[0], rim[-1]):
+        s.line(c, p, INK, 5)
+    for p in rim:
+        s.dot(p)
+    s.dot(c, INK, 6.5)
+    s.text((c[0], c[1] + 28), "edge a b on the surface", 12, bold=True)
+    s.text((c[0], c[1] + 48), "thick: kept facets", 12, color=SOFT)
+    s.text((750, 342), "open: it ends at kept facets. Such an edge", 12, color=SOFT)
+    s.text((750, 359), "stays, unless the surface takes part", 12, color=SOFT)
+    return s
+
+
+# ---- cavity --------------------------------------------------------------------------------------
+def draw_cavity():
+    s = Svg(900, 350)
+    nodes = {"a": (40, 250), "b": (110, 110), "c": (245, 60), "d": (370, 130), "e": (390, 260), "f": (230, 300),
+             "g": (180, 190), "h": (292, 196)}
+    outline = ["a", "b", "c", "d", "e", "f"]
+    old = ["abg", "bcg", "cgh", "cdh", "deh", "ehf", "fhg", "agf"]
+    bad, cavity = "cgh", ["bcg", "cgh", "cdh", "ehf", "fhg", "deh"]
+
+    def at(name, shift):
+        return nodes[name][0] + shift, nodes[name][1]
+
+    s.text((215, 28), "Before: the cavity of a bad cell", 15, bold=True)
+    for cell in old:
+        fill = BAD if cell == bad else BLUE if cell in cavity else PALE
+        s.polygon([at(n, 0) for n in cell], fill=fill)
+    s.text((230, 150), "bad", 13, bold=True, color=BAD_LINE)
+    s.text((665, 28), "After: its boundary joined to a node", 15, bold=True)
+    for cell in old:
+        if cell not in cavity:
+            s.polygon([at(n, 450) for n in cell])
+    new = (707, 178)
+    boundary = ["bc", "cd", "de", "ef", "fg", "gb"]
+    for a, b in boundary:
+        s.polygon([new, at(a, 450), at(b, 450)], fill=NEW, stroke=NEW_LINE)
+    for shift in (0, 450):
+        for a, b in boundary:
+            s.line(at(a, shift), at(b, shift), BLUE_LINE, 3.5)
+        for k, a in enumerate(outline):
+            s.line(at(a, shift), at(outline[(k + 1) % 6], shift), INK, 4.5)
+        for name in nodes:
+            if not (shift and name == "h"):
+                s.dot(at(name, shift))
+    s.dot(new, NEW_LINE, 6)
+    s.text((new[0] + 14, new[1] - 10), "p", 15, bold=True)
+    s.line((408, 180), (462, 180), SOFT, 2, arrow=True)
+    s.text((215, 338), "blue line: boundary of the cavity.  thick: kept facets", 12, color=SOFT)
+    s.text((665, 338), "a free node has gone; the boundary of the cavity is as it was", 12, color=SOFT)
+    return s
+
+
+# ---- chunks --------------------------------------------------------------------------------------
+def grid_of_triangles(nx, ny, width, height):
+    points, cells = [], []
+    for j in range(ny + 1):
+        for i in range(nx + 1):
+            k = j * (nx + 1) + i
+            inside = 0 < i < nx and 0 < j < ny
+            dx, dy = ((chance(2 * k + 1) - 0.5) * 0.6, (chance(2 * k + 2) - 0.5) * 0.6) if inside else (0, 0)
+            points.append(((i + dx) * width / nx, (j + dy) * height / ny))
+    for j in range(ny):
+        for i in range(nx):
+            a = j * (nx + 1) + i
+            b, c, d = a + 1, a + nx + 1, a + nx + 2
+            cells += [(a, b, d), (a, d, c)] if (i + j) % 2 else [(a, b, c), (b, d, c)]
+    return points, cells
+
+
+def owners(points, n, shift):
+    """Chunks::assign(): bisection at the median along the longest extent, borders moved by `shift` of a chunk."""
+    owner = [0] * len(points)
+
+    def split(ids, first, count):
+        if count == 1:
+            for p in ids:
+                owner[p] = first
+            return
+        extent = [max(points[p][i] for p in ids) - min(points[p][i] for p in ids) for i in range(2)]
+        axis = 1 if extent[1] > extent[0] else 0
+        left = count // 2
+        ids = sorted(ids, key=lambda p: (points[p][axis], p))
+        border = int(len(ids) * (left + shift) / count)
+        split(ids[:border], first, left)
+        split(ids[border:], first + left, count - left)
+
+    split(list(range(len(points))), 0, n)
+    return owner
+
+
+def draw_chunks():
+    s = Svg(900, 340)
+    points, cells = grid_of_triangles(14, 9, 390, 240)
+    for x0, shift, title in ((30, 0.0, "One pass: four chunks"), (480, 0.3, "Next pass: borders moved by 0.3 of a chunk")):
+        owner = owners(points, 4, shift)
+        s.text((x0 + 195, 28), title, 15, bold=True)
+        for cell in cells:
+            mine = {owner[p] for p in cell}
+            fill = CHUNKS[mine.pop()] if len(mine) == 1 else HELD
+            s.polygon([(points[p][0] + x0, points[p][1] + 45) for p in cell], fill=fill, stroke="white", width=1)
+    s.text((450, 312), "A point has an owner. A cell belongs to a chunk if all its points do; grey cells, across a border, wait for the next pass.",
+           12, color=SOFT)
+    s.text((450, 330), "Chunks see only themselves and are worked on in sequence: the result is the same for any number of threads.",
+           12, color=SOFT)
+    return s
+
+
+# ---- the life of a run ---------------------------------------------------------------------------
+def draw_run():
+    s = Svg(900, 560)
+    s.text((20, 28), "The stages of a run", 15, "start", bold=True)
+    stages = [("import", "grid to SimplexMesh"), ("untangle", "if cells are inverted"), ("sizes", "if lengths are wanted"),
+              ("worst first", "up to the target"), ("polish", "the worst few cells"), ("export", "SimplexMesh to grid")]
+    w, gap = 130, 18
+    for k, (name, what) in enumerate(stages):
+        x = 20 + k * (w + gap)
+        outside = name in ("import", "export")
+        s.box(x, 45, w, 54, [name, what], fill=PALE if outside else BLUE, stroke=SOFT if outside else BLUE_LINE, size=13)
+        if k:
+            s.line((x - gap + 1, 72), (x - 1, 72), SOFT, 1.8, arrow=True)
+    s.text((20, 122), "grey: Filters/Bridge and Filters/MeshOptimize; blue: Filters/Core. Paper 1996 runs its own stages instead of the blue ones.",
+           12, "start", color=SOFT)
+
+    s.text((20, 165), "One pass", 15, "start", bold=True)
+    s.box(20, 182, 190, 66, ["collect", "cells under the target", "that no cap holds"], size=13)
+    s.box(250, 182, 190, 66, ["chunked pass", "cells shared out,", "a queue for each chunk"], size=13)
+    s.box(480, 182, 190, 66, ["improver", "the worst cell of the queue:", "operations, one by one"], size=13)
+    for x in (212, 442):
+        s.line((x, 215), (x + 36, 215), SOFT, 1.8, arrow=True)
+    s.line((575, 182), (575, 168), SOFT, 1.8)
+    s.line((575, 168), (345, 168), SOFT, 1.8)
+    s.line((345, 168), (345, 180), SOFT, 1.8, arrow=True)
+    s.text((460, 160), "changed cells come back to the queue", 12, color=SOFT)
+
+    s.text((692, 165), "in the order tried", 12, "start", bold=True)
+    s.text((888, 165), "least level", 11, "end", color=SOFT)
+    for k, (name, level) in enumerate(operations()):
+        s.text((692, 190 + 21 * k), name, 12.5, "start")
+        s.text((888, 190 + 21 * k), level, 11, "end", color=SOFT)
+
+    s.text((20, 300), "One change", 15, "start", bold=True)
+    s.box(20, 320, 190, 66, ["operation", "looks for a better", "filling or place"], fill=NEW, stroke=NEW_LINE)
+    s.box(250, 320, 190, 66, ["proposal", "cavity, cells or moves,", "worst before and after"], fill=NEW, stroke=NEW_LINE)
+    s.box(480, 320, 190, 66, ["judge", "quality, topology,", "growth, guard"], fill=NEW, stroke=NEW_LINE)
+    for x in (212, 442):
+        s.line((x, 353), (x + 36, 353), SOFT, 1.8, arrow=True)
+    s.box(480, 440, 190, 66, ["editor", "replaces or moves,", "writes the journal"], fill=NEW, stroke=NEW_LINE)
+    s.line((575, 388), (575, 438), SOFT, 1.8, arrow=True)
+    s.text((585, 418), "accepted", 12, "start", color=NEW_LINE)
+    s.line((480, 375), (458, 375), SOFT, 1.8)
+    s.line((458, 375), (458, 473), SOFT, 1.8)
+    s.line((458, 473), (212, 473), SOFT, 1.8, arrow=True)
+    s.text((335, 464), "refused: the mesh is as it was", 12, color=BAD_LINE)
+    s.box(20, 440, 190, 66, ["next operation", "or the cell is stamped:", "failed at this time"], fill=PALE, stroke=SOFT)
+    s.line((672, 473), (716, 473), SOFT, 1.8, arrow=True)
+    s.box(718, 440, 165, 66, ["mesh", "cells, places, metric:", "undone bit for bit"], fill=PALE, stroke=SOFT)
+    s.text((450, 543), "Only the judge accepts a change, and only the editor makes it.", 12, color=SOFT)
+    return s
+
+
+# ---- rooms ---------------------------------------------------------------------------------------
+def draw_rooms():
+    levels, modules = rooms()
+    step, height = 46, 32
+    s = Svg(900, 90 + step * (len(levels) + 3))
+    s.text((450, 28), "Who may include whom: what stands below, never what stands above or beside", 15, bold=True)
+    y = 50
+    rows = [(["ParaViewPlugin"], PALE, SOFT)]
+    rows += [([f"Filters/{m}" for m in row], BLUE, BLUE_LINE) for row in reversed(modules[1:])]
+    rows += [(row, NEW, NEW_LINE) for row in reversed(levels)]
+    top_of_core = None
+    for names, fill, stroke in rows:
+        if fill == NEW and top_of_core is None:
+            top_of_core = y
+        w = 530 / len(names) - 10
+        for k, name in enumerate(names):
+            s.box(135 + k * (530 / len(names)), y, w, height, [name], fill, stroke, 12)
+        y += step
+    for k in range(len(rows) - 1):
+        s.line((395, 50 + step * k + height + 1), (395, 50 + step * (k + 1) - 1), SOFT, 1.6, arrow=True)
+    what = {"Optimize": "optimize(), analyse()", "WorstFirst": "schedules", "Run": "options, report, chunked pass",
+            "Operations": "a file each; they only propose", "Edit": "proposal, judge", "Reposition": "where to put nodes",
+            "Surface": "curves, patches; caps, bounds", "Quality": "the measures", "Metric": "tensors, sizes",
+            "Mesh": "SimplexMesh, MeshEditor", "Base": "control, clock", "Filters/Bridge": "between grid and core"}
+    for k, (names, fill, _) in enumerate(rows):
+        if names[0] in what:
+            s.text((672, 50 + step * k + 21), what[names[0]], 11, "start", color=SOFT)
+    s.line((122, top_of_core), (122, y - step + height), NEW_LINE, 2)
+    s.text((112, (top_of_core + y) / 2 - 10), "Filters/Core", 13, "end", bold=True, color=NEW_LINE)
+    s.text((112, (top_of_core + y) / 2 + 10), "no VTK", 12, "end", color=SOFT)
+    s.text((395, y + 12), "Testing/Core/rooms.py holds it.", 12, color=SOFT)
+    return s
+
+
+DRAWINGS = {"numbering": draw_numbering, "star": draw_star, "cavity": draw_cavity, "chunks": draw_chunks, "run": draw_run,
+            "rooms": draw_rooms}
+
+
+def main():
+    stale = []
+    for name, draw in DRAWINGS.items():
+        path, text = HERE / f"{name}.svg", str(draw())
+        if "--check" not in sys.argv[1:]:
+            path.write_text(text, encoding="utf-8")
+        elif not path.exists() or path.read_text(encoding="utf-8") != text:
+            stale.append(path.name)
+    for name in stale:
+        print(f"FAILED: {name} is not what the code says now: python3 Filters/Drawings/draw.py, and look at it")
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
