@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A case for each condition of a filling: all others hold in it.
+// What fills no cavity although most of it fits: cases for single conditions.
 #include "Mesh/CavityFit.h"
 #include "TestMeshes.h"
 
