@@ -54,16 +54,16 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     }
     else if (!widens || nearCap)
     {
-      // First more cells; only then wider surroundings.
       break;
     }
     else if (worst.size() == wanted && wanted < MostPolishedCells)
     {
+      // First more cells; only then wider surroundings.
       wanted *= 2;
     }
     else if (more && ++layers <= LiftedLayers)
-    // The worst cells may be others by now.
     {
+      // The worst cells may be others by now.
       wanted = PolishedCells;
       this->findWorst(target, wanted, worst);
       more = worst.empty() || this->liftAround(worst, layers);
