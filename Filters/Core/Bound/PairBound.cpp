@@ -91,9 +91,10 @@ public:
       Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
       this->first_.differentiate(p, lambda, weight, g, h);
       this->last_.differentiate(p, lambda, 1.0 - weight, g, h);
-      // The mean is concave: it exceeds lambda by at most the slope times a distance. The best
-      // place for both is no farther from the middle of the edge than the longer perimeter: beyond
-      // it, both get better on the straight way back. The sums in the denominator are at least 1.
+      // The mean of root - lambda sum is concave and 0 at p: it is at most the slope times a
+      // distance. The best place for both is no farther from the middle of the edge than the longer
+      // perimeter: beyond it, both get better on the straight way back. Sums are at least 1, so the
+      // mean() exceeds lambda by no more.
       const double radius = std::max(this->first_.base, this->last_.base);
       rest = g.norm() * (radius + (p - 0.5 * Vec<3>::UnitX()).norm());
       if (rest <= 1e-11 * lambda || !this->advance(h.llt().solve(-g), weight, p, lambda))
@@ -136,21 +137,20 @@ bool pairReaches(double c, double theta, const EdgeView& first, const EdgeView& 
     away * std::sin(0.5 * theta));
   double low = 0.0, high = 1.0;
   for (int halving = 0; halving < 40 && pair.isInside(p); ++halving)
-  // Such a place exists: no bound is needed.
   {
     const double s1 = pair.first(p), s2 = pair.last(p);
     if (s1 >= wanted && s2 >= wanted)
     {
-      return true;
+      return true; // such a place exists
     }
-    // The worse of the two needs more weight.
     if (halving > 0)
     {
+      // The worse of the two needs more weight.
       (s1 < s2 ? low : high) = 0.5 * (low + high);
     }
-    // Some weighted mean stays below what is wanted, everywhere: so does the worse of the two.
     if (pair.maximize(0.5 * (low + high), p) < wanted)
     {
+      // This weighted mean stays below what is wanted everywhere: so does the worse of the two.
       return false;
     }
   }

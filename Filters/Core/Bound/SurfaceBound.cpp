@@ -334,8 +334,8 @@ Angle BoundBuilder<3>::angle(const Rim& from, const Rim& to) const
   const Vec<3> t = this->points_[from.high] - a;
   const Vec<3> u = this->points_[this->tip(from)] - a;
   const Vec<3> v = this->points_[this->tip(to)] - a;
-  // Normals of both half planes, turned the same way: (t x u) . (t x v) and t . ((t x u) x (t x
-  // v)).
+  // Normals of both half planes, turned the same way. Cosine and sine are proportional to m . n and
+  // (m x n) . t / |t| = |t| u . (v x t).
   const Vec<3> m = t.cross(u), n = t.cross(v);
   // The normal of a needle along the edge is known badly.
   const double l = t.norm();
