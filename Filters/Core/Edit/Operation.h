@@ -11,7 +11,7 @@ enum class Operation
 {
   NodeMotion = 0,  ///< one solve that moved a node, or the nodes of a cluster
   EdgeRemoval,     ///< faces replace an edge (in the paper: edge cluster to a ring node)
-  FaceRemoval,     ///< an edge replaces faces (2-3 flip, multi-face removal)
+  FaceRemoval,     ///< an edge replaces a face (2-3 flip; in the paper: cluster at kept facets)
   EdgeContraction, ///< a node is removed (in the paper: node cluster to a boundary node)
   NodeInsertion,   ///< a node is added (in the paper: edge cluster to the midpoint; cavities)
   NodeReplacement, ///< a node moves to the centre of its cluster (paper: node cluster to centre)
