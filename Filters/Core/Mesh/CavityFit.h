@@ -69,8 +69,8 @@ template <int D>
 bool staysTogether(const std::vector<Simplex<D>>& old, const std::vector<Simplex<D>>& cells,
   const Facets<D>& outer, const std::vector<std::size_t>& within)
 {
-  // All points and edges of the boundary.
   const Facets<D> oldFacets = facetsOf<D>(old), newFacets = facetsOf<D>(cells);
+  // All points (D = 3: and edges) of the boundary.
   std::vector<std::vector<Index>> faces;
   for (const auto& f : outer)
   {

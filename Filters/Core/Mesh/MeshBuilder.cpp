@@ -304,8 +304,8 @@ struct MeshBuilder
     {
       for (int i = 0; i <= D; ++i)
       {
-        // Each pair once: from the side with the lower handle.
         const Index h = this->mesh.adjacent(c, i);
+        // Each pair once: from the side with the lower handle.
         if (h > Mesh::handle(c, i) && !this->agree(c, i) && this->mesh.foldedFacets_++ == 0)
         {
           this->mesh.firstFoldedFacet_ = this->mesh.facet(c, i);

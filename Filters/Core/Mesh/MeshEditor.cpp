@@ -270,9 +270,9 @@ std::size_t MeshEditor<D>::begin()
 template <int D>
 void MeshEditor<D>::commit(std::size_t)
 {
+  // An inner transaction keeps its entries: the outer one may still be rolled back.
   if (--this->depth_ == 0)
   {
-    // An inner transaction keeps its entries: the outer one may still be rolled back.
     this->journal_.clear();
     this->cellRecords_.clear();
     this->patchRecords_.clear();

@@ -144,8 +144,8 @@ public:
     {
       return true;
     }
+    // Reads only nodes and owners: no editor changes those of a cell across a border.
     for (Index p : this->mesh_->cells_[c].nodes)
-    // Only the owners are read: the cell of another editor may be changing at this moment.
     {
       if (this->mesh_->points_[p].owner != this->owner_)
       {

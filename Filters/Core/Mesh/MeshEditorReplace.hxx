@@ -25,8 +25,6 @@ void MeshEditor<D>::collectOpenFacets(
   };
   for (Index c : cavity)
   {
-    // Cells of other editors cannot be in the cavity: owns() is asked first, and their marks are
-    // not read.
     for (int i = 0; i <= D; ++i)
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
@@ -36,6 +34,8 @@ void MeshEditor<D>::collectOpenFacets(
       {
         continue;
       }
+      // Cells of other editors cannot be in the cavity: owns() is asked first, and their marks are
+      // not read.
       if (h == None || !this->owns(Mesh::cellOf(h)) || !this->isMarked(Mesh::cellOf(h), inCavity))
       {
         this->facets_.push_back({ sortedIds(this->mesh_->facet(c, i)), h, this->mesh_->parent(c),
@@ -201,8 +201,7 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
   CellData& data = this->mesh_->cellData_[c];
   data.quality = quality;
   data.region = region;
-  // A new cell has not failed yet.
-  data.stamp = 0;
+  data.stamp = 0; // it has not failed yet
   data.level = 0;
   data.flags = Mesh::CellAlive;
   if (!this->mesh_->patches_.empty())
@@ -289,7 +288,7 @@ bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<
   {
     return false;
   }
-  // A new time: all points of the cavity get it as their stamp.
+  // A new time: all points of the cavity and of the new cells get it as their stamp.
   ++this->clock_;
   const std::uint32_t inCavity = this->newMark();
   for (Index c : cavity)

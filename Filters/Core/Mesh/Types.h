@@ -41,10 +41,9 @@ using Facet = std::array<Index, D>;
 /// again.
 ///
 ///        2                  3          Facets of a triangle: 0 = (1 2), 1 = (2 0), 2 = (0 1).
-///       / \                /|\         Facets of a tetrahedron, seen from inside
-///       counter-clockwise:
+///       / \                /|\         Facets of a tetrahedron, counter-clockwise from inside:
 ///     1/   \0             / | \        0 = (1 3 2), 1 = (0 2 3), 2 = (0 3 1), 3 = (0 1 2).
-///     /     \            0-- | --2
+///     /     \            0- | -2
 ///    0-------1            \ | /
 ///        2                  1
 ///
