@@ -131,10 +131,10 @@ bool Background<D>::weights(Index c, const Vec<D>& x, std::array<double, D + 1>&
   }
   for (int i = 0; i <= D; ++i)
   {
+    // Barycentric weight: the part of the volume opposite to the node.
     Corners<D> part = corners;
     part[i] = x;
     w[i] = volumeDeterminant(part) / det;
-    // Barycentric weight: the part of the volume opposite to the node.
   }
   return true;
 }
@@ -168,8 +168,8 @@ Location<D> Background<D>::nearestInCell(Index c, const Vec<D>& x) const
     corners[i] = this->points_[this->cells_[c].nodes[i]];
   }
   Location<D> best;
-  // All faces are tried, from the nodes (one bit) to the cell itself (all bits).
   best.distance = std::numeric_limits<double>::infinity();
+  // All faces are tried, from the nodes (one bit) to the cell itself (all bits).
   for (unsigned face = 1; face < (2u << D); ++face)
   {
     std::array<double, D + 1> w;
@@ -208,8 +208,8 @@ Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
     if (!this->weights(c, x, w))
     {
       break;
-      // Leave through the facet behind which x lies farthest.
     }
+    // Leave through the facet behind which x lies farthest.
     const int i = static_cast<int>(std::min_element(w.begin(), w.end()) - w.begin());
     if (w[i] >= -slack)
     {

@@ -86,7 +86,7 @@ private:
     {
       return false;
     }
-    // Coordinates z in which the patch is as wide as it is long: x - x_p = scale z.
+    // Coordinates z in which the patch is as wide as it is long: x - x_p = L z, spread = L L^T.
     Eigen::Matrix<double, D, D> spread = Eigen::Matrix<double, D, D>::Zero();
     const Vec<D> centre = this->mesh_.point(this->patch_[0]);
     for (Index q : this->patch_)

@@ -33,8 +33,8 @@ double findZero(F&& value, double start, double highest, double slope, double to
     other = x;
     otherY = y;
     x = std::min(highest, x + stretch * y / slope);
-    // Limits make the function flatter than `slope`: longer and longer steps make up for that.
     y = value(x);
+    // Limits make the function flatter than `slope`: longer and longer steps make up for that.
     stretch *= 1.5;
     ++evaluations;
   }
