@@ -115,7 +115,7 @@ private:
   /// judge then looks at the other cells of the edge.
   bool split(Judge<D, Shape>& judge, Index t, int e)
   {
-    constexpr long comes = D == 2 ? 2 : 6; // cells added, at least
+    constexpr long comes = D == 2 ? 2 : 6; // cells that it may add; the judge counts them exactly
     const SimplexMesh<D>& mesh = judge.mesh();
     const auto& local = Local<D>::edgeFirst[e];
     const Index a = mesh.nodes(t)[local[0]], b = mesh.nodes(t)[local[1]];
@@ -125,13 +125,13 @@ private:
       return false;
     }
     const double s = this->bestParameter(judge, t, e, *span);
+    // The curve decides where the node is, not the chord: the boundary stays on the curve.
     const Vec<D> x = judge.surface()->at(span->part, s);
     const auto mark = judge.begin();
     const Index p = judge.editor().addPoint(x);
     bool done = p != None;
     if (done)
     {
-      // The curve decides where the node is, not the chord: the boundary stays on the curve.
       judge.editor().movePoint(p, x, a);
       judge.editor().setPlace(p, { Freedom::Curve, span->part, s });
       done = proposeSplit(judge.editor(), judge.surface(), t, a, b, p, this->proposal_) &&

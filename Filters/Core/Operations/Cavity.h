@@ -221,8 +221,8 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
       best = top.q;
       bestSize = this->cells_.size();
     }
-    // The worst facet cannot be opened: no larger cavity can be better than the best so far.
     const Index h = mesh.adjacent(top.cell, top.facet);
+    // If the worst facet cannot be opened, no larger cavity can be better than the best so far.
     if (h == None || mesh.isConstrained(top.cell, top.facet) || !editor.owns(mesh.cellOf(h)) ||
       static_cast<int>(this->cells_.size()) >= limits.cells)
     {

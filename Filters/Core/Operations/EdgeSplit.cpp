@@ -38,9 +38,9 @@ bool cellsAround(
     ++edge;
   }
   isKept = mesh.isEdgeConstrained(t, edge);
-  // The ring ends at a kept facet: the edge lies in it. Collect the cells on all sides.
   if (!mesh.ring(t, a, b, false, cells))
   {
+    // The ring ends at a kept facet: the edge lies in it. Collect the cells on all sides.
     isKept = true;
     mesh.ring(t, a, b, true, cells);
   }

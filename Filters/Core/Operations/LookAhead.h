@@ -51,10 +51,9 @@ private:
     std::vector<Index> affected;
     judge.start();
     if (p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&
-      // changed() is overwritten by every further operation: keep it.
       this->insertion_.fill(judge, p, seed))
     {
-      affected = judge.changed();
+      affected = judge.changed(); // a copy: every further operation overwrites changed()
       // keepsGuard() asks only here: in between, single changes may make cells bad.
       if (this->settle(judge, affected, judge.required(old), isLong) && judge.keepsGuard(mark))
       {

@@ -38,9 +38,9 @@ void PointSigns::add(const Vec<3>& x)
       for (int i = 0; i < j; ++i)
       {
         const double det = normal.dot(this->x_[i] - x); // of (i, j, k, l)
+        // Only doubtful signs are computed exactly. (With a tiny extent the bound itself may
+        // underflow.)
         const int sign = std::fabs(det) > doubt && doubt > 1e-200
-          // Only doubtful signs are computed exactly. (With a tiny extent the bound itself may
-          // underflow.)
           ? (det > 0.0 ? 1 : -1)
           : orient(this->x_[i], this->x_[j], this->x_[k], x);
         if (sign == 0)

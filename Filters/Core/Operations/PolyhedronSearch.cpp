@@ -96,7 +96,7 @@ void PolyhedronSearch::loadBoundary()
     s.used |= bit(f[0]) | bit(f[1]) | bit(f[2]);
   }
   this->stay_ = this->mustStay_ | s.used;
-  // Last, since facets block many crossings already.
+  // Last: findCrossing() leaves out facets with edges that the boundary blocks.
   for (const Triangle& f : this->boundary_)
   {
     this->addEdge(s, f[0], f[1]);
@@ -346,11 +346,10 @@ bool PolyhedronSearch::offer(double bound)
 bool PolyhedronSearch::strike()
 {
   bool changed = true;
+  // The removal of one candidate can leave its neighbours without a partner: hence the outer loop.
   while (changed)
   {
     changed = false;
-    // The removal of one candidate can leave its neighbours without a partner: hence the outer
-    // loop.
     std::size_t kept = 0;
     for (std::uint16_t k : this->alive_)
     {
@@ -436,7 +435,6 @@ bool PolyhedronSearch::descend(int level, double worst)
     }
     return true;
   }
-  // Only a complete examination makes a dead end: one that was cut short proves nothing.
   const std::uint64_t tag = s.hash ^ this->salt_;
   std::uint64_t& memory = this->deadEnds_[s.hash % Memory];
   Front f{};
@@ -446,6 +444,7 @@ bool PolyhedronSearch::descend(int level, double worst)
     return true;
   }
   const bool complete = this->branch(level, worst, f, apexes);
+  // Only a complete examination makes a dead end: one that was cut short proves nothing.
   if (complete)
   {
     memory = tag;

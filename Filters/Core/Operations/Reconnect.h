@@ -17,7 +17,7 @@ class Reconnect
 {
 public:
   static constexpr int level = Level::Topology;
-  static constexpr bool addsCells = false; // one cell at most
+  static constexpr bool addsCells = false; // few cells, and the judge asks the budget
   static bool isOn(const Switches& switches) { return switches.reconnect; }
 
   bool improve(Judge<D, Shape>& judge, Index t, int)

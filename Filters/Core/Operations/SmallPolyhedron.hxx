@@ -12,7 +12,7 @@ void SmallPolyhedron<Shape>::start(
   this->model_ = &model;
   this->limits_ = limits;
   this->limits_.points = std::min(limits.points, MaximumPoints);
-  // Otherwise qualities need ids of the mesh, which offered points do not have.
+  // With a metric or sizes, qualities need ids of the mesh, which offered points do not have.
   this->limits_.newPoints = model.plain ? limits.newPoints : 0;
   this->searches_ = 0;
   this->steps_ = 0;
@@ -388,8 +388,8 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
     int bare = -1;
     do
     {
-      // Cheap test first: a facet for which no point is good enough rules out every filling.
       const double bound = std::max(above, this->worst_) + Rounding;
+      // Cheap test first: a facet for which no point is good enough rules out every filling.
       bare = this->worstFace(bound);
       if (bare < 0)
       {
