@@ -62,10 +62,9 @@ bool gatherFanCluster(
         const Index next = SimplexMesh<D>::cellOf(mesh.adjacent(c, i));
         if (!editor.isMarked(next, mark))
         {
-          // Given up early: most cells of a mesh are not the worst of their clusters.
           if (isWorse(next))
           {
-            return false;
+            return false; // early, since most cells of a mesh are not the worst of their clusters
           }
           editor.setMark(next, mark);
           cluster.cells.push_back(next);

@@ -112,8 +112,8 @@ void Reconnection<D, Shape>::touch(
 
 template <int D, class Shape>
 bool Reconnection<D, Shape>::improveCell(Index c)
-// Only clusters that have changed since this cell last failed.
 {
+  // Only clusters that have changed since this cell last failed.
   this->clusters_.gather(this->editor_, c, this->memory_, this->memory_.failed[c]);
   return this->clusters_.forEach(this->mesh_,
     [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
@@ -241,10 +241,10 @@ bool Reconnection<D, Shape>::lookAhead(const std::function<bool(double)>& keepGo
   this->listWorst();
   for (Index c : this->candidates_)
   {
+    // Also a failed look-ahead is repeated only after a change around the cell.
     if (!this->memory_.hasChanged(this->mesh_, c, this->memory_.ahead[c]))
     {
       continue;
-      // Also a failed look-ahead is repeated only after a change around the cell.
     }
     if (keepGoing && !keepGoing(this->mesh_.quality(c)))
     {
@@ -292,8 +292,8 @@ ReconnectionResult Reconnection<D, Shape>::run(
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
 {
   this->memory_.resize(this->mesh_);
-  // A successful look-ahead makes ordinary reconnection worth trying again, which is cheaper.
   this->queue_.fill();
+  // A successful look-ahead makes ordinary reconnection worth trying again, which is cheaper.
   while (this->iterate(keepGoing, sequence) && this->parameters_.lookAhead > 0 &&
     this->lookAhead(keepGoing))
   {
