@@ -3,8 +3,8 @@
 /// Shape measures that are functions of the volume and of a sum over the edges.
 ///
 /// For these measures, lengths that several candidate elements share are computed only once. An
-/// element around a node then needs no square root of its own. This makes the kernels of the fast
-/// engine fast.
+/// element around a node then needs no square root of its own (VolumeLength in 3D: one). This makes
+/// the kernels of the fast engine fast.
 #ifndef meshopt_Quality_EdgeSum_h
 #define meshopt_Quality_EdgeSum_h
 
