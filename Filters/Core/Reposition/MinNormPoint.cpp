@@ -87,9 +87,9 @@ bool MinNormPoint<D>::append(const std::vector<SparsePoint<D>>& points, int k)
   }
   row.push_back(points[k].dot(points[k]));
   this->gram_.push_back(std::move(row));
-  // The new point is not independent of the corral: take it out again.
   if (!this->factorFrom(this->gram_.size() - 1))
   {
+    // The new point is not independent of the corral: take it out again.
     this->gram_.pop_back();
     this->factor_.pop_back();
     return false;
@@ -199,8 +199,8 @@ bool MinNormPoint<D>::reduceToCorral()
 
 template <int D>
 void MinNormPoint<D>::sortCorral()
-// By number, so that the sums of formPoint() do not depend on the order in which points came.
 {
+  // By number, so that the sums of formPoint() do not depend on the order in which points came.
   std::vector<std::pair<int, double>> pairs;
   double sum = 0.0;
   for (std::size_t i = 0; i < this->corral_.size(); ++i)
