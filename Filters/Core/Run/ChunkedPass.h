@@ -117,8 +117,8 @@ void ChunkedPass<D, Worker>::dealSlots()
   const int n = this->size_;
   std::vector<Index>& freeCells = this->root_.freeCells();
   std::vector<Index>& freePoints = this->root_.freePoints();
-  // A single chunk needs no room of its own: its editor may grow the mesh itself.
   const SimplexMesh<D>& mesh = this->root_.mesh();
+  // A single chunk needs no room of its own: its editor may grow the mesh itself.
   const Index cellRoom = n > 1 ? CellRoom + mesh.numberOfCellSlots() / n / RoomPart : 0;
   const Index pointRoom = n > 1 ? PointRoom + mesh.numberOfPointSlots() / n / RoomPart : 0;
   this->root_.growCells(std::max<Index>(0, n * cellRoom - static_cast<Index>(freeCells.size())));
@@ -131,9 +131,8 @@ void ChunkedPass<D, Worker>::dealSlots()
   for (int k = 0; k < n; ++k)
   {
     MeshEditor<D>& editor = this->workers_[k]->editor;
-    // Time stamps and marks are compared across chunks and passes, so each editor continues those
-    // of the root.
     editor.setOwner(n > 1 ? k : None);
+    // Time stamps and marks are compared across passes, so each editor continues those of the root.
     editor.setClock(this->root_.clock());
     editor.setLastMark(this->root_.lastMark());
     take(freeCells, n > 1 ? cellRoom : freeCells.size(), editor.freeCells());
@@ -210,8 +209,8 @@ void ChunkedPass<D, Worker>::close()
   {
     Worker& w = *this->workers_[k];
     give(w.editor.freeCells(), this->root_.freeCells());
-    // The latest clock: no stamp of this pass may lie in the future of the next one.
     give(w.editor.freePoints(), this->root_.freePoints());
+    // The latest clock: no stamp of this pass may lie in the future of the next one.
     this->root_.setClock(std::max(this->root_.clock(), w.editor.clock()));
     this->root_.setLastMark(std::max(this->root_.lastMark(), w.editor.lastMark()));
     give(w.heldUp, this->heldUp_);

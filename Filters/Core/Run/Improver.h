@@ -41,7 +41,7 @@ public:
     : judge_(editor, model, switches, surface, caps)
   {
     // The cells that an insertion made worse are improved by all operations of this level. Motion
-    // of clusters has a higher level of its own, but after an insertion it is tried from here on.
+    // of clusters has a higher level of its own, but here it is tried from Level::Insertion on.
     std::get<LookAhead<D, Shape>>(this->operations_)
       .setImprove(
         [this](Index t, int level)

@@ -15,7 +15,7 @@ namespace meshopt
 enum class StopReason
 {
   NotRun = 0,
-  TargetReached,   ///< no cell under the target can get better while the surface is kept
+  TargetReached,   ///< the worst quality is at least the target
   CappedBySurface, ///< what is under the target cannot get better while the surface is kept
   NoFurtherGain,   ///< no operation improves the worst cells any more
   IterationLimit,
