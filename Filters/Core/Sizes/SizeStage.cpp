@@ -18,8 +18,8 @@ SizeStage<D>::SizeStage(Run<D>& run)
   , pinched_(pinchedPoints<D>(run.mesh()))
   , overlaps_(!this->pinched_.empty() || run.mesh().numberOfFoldedFacets() > 0 ||
       (run.report.invertedBefore > 0 && mayOverlap<D>(run.mesh(), this->pinched_)))
-// Inverted cells are excluded by the precondition; nodes are stamped one by one (see moveNode()).
 {
+  // Inverted cells are excluded by the precondition; nodes are stamped one by one (see moveNode()).
   this->judge().setTangled(this->overlaps_, false, this->pinched_);
   this->judge().setStampsStars(false);
   // The tensors follow the points only from now on: compute those of the points that are there.

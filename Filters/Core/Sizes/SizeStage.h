@@ -22,10 +22,10 @@ inline constexpr double CellsOfTwoNodes = D == 2 ? 4.0 : 12.0;
 /// happens where lengths change faster than edges can follow.
 ///
 /// Precondition: no cell is inverted or flat. The surface is kept, except what may slide
-/// (Run::surface). No cell becomes inverted. A quality falls under 0.3 only where an edge of a bad
-/// cell is split. At the end the stored qualities are those of the shape in the metric
-/// (Measure::Shape, beta = 0): the caller must compute his own again. Appends rows to the history.
-/// Returns false if the clock has stopped the run.
+/// (Run::surface). No cell becomes inverted. A quality falls under 0.3 only where an edge is split,
+/// and then to no less than 0.3 times the worst of the split cells. At the end the stored qualities
+/// are those of the shape in the metric (Measure::Shape, beta = 0): the caller must compute his own
+/// again. Appends rows to the history. Returns false if the clock has stopped the run.
 template <int D>
 bool followSizes(Run<D>& run, double predicted);
 

@@ -194,8 +194,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
     this->isAboutLongest(proposal.cavity, edge.length);
   if (done)
   {
-    // The halves of a cell are worse at first, so a split may lower the quality; but under
-    // GoodEnough only where it was bad before.
+    // The halves of a cell are worse at first: a split may lower the worst quality to this part.
     proposal.least = std::min(WorstSplit * proposal.oldWorst, GoodEnough);
     this->judge().start();
     done = this->judge().measure(proposal) && this->judge().accept(proposal);
