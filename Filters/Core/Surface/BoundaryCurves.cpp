@@ -75,9 +75,9 @@ void BoundaryCurves::markWhereSplinesOvershoot(
         {
           network.corners[chain.points[end]] = 1;
         }
+        // New corners divide the chain, which gives new splines: test these, too.
         again = true;
       }
-      // New corners divide the chain, which gives new splines: test these, too.
     }
   }
 }

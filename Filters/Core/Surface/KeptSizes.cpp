@@ -7,8 +7,8 @@
 namespace meshopt
 {
 namespace
-/// Edges longer than this (in units of the wanted length) call for a floor.
 {
+/// Edges longer than this (in units of the wanted length) call for a floor.
 constexpr double LongEdge = 2.0;
 }
 
