@@ -71,11 +71,11 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
       break;
     }
     multiply(system.matrix, p, control, product);
-    // Not positive: the matrix is singular or indefinite up to rounding.
     const double curvature = p.dot(product);
     const double step = rz / curvature;
     if (!(curvature > 0.0) || !std::isfinite(step))
     {
+      // The matrix is singular or indefinite up to rounding.
       report.status = SolverStatus::Breakdown;
       break;
     }

@@ -68,10 +68,10 @@ Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D
     spread += d * d.transpose();
     fit.slope += (stress[*c] - fit.mean) * d.transpose();
   }
-  // Only the ratio of extents matters, so that the test does not depend on units.
   const Eigen::Matrix<double, D, D> aligned = spread;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> eigen(
     aligned, Eigen::EigenvaluesOnly);
+  // Only the ratio of extents matters, so that the test does not depend on units.
   fit.isValid = eigen.eigenvalues()[0] > ThinnestPatch * eigen.eigenvalues()[D - 1];
   if (fit.isValid)
   {
@@ -178,10 +178,10 @@ private:
   }
 
   Stress<D> byEnlargedPatch(Index node, const Vec<D>& x) const
-  // Layer by layer, since a larger patch smooths more.
   {
     const Rows& cells = this->nodes_.cellsOfNode;
     std::vector<Index> around = this->nodesAround(cells.begin(node), cells.end(node));
+    // Layer by layer, since a larger patch smooths more.
     for (int layer = 1; layer < MostLayers; ++layer)
     {
       std::vector<Index> patch;
