@@ -165,8 +165,8 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
     w.editor.resetBlocked();
     if (w.improver.improve(c, level))
     {
-      // What the change has made and is still bad is tried again in this pass.
       ++w.kept;
+      // What the change has made and is still bad is tried again in this pass.
       for (Index changed : w.improver.judge().changed())
       {
         if (mesh.isAlive(changed) && mesh.quality(changed) < task.target)
@@ -175,9 +175,9 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
         }
       }
     }
-    // A failure is remembered only if no border played a part in it: another pass may succeed.
     else if (!w.editor.blocked())
     {
+      // A failure is remembered only if no border played a part in it: another pass may succeed.
       w.editor.setFailed(c, w.editor.clock(), this->rank(level));
     }
     else

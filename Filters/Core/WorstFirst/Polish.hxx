@@ -141,10 +141,10 @@ template <int D, class Shape>
 bool Schedule<D, Shape>::liftAround(const std::vector<Entry>& cells, int layers)
 {
   const std::vector<Index> zone = this->cellsAround(cells, layers);
-  // All levels up to insertion, since these cells are not stuck yet: the cheap changes come first.
   const double gain = std::exchange(this->gain_, Gain);
   const double target = cells[0].first + layers * LiftStep;
   bool more = true;
+  // All levels up to insertion, since these cells are not stuck yet: the cheap changes come first.
   for (int level = 0; level <= Level::Insertion && more; ++level)
   {
     std::vector<Index> bad;

@@ -216,9 +216,9 @@ void Schedule<D, Shape>::optimize()
     if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
     {
       more = this->polish(stages[k], false);
-      // Polishing made other cells worse: repair these.
       if (more && !past)
       {
+        // Polishing may have made other cells worse: repair these.
         // Nothing comes after the last stage: it may use the reserve.
         this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
         more = this->weighedStage(stages[k]);
@@ -271,10 +271,9 @@ bool Schedule<D, Shape>::stage(double target)
       break;
     }
     const double before = this->worst();
-    // All have failed at this level: a higher one may help.
     if (bad.empty())
     {
-      continue;
+      continue; // all have failed at this level: a higher one may help
     }
     this->pass({ target, level, below }, bad);
     this->record(target, pass);
