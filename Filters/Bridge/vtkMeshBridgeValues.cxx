@@ -114,7 +114,7 @@ Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame
   if (array->GetNumberOfComponents() == 6)
   {
     m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
-    return frame.ToCore(m); // any NaN or infinity results in NaN
+    return frame.ToCore(m); // in 2D NaN and infinity anywhere make NaN; in 3D they stay
   }
   m << t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7], t[8];
   const Tensor<3> difference = m - m.transpose();

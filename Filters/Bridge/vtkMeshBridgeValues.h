@@ -51,8 +51,8 @@ double LogOfSize(double size);
 /**
  * The tensor at a point, in the frame; for triangles its part in their plane. Of 9 components the
  * symmetric part is used, since single precision and previous computations leave tensors symmetric
- * only to 1e-6. A tensor that is less symmetric, or not finite, is no metric: the result then has
- * NaN in it, so that the check of the values reports its point.
+ * only to 1e-6. A tensor that is less symmetric, or not finite, is no metric: the result is then
+ * not finite, so that the check of the values reports its point.
  */
 template <int D>
 meshopt::Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame);
