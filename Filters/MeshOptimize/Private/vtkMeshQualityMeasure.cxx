@@ -103,7 +103,7 @@ private:
       const vtkMeshBridge::Frame<2>& frame = this->Mesh.GetFrame();
       const Corners<2> y = { frame.ToCore(x[0].data()), frame.ToCore(x[1].data()),
         frame.ToCore(x[2].data()) };
-      // only the coordinate across the plane is not finite: still NaN
+      // NaN also if only the coordinate across the plane is not finite.
       const double finite = 0.0 * (x[0].sum() + x[1].sum() + x[2].sum());
       return ValueIn(this->MetricOf<2>(ids), this->Flat, y) + finite;
     }
