@@ -38,10 +38,9 @@ struct QualityModel
   /// The quality of a cell if its nodes were at the places x.
   double at(const Simplex<D>& nodes, const Corners<D>& x) const
   {
-    const double q = this->plain ? Shape::value(x)
-                                 : this->quality.value(x, this->metric->element(nodes));
+    const double q = this->plain ? Shape::value(x) : this->inMetric(nodes, x);
     const bool weigh = this->weights && !(q < this->floor);
-    return weigh ? q * this->weights->weight(*this->mesh, nodes) : q;
+    return weigh ? this->weighted(nodes, q) : q;
   }
   double operator()(const Simplex<D>& nodes) const
   {
@@ -55,6 +54,17 @@ struct QualityModel
   double weight(const Facet<D>& f) const
   {
     return this->weights ? this->weights->weight(*this->mesh, f) : 1.0;
+  }
+
+private:
+  // Not inlined: without them the usual case is short enough to be inlined where it is asked often.
+  [[gnu::noinline]] double inMetric(const Simplex<D>& nodes, const Corners<D>& x) const
+  {
+    return this->quality.value(x, this->metric->element(nodes));
+  }
+  [[gnu::noinline]] double weighted(const Simplex<D>& nodes, double q) const
+  {
+    return q * this->weights->weight(*this->mesh, nodes);
   }
 };
 }
