@@ -86,11 +86,13 @@ configure() {
     || { tail -n 40 "$log"; return 1; }
 }
 
-compile() { cmake --build "$build_dir" --parallel "$(nproc)"; }
+# Takes a command that runs others, such as nice, if one is given.
+compile() { "$@" cmake --build "$build_dir" --parallel "$(nproc)"; }
 
+# Nicely: it is the installation, on one core, that all else waits for.
 compile_core() {
   echo "== compiling the core meanwhile"
-  configure -DMESHOPTIMIZE_CORE_ONLY=ON && compile
+  configure -DMESHOPTIMIZE_CORE_ONLY=ON && compile nice -n 10
 }
 
 build() {
