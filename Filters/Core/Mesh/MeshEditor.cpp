@@ -38,8 +38,6 @@ MeshEditor<D> MeshEditor<D>::beside(const MeshEditor& other)
   return editor;
 }
 
-// --- attachments
-
 template <int D>
 void MeshEditor<D>::attach(PointAttachment<D>& attachment)
 {

@@ -41,8 +41,6 @@ int PolyhedronSearch::sideOf(int a, int b, int c)
   return 2 * (a + choose2(b) + choose3(c)) + odd;
 }
 
-// --- the polyhedron
-
 void PolyhedronSearch::clear()
 {
   this->signs_.clear();
