@@ -401,7 +401,7 @@ void MeshEditor<D>::setPlace(Index p, const Place& place)
 {
   if (this->mesh_->places_.empty())
   {
-    assert(this->owner_ == None && this->depth_ == 0);
+    assert(this->owner_ == None); // others would read while this one grows
     this->mesh_->places_.resize(this->mesh_->points_.size());
   }
   this->savePlace(p);

@@ -88,8 +88,8 @@ public:
   /// qualities of its star.
   void movePoint(Index p, const Vec<D>& x, Index near = None);
 
-  /// Sets the place of the point on the surface; changes nothing else. The first call must be
-  /// outside of transactions.
+  /// Sets the place of the point on the surface; changes nothing else. The first call must not come
+  /// from the editor of a chunk: it makes room for the places of all points.
   void setPlace(Index p, const Place& place);
 
   /// Sets the patch of the surface to which the kept facet i of cell c belongs, on both sides of
