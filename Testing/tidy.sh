@@ -4,7 +4,7 @@
 #   Testing/tidy.sh [FILE ...]
 #
 # Needs clang-tidy, and a folder that is configured with -DCMAKE_EXPORT_COMPILE_COMMANDS=ON (MESHOPTIMIZE_BUILD, default: build-tidy,
-# which is configured here). Not a test: it takes some ten minutes.
+# which is configured here). Not a test: it takes long.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build_dir=${MESHOPTIMIZE_BUILD:-build-tidy}
