@@ -4,9 +4,10 @@
 #include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
-#include "vtkMeshOptimizeCurves.h"
+#include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeRun.h"
+#include "vtkMeshOptimizeWarnings.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
@@ -67,6 +68,9 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BoundaryMode: " << this->BoundaryMode << "\n";
   os << indent << "BoundaryCurve: " << this->BoundaryCurve << "\n";
   os << indent << "CornerAngle: " << this->CornerAngle << "\n";
+  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "SurfaceTolerance: " << this->SurfaceTolerance << "\n";
+  os << indent << "ToleranceIsAbsolute: " << this->ToleranceIsAbsolute << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "WorstQualityBefore: " << this->WorstQualityBefore << "\n";
   os << indent << "WorstQualityAfter: " << this->WorstQualityAfter << "\n";
@@ -77,6 +81,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfInvertedCellsBefore: " << this->NumberOfInvertedCellsBefore << "\n";
   os << indent << "NumberOfInvertedCellsAfter: " << this->NumberOfInvertedCellsAfter << "\n";
   os << indent << "EdgeLengthShare: " << this->EdgeLengthShare << "\n";
+  os << indent << "SurfaceDistance: " << this->SurfaceDistance << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
   os << indent << "NumberOfOperations: " << this->NumberOfOperations << "\n";
   os << indent << "OptimizeSeconds: " << this->OptimizeSeconds << "\n";
@@ -106,6 +111,11 @@ void vtkMeshOptimizeFilter::SetMetricArray(const char* name)
 void vtkMeshOptimizeFilter::SetCornerArray(const char* name)
 {
   bridge::ChooseArray(this, bridge::CornerArray, name);
+}
+
+void vtkMeshOptimizeFilter::SetPatchArray(const char* name)
+{
+  bridge::ChooseArray(this, bridge::PatchArray, name);
 }
 
 void vtkMeshOptimizeFilter::SetGeometryConnection(vtkAlgorithmOutput* output)
@@ -234,6 +244,10 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   request.Slide = filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide;
   request.Curves.splines = filter->GetBoundaryCurve() == vtkMeshOptimizeFilter::BSpline;
   request.Curves.cornerAngle = filter->GetCornerAngle();
+  request.Surface.cornerAngle = filter->GetCornerAngle();
+  request.Surface.featureAngle = filter->GetFeatureAngle();
+  request.Surface.tolerance = filter->GetSurfaceTolerance();
+  request.ToleranceIsAbsolute = filter->GetToleranceIsAbsolute();
   request.Geometry = geometry;
   return request;
 }
@@ -333,12 +347,19 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   {
     return error;
   }
+  std::vector<vtkUnstructuredGrid*> grids;
+  for (const Task& task : tasks)
+  {
+    grids.push_back(task.Input);
+  }
+  const auto locked = bridge::PrepareSurface(request, grids);
   bridge::StartHistory(ports.History, isComposite);
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
     request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
+    request.Surface.locked = locked[i];
     const Task& task = tasks[i];
     const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;
@@ -355,82 +376,6 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
     outcome.Add(one);
   }
   return {};
-}
-
-//------------------------------------------------------------------------------
-void Warn(vtkMeshOptimizeFilter* filter, const bridge::Outcome& outcome)
-{
-  if (outcome.NumberOfQuadraticSimplices > 0)
-  {
-    vtkWarningWithObjectMacro(filter,
-      << outcome.NumberOfQuadraticSimplices
-      << " quadratic triangles or tetrahedra passed through as they are: only linear ones can be "
-         "optimized.");
-  }
-  if (outcome.NumberOfReorientedCells > 0)
-  {
-    vtkWarningWithObjectMacro(filter,
-      << outcome.NumberOfReorientedCells
-      << " cells were numbered the wrong way round (negative volume); they have been renumbered.");
-  }
-  for (const std::string& text : { outcome.Overlap, outcome.Tangle, outcome.Sizes })
-  {
-    if (!text.empty())
-    {
-      vtkWarningWithObjectMacro(filter, << text);
-    }
-  }
-}
-
-/**
- * The reason why nothing was optimized.
- */
-std::string DescribeNothing(vtkDataObject* input, const bridge::Outcome& outcome)
-{
-  const std::string all = std::to_string(input->GetNumberOfElements(vtkDataObject::CELL));
-  if (outcome.NumberOfGhostSimplices > 0)
-  {
-    return "all " + std::to_string(outcome.NumberOfGhostSimplices) +
-      " triangles or tetrahedra to optimize are ghost cells (duplicate, refined or hidden, says "
-      "vtkGhostType). They have passed through as they are.";
-  }
-  if (outcome.NumberOfSurfaceTriangles > 0)
-  {
-    return "of the " + all + " cells " + std::to_string(outcome.NumberOfSurfaceTriangles) +
-      " are triangles, but there are cells of dimension three, too, and none of these is a "
-      "tetrahedron. (In ParaView, Tetrahedralize splits other cells.)";
-  }
-  return "none of the " + all +
-    " cells is a triangle or a tetrahedron of an unstructured grid. They have passed through as "
-    "they are. (In ParaView, Tetrahedralize splits other cells, and Append Datasets makes a grid "
-    "of polygonal data.)";
-}
-
-/**
- * Warns about settings and input that have no effect: a newcomer would wonder why nothing happens.
- */
-void WarnOfNoEffect(
-  vtkMeshOptimizeFilter* filter, const Ports& ports, const bridge::Outcome& outcome)
-{
-  if (ports.Input->GetNumberOfElements(vtkDataObject::CELL) > 0 &&
-    outcome.NumberOfSimplices + outcome.NumberOfQuadraticSimplices == 0)
-  {
-    vtkWarningWithObjectMacro(
-      filter, << "Nothing to optimize: " << DescribeNothing(ports.Input, outcome));
-  }
-  const bool isFixed = filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Fixed;
-  const bool hasSizes = filter->GetDesiredSize() > 0.0 ||
-    vtkMeshBridge::IsWanted(filter, bridge::SizeArray);
-  if (hasSizes && filter->GetBeta() == 0.0 && isFixed)
-  {
-    vtkWarningWithObjectMacro(
-      filter, << "Beta is 0, so only the shape counts: the wanted size has no effect.");
-  }
-  if (ports.Geometry && isFixed)
-  {
-    vtkWarningWithObjectMacro(
-      filter, << "The boundary mode is Fixed, so the geometry on input port 1 has no effect.");
-  }
 }
 
 } // namespace
@@ -457,6 +402,7 @@ void vtkMeshOptimizeFilter::StoreResults(const Results& results)
   this->StopReason = static_cast<int>(report.stopReason);
   this->NumberOfOperations = outcome.NumberOfOperations;
   this->EdgeLengthShare = outcome.Lengths.share;
+  this->SurfaceDistance = outcome.SurfaceDistance;
   this->OptimizeSeconds = outcome.Seconds;
 }
 
@@ -487,10 +433,10 @@ int vtkMeshOptimizeFilter::RequestData(
   }
   vtkMeshBridge::KeepOutputAfterAbort(this);
   this->StoreResults(results);
-  Warn(this, results.Outcome);
+  bridge::Warn(this, results.Outcome);
   if (error.empty())
   {
-    WarnOfNoEffect(this, ports, results.Outcome);
+    bridge::WarnOfNoEffect(this, ports.Input, ports.Geometry != nullptr, results.Outcome);
   }
   return 1;
 }

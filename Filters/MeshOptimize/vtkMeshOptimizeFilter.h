@@ -305,12 +305,21 @@ public:
   };
   ///@{
   /**
-   * The treatment of the boundary of triangles, including interfaces between regions and the sides
-   * of cracks. Slide: nodes slide along the curves that the boundary follows, edges on them are
+   * The treatment of the boundary, including interfaces between regions and the sides of cracks.
+   * Slide needs WorstFirst and the whole mesh in one piece. Default: Fixed.
+   *
+   * Slide, triangles: nodes slide along the curves that the boundary follows, edges on them are
    * split and contracted, and new nodes lie on the curve. Corners stay. The curves come from the
    * mesh's own boundary, or from input port 1 if that is connected. Points of FixedPointArray, and
-   * of lines and other cells that pass through, are corners. Slide needs WorstFirst and the whole
-   * mesh in one piece; for tetrahedra it is an error. Default: Fixed.
+   * of lines and other cells that pass through, are corners.
+   *
+   * Slide, tetrahedra: nodes slide on patches of the surface and along the curves between them;
+   * facets and edges there are swapped, split and contracted. Nodes stay on the surface as it was,
+   * and the surface stays within SurfaceTolerance of it, both ways. FeatureAngle, regions, and
+   * lines that are cells divide the surface by curves; CornerAngle, CornerArray and
+   * FixedPointArray, and points of cells that pass through, are corners. Facets with three fixed
+   * points stay as they are, and so do those that lie on one another, like the lips of a closed
+   * crack. Not with sizes or a metric.
    */
   vtkSetClampMacro(BoundaryMode, int, Fixed, Slide);
   vtkGetMacro(BoundaryMode, int);
@@ -336,11 +345,45 @@ public:
 
   ///@{
   /**
-   * A corner is where the boundary (or the geometry of port 1) turns by more than this, in degrees.
-   * Range 0 to 180, default 45. SetCornerArray() adds others.
+   * A corner is where the boundary of triangles (or the geometry of port 1), or a curve on the
+   * surface of tetrahedra, turns by more than this, in degrees. Range 0 to 180, default 45.
+   * SetCornerArray() adds others.
    */
   vtkSetClampMacro(CornerAngle, double, 0.0, 180.0);
   vtkGetMacro(CornerAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * For BoundaryMode Slide with tetrahedra: an edge of the surface where its two facets turn by
+   * more than this is part of a curve. In degrees, range 0 to 180, default 45.
+   */
+  vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
+  vtkGetMacro(FeatureAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * For BoundaryMode Slide with tetrahedra: how far the surface and what it becomes may be from
+   * each other, both ways. A fraction of the diagonal of the bounding box of all tetrahedra, unless
+   * ToleranceIsAbsolute. Range >= 0, default 1e-3.
+   *
+   * With 0 the surface stays the same set of points, up to rounding (8 units in the last place of
+   * the greatest coordinate): nodes slide in flat parts and along straight edges only. Below 1e-6
+   * of the diagonal it is the same, with this tolerance in place of rounding: 1e-7 is for
+   * coordinates of single precision.
+   */
+  vtkSetClampMacro(SurfaceTolerance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(SurfaceTolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether SurfaceTolerance is a length, not a fraction. Default: off.
+   */
+  vtkSetMacro(ToleranceIsAbsolute, bool);
+  vtkGetMacro(ToleranceIsAbsolute, bool);
+  vtkBooleanMacro(ToleranceIsAbsolute, bool);
   ///@}
 
   ///@{
@@ -379,12 +422,17 @@ public:
    *   use its part in their plane.
    * - 4, corners: point array of one numeric component, of the mesh or of the geometry on port 1.
    *   Points where it is not 0 are corners for BoundaryMode Slide.
+   * - 5, patches: cell array of one integer component, for BoundaryMode Slide with tetrahedra.
+   *   Triangles of the grid that are faces of tetrahedra ride on the surface: the faces of the new
+   *   mesh there get triangles, too, with the data of the nearest. The border between two values of
+   *   this array is a curve. Without it, all cell arrays of one integer count (except ids).
    */
   void SetRegionArray(const char* name);
   void SetFixedPointArray(const char* name);
   void SetSizeArray(const char* name);
   void SetMetricArray(const char* name);
   void SetCornerArray(const char* name);
+  void SetPatchArray(const char* name);
   ///@}
 
   enum StopReasonType
@@ -436,7 +484,9 @@ public:
 
   ///@{
   /**
-   * More about the last run. EdgeLengthShare: the fraction of edges in the output that are
+   * More about the last run. SurfaceDistance: with BoundaryMode Slide and tetrahedra, the distance
+   * that is proved between the surface of the input and that of the output, both ways; a length, at
+   * most the tolerance. 0 otherwise. It is also in the field data. EdgeLengthShare: the fraction of edges in the output that are
    * 1/sqrt(2) to sqrt(2) times as long as wanted at their place, in the metric if there is one; 0
    * if neither a size nor a metric was given. It is also in the field data of the output, as is the
    * histogram `EdgeLengthHistogram`. NumberOfOperations: of all kinds together. OptimizeSeconds:
@@ -444,6 +494,7 @@ public:
    * same bit for bit.
    */
   vtkGetMacro(EdgeLengthShare, double);
+  vtkGetMacro(SurfaceDistance, double);
   vtkGetMacro(NumberOfOperations, vtkIdType);
   vtkGetMacro(OptimizeSeconds, double);
   ///@}
@@ -484,7 +535,9 @@ private:
   int NumberOfLayers = 2;
   double TimeLimit = 0.0;
   int BoundaryMode = Fixed, BoundaryCurve = BSpline;
-  double CornerAngle = 45.0;
+  double CornerAngle = 45.0, FeatureAngle = 45.0;
+  double SurfaceTolerance = 1e-3;
+  bool ToleranceIsAbsolute = false;
 
   double WorstQualityBefore = 0.0, WorstQualityAfter = 0.0;
   double MeanQualityBefore = 0.0, MeanQualityAfter = 0.0;
@@ -493,7 +546,7 @@ private:
   vtkIdType NumberOfInvertedCellsBefore = 0, NumberOfInvertedCellsAfter = 0;
   int StopReason = NotRun;
   vtkIdType NumberOfOperations = 0;
-  double EdgeLengthShare = 0.0, OptimizeSeconds = 0.0;
+  double EdgeLengthShare = 0.0, SurfaceDistance = 0.0, OptimizeSeconds = 0.0;
 };
 
 #endif

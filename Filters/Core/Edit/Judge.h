@@ -9,6 +9,8 @@
 ///    rises lexicographically, so that no cycle is possible;
 ///  - topology, only if cells may overlap, since geometry then says nothing: the new cells fill the
 ///    cavity and meet the rest of the mesh in its boundary only (CavityFit.h). Kept edges stay;
+///  - surface: where it takes part in space, it stays as near to what it was as it must, and no
+///    cell there is inverted;
 ///  - growth: the budget allows the additional cells;
 ///  - guard: there are no more bad cells than before, where one bad cell must not be improved at
 ///    the expense of others.
@@ -19,6 +21,7 @@
 #include "Edit/Operation.h"
 #include "Edit/Proposal.h"
 #include "Edit/QualityModel.h"
+#include "Edit/SurfaceChanges.h"
 #include "Edit/Switches.h"
 #include "Mesh/CavityFit.h"
 #include "Surface/Surface.h"
@@ -54,6 +57,8 @@ public:
   const QualityModel<D, Shape>& model() const { return *this->model_; }
   const Switches& switches() const { return *this->switches_; }
   const Surface<D>* surface() const { return this->surface_; }
+  /// Whether nodes of the surface may move, come and go by the operations of free nodes.
+  bool slides() const { return this->surface_ && this->surface_->judgesChanges(); }
   const Caps<D>* caps() const { return this->caps_; }
 
   // --- requirements
@@ -171,6 +176,32 @@ public:
   }
 
 private:
+  /// Where the surface is not the same set of points as before, geometry does not tell whether the
+  /// new cells meet others: a notch could be closed.
+  bool keepsSurface(const Proposal<D>& p)
+  {
+    return p.newWorst > 0.0 && fillsCavity<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) &&
+      !meetsOthers<D>(this->mesh(), p.cavity, p.cells, this->pinched()) &&
+      this->changes_.allowsReplacement(*this->surface_, this->mesh(), p);
+  }
+  const std::vector<std::uint8_t>& pinched() const
+  {
+    static const std::vector<std::uint8_t> none;
+    return this->pinched_ ? *this->pinched_ : none;
+  }
+  /// Fails only if the chunk has no free slot left.
+  bool change(const Proposal<D>& p, const std::vector<double>& qualities)
+  {
+    return this->editor_->replace(p.cavity, p.cells, qualities, p.keptChange());
+  }
+  bool replaceOnSurface(const Proposal<D>& p, const std::vector<double>& qualities)
+  {
+    const Mark mark = this->begin();
+    const bool good = this->change(p, qualities) &&
+      this->changes_.allowsAngles(*this->surface_, this->mesh(), this->editor_->created());
+    good ? this->commit(mark) : this->rollback(mark);
+    return good;
+  }
   bool replace(const Proposal<D>& p);
   template <class Also>
   bool move(const Proposal<D>& p, Also&& also);
@@ -195,6 +226,7 @@ private:
   const std::vector<std::uint8_t>* pinched_ = nullptr; // only if tangled_
   std::vector<Index> changed_;
   std::vector<double> qualities_;
+  SurfaceChanges<D> changes_; // only if slides()
 };
 
 template <int D, class Shape>
@@ -237,6 +269,7 @@ bool Judge<D, Shape>::replace(const Proposal<D>& p)
   const bool knows = !p.qualities.empty();
   if (!(p.newWorst > p.least) || !this->fits(p) ||
     !keepsEdges<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) ||
+    (p.changesKept && this->slides() && !this->keepsSurface(p)) ||
     !this->growth.allows(p.growth()))
   {
     return false;
@@ -255,8 +288,8 @@ bool Judge<D, Shape>::replace(const Proposal<D>& p)
   {
     return false;
   }
-  // Fails only if the chunk has no free slot left.
-  if (!this->editor_->replace(p.cavity, p.cells, qualities, p.keptChange()))
+  if (!(p.changesKept && this->slides() ? this->replaceOnSurface(p, qualities)
+                                        : this->change(p, qualities)))
   {
     return false;
   }
@@ -274,6 +307,13 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
   // The nodes move first: `also` may look at the new surface, and the model reads points from the
   // mesh.
   const Mark mark = this->begin();
+  const bool slides = this->slides() &&
+    std::any_of(
+      p.moves.begin(), p.moves.end(), [](const auto& m) { return m.place.part != None; });
+  if (slides)
+  {
+    this->changes_.beforeMoves(this->mesh(), p);
+  }
   for (const auto& m : p.moves)
   {
     this->editor_->movePoint(m.point, m.x);
@@ -290,10 +330,13 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
     const double old = this->mesh().quality(c);
     const double q = p.qualities.empty() ? (*this->model_)(this->mesh().nodes(c)) : p.qualities[k];
     // A cell that was inverted may stay so while it improves; one that was positive may not turn.
-    good = q > p.least && (q > 0.0 || !(p.keepsPositive && old > 0.0));
+    good = q > p.least && (q > 0.0 || !(slides || (p.keepsPositive && old > 0.0)));
     bad += this->badness(q) - this->badness(old);
     this->editor_->setQuality(c, q);
   }
+  good = good && (!slides ||
+      (this->changes_.allowsMoves(*this->surface_, this->mesh(), p) &&
+        this->changes_.allowsAngles(*this->surface_, this->mesh(), p.cavity)));
   if (!good || (this->guardsAll_ && bad > 0 && p.oldWorst > 0.0))
   {
     this->rollback(mark);

@@ -397,37 +397,6 @@ void MeshEditor<D>::movePoint(Index p, const Vec<D>& x, Index near)
 }
 
 template <int D>
-void MeshEditor<D>::setPlace(Index p, const Place& place)
-{
-  if (this->mesh_->places_.empty())
-  {
-    assert(this->owner_ == None); // others would read while this one grows
-    this->mesh_->places_.resize(this->mesh_->points_.size());
-  }
-  this->savePlace(p);
-  this->mesh_->places_[p] = place;
-}
-
-template <int D>
-void MeshEditor<D>::setPatch(Index c, int i, Index patch)
-{
-  if (this->mesh_->patches_.empty())
-  {
-    assert(this->owner_ == None && this->depth_ == 0);
-    this->growPatches(true);
-  }
-  this->saveCell(c);
-  this->mesh_->patches_[c][i] = patch;
-  // The facet is stored twice, once for each of its cells.
-  const Index h = this->mesh_->adjacent(c, i);
-  if (h != None)
-  {
-    this->saveCell(Mesh::cellOf(h));
-    this->mesh_->patches_[Mesh::cellOf(h)][Mesh::facetOf(h)] = patch;
-  }
-}
-
-template <int D>
 void MeshEditor<D>::setQuality(Index c, double q)
 {
   this->saveCell(c);

@@ -89,12 +89,19 @@ public:
   void movePoint(Index p, const Vec<D>& x, Index near = None);
 
   /// Sets the place of the point on the surface; changes nothing else. The first call must not come
-  /// from the editor of a chunk: it makes room for the places of all points.
+  /// from the editor of a chunk, unless makeRoomForPlaces() was called before.
   void setPlace(Index p, const Place& place);
 
   /// Sets the patch of the surface to which the kept facet i of cell c belongs, on both sides of
   /// it. The first call must be outside of transactions.
   void setPatch(Index c, int i, Index patch);
+
+  /// Keeps the edge from a to b of cell c: marks it in all cells around it that can be reached over
+  /// facets. Outside of transactions.
+  void keepEdge(Index c, Index a, Index b);
+
+  /// Makes room for the places of all points: setPlace() may then be called by editors of chunks.
+  void makeRoomForPlaces();
 
   void setQuality(Index c, double q);
   /// Stamps all points of these cells with a new time: their stars have changed.

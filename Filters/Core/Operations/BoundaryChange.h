@@ -7,6 +7,7 @@
 
 #include "Base/GoldenSection.h"
 #include "Edit/Judge.h"
+#include "Mesh/Ids.h"
 #include "Operations/EdgeContraction.h"
 #include "Operations/EdgeSplit.h"
 #include "Operations/Level.h"
@@ -32,9 +33,12 @@ public:
     const Simplex<D> nodes = mesh.nodes(t);
     for (Index v : nodes)
     {
-      if (mesh.freedom(v) == Freedom::Curve &&
-        ((judge.switches().moveNodes && this->slide(judge, v)) ||
-          (level >= Level::Insertion && judge.switches().removeNodes && this->remove(judge, v))))
+      const Freedom freedom = mesh.freedom(v);
+      const bool mayRemove = level >= Level::Insertion && judge.switches().removeNodes;
+      // Nodes of patches slide by NodeMotion.
+      if ((freedom == Freedom::Curve && judge.switches().moveNodes && this->slide(judge, v)) ||
+        ((freedom == Freedom::Curve || freedom == Freedom::Patch) && mayRemove &&
+          this->remove(judge, v)))
       {
         return true;
       }
@@ -98,17 +102,46 @@ private:
     {
       return false;
     }
-    const auto range = judge.surface()->range(judge.mesh(), this->star_, v);
+    this->collectNeighbours(judge, v);
     bool done = false;
-    // The node can join either of its two neighbours on the curve.
-    for (std::size_t k = 0; k < 2 && range && !done; ++k)
+    for (std::size_t k = 0; k < this->neighbours_.size() && !done; ++k)
     {
       done = proposeContraction(
-               judge.editor(), judge.surface(), v, range->ends[k], this->proposal_) &&
+               judge.editor(), judge.surface(), v, this->neighbours_[k], this->proposal_) &&
         this->offer(judge);
     }
     judge.count(Operation::EdgeContraction, done);
     return done;
+  }
+
+  /// The points that v may join: its two neighbours on the curve, or those on the patch.
+  void collectNeighbours(const Judge<D, Shape>& judge, Index v)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    this->neighbours_.clear();
+    const auto range = judge.surface()->range(mesh, this->star_, v);
+    if (range)
+    {
+      this->neighbours_.assign(range->ends.begin(), range->ends.end());
+    }
+    for (std::size_t k = 0; k < this->star_.size() && mesh.freedom(v) == Freedom::Patch; ++k)
+    {
+      for (int i = 0; i <= D; ++i)
+      {
+        const Facet<D> f = mesh.facet(this->star_[k], i);
+        if (mesh.isConstrained(this->star_[k], i) && hasId(f, v))
+        {
+          std::copy_if(f.begin(), f.end(), std::back_inserter(this->neighbours_),
+            [&](Index u) { return u != v; });
+        }
+      }
+    }
+    if (!range)
+    {
+      std::sort(this->neighbours_.begin(), this->neighbours_.end());
+      this->neighbours_.erase(std::unique(this->neighbours_.begin(), this->neighbours_.end()),
+        this->neighbours_.end());
+    }
   }
 
   /// Divides edge e of cell t, if it is on a curve, at the place that is best for this cell. The
@@ -172,7 +205,7 @@ private:
 
   Proposal<D> proposal_;
   StarProblem<D, Shape> problem_;
-  std::vector<Index> star_;
+  std::vector<Index> star_, neighbours_;
 };
 }
 

@@ -10,10 +10,15 @@
 /// a prefix P has a boundary facet of quality <= c, then a larger cavity either takes in the cell
 /// behind it or has that facet on its own boundary. A positive worst quality makes the cavity
 /// star-shaped around the node. O(k log k) for k cells.
+///
+/// A node of the surface lies in kept facets or at an edge of the surface (Opening). Facets of its
+/// patches that hang together with these are opened, too: they are not joined to the node, but
+/// vanish, and what is left of them is joined to it as new facets of the surface.
 #ifndef meshopt_Operations_Cavity_h
 #define meshopt_Operations_Cavity_h
 
 #include "Edit/QualityModel.h"
+#include "Mesh/Ids.h"
 #include "Mesh/KeptEdges.h"
 #include "Mesh/LocalNumbers.h"
 #include "Mesh/MeshEditor.h"
@@ -32,16 +37,35 @@ public:
     int swallowed = 1; ///< most free points that may vanish; others never may
   };
 
+  /// The facet or edge of the surface in which a new node lies (D = 3).
+  struct Opening
+  {
+    std::array<Index, 3> ids{ None, None, None }; ///< of a facet, or of an edge and None
+    std::vector<Index> patches;                   ///< of the facets there
+  };
+  /// A facet of the surface that vanishes with the cavity.
+  struct Opened
+  {
+    Facet<D> nodes; ///< sorted
+    Index patch;
+    std::size_t since; ///< number of cells of the cavity when it was opened
+  };
+
   /// Grows the cavity of cell `seed` for a node with id p at x (no cell need use p). Returns the
-  /// worst quality of the new elements; -infinity if there is no cavity.
+  /// worst quality of the new elements; -infinity if there is no cavity. `opening`: of a node on
+  /// the surface; null: the node is inside.
   double grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index seed, Index p,
-    const Vec<D>& x, const Limits& limits);
+    const Vec<D>& x, const Limits& limits, const Opening* opening = nullptr);
 
   /// The cells of the best prefix.
   const std::vector<Index>& cells() const { return this->cells_; }
   double oldWorst() const { return this->oldWorst_; }
   /// Boundary facets of the best prefix. The tetrahedron (facet, node) is positive.
   const std::vector<Facet<D>>& facets() const { return this->facets_; }
+  /// The cell of the cavity behind each of these facets.
+  const std::vector<Index>& behind() const { return this->behind_; }
+  /// The facets of the surface that vanish.
+  const std::vector<Opened>& opened() const { return this->opened_; }
 
 private:
   struct Front
@@ -63,6 +87,9 @@ private:
     int facets = 0; // number of boundary facets that contain it
   };
 
+  bool isOpened(const SimplexMesh<D>& mesh, Index c, int i) const;
+  bool opens(const SimplexMesh<D>& mesh, Index c, int i);
+  bool isWall(const MeshEditor<D>& editor, Index c, int i) const;
   bool take(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, int limit);
   double quality(const QualityModel<D, Shape>& model, const Facet<D>& f, const int* numbers);
   void finish(MeshEditor<D>& editor);
@@ -72,6 +99,9 @@ private:
   std::vector<Front> heap_;
   std::vector<Index> cells_;
   std::vector<Facet<D>> facets_;
+  std::vector<Index> behind_;
+  const Opening* opening_ = nullptr;
+  std::vector<Opened> opened_;
   std::uint32_t mark_ = 0;
   Index p_ = None;
   Vec<D> x_;
@@ -113,6 +143,64 @@ double Cavity<D, Shape>::quality(
   return model(cell);
 }
 
+template <int D, class Shape>
+bool Cavity<D, Shape>::isOpened(const SimplexMesh<D>& mesh, Index c, int i) const
+{
+  if (this->opened_.empty())
+  {
+    return false;
+  }
+  const Facet<D> key = sortedIds(mesh.facet(c, i));
+  return std::any_of(this->opened_.begin(), this->opened_.end(),
+    [&](const Opened& o) { return o.nodes == key; });
+}
+
+/// Whether the cavity cannot grow through facet i of cell c.
+template <int D, class Shape>
+bool Cavity<D, Shape>::isWall(const MeshEditor<D>& editor, Index c, int i) const
+{
+  const Index h = editor.mesh().adjacent(c, i);
+  return h == None || (editor.mesh().isConstrained(c, i) && !this->isOpened(editor.mesh(), c, i)) ||
+    !editor.owns(editor.mesh().cellOf(h));
+}
+
+/// Opens kept facet i of cell c if the new node lies in it, or at its edge, or if it hangs together
+/// with an open facet over an edge that is not kept. Returns whether it is open.
+template <int D, class Shape>
+bool Cavity<D, Shape>::opens(const SimplexMesh<D>& mesh, Index c, int i)
+{
+  if (D != 3 || !this->opening_)
+  {
+    return false;
+  }
+  const Index patch = mesh.patch(c, i);
+  const auto& patches = this->opening_->patches;
+  if (patch == None || std::find(patches.begin(), patches.end(), patch) == patches.end())
+  {
+    return false;
+  }
+  if (this->isOpened(mesh, c, i))
+  {
+    return true;
+  }
+  const Facet<D> key = sortedIds(mesh.facet(c, i));
+  bool opens = std::all_of(this->opening_->ids.begin(), this->opening_->ids.end(),
+    [&](Index p) { return p == None || hasId(key, p); });
+  for (int e = 0; e < Local<D>::numberOfEdges && !opens; ++e)
+  {
+    const Index a = mesh.nodes(c)[Local<D>::edges[e][0]], b = mesh.nodes(c)[Local<D>::edges[e][1]];
+    opens = hasId(key, a) && hasId(key, b) && !mesh.isEdgeKept(c, e) &&
+      std::any_of(this->opened_.begin(), this->opened_.end(),
+        [&](const Opened& o)
+        { return o.patch == patch && hasId(o.nodes, a) && hasId(o.nodes, b); });
+  }
+  if (opens)
+  {
+    this->opened_.push_back({ key, patch, this->cells_.size() });
+  }
+  return opens;
+}
+
 /// Takes cell c into the cavity. False if points or edges would then vanish that must not.
 template <int D, class Shape>
 bool Cavity<D, Shape>::take(
@@ -144,6 +232,16 @@ bool Cavity<D, Shape>::take(
     for (int k = 0; k < D; ++k)
     {
       numbers[k] = local[Local<D>::facets[i][k]];
+    }
+    if (mesh.isConstrained(c, i) && this->opens(mesh, c, i))
+    {
+      if (h != None && !(editor.owns(mesh.cellOf(h)) && editor.isMarked(mesh.cellOf(h), this->mark_)))
+      {
+        // Of an interface both sides are needed: the other cell comes next.
+        this->heap_.push_back({ -std::numeric_limits<double>::infinity(), c, i });
+        std::push_heap(this->heap_.begin(), this->heap_.end());
+      }
+      continue;
     }
     // A facet of which both cells are inside is no boundary facet any more. It remains in the heap:
     // grow() drops it later.
@@ -185,9 +283,11 @@ bool Cavity<D, Shape>::take(
 
 template <int D, class Shape>
 double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model,
-  Index seed, Index p, const Vec<D>& x, const Limits& limits)
+  Index seed, Index p, const Vec<D>& x, const Limits& limits, const Opening* opening)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
+  this->opening_ = opening;
+  this->opened_.clear();
   this->numbers_.clear();
   this->points_.clear();
   this->heap_.clear();
@@ -205,9 +305,8 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
     while (true)
     {
       const Front& top = this->heap_.front();
-      const Index h = mesh.adjacent(top.cell, top.facet);
-      if (h == None || mesh.isConstrained(top.cell, top.facet) || !editor.owns(mesh.cellOf(h)) ||
-        !editor.isMarked(mesh.cellOf(h), this->mark_))
+      if (this->isWall(editor, top.cell, top.facet) ||
+        !editor.isMarked(mesh.cellOf(mesh.adjacent(top.cell, top.facet)), this->mark_))
       {
         break;
       }
@@ -221,13 +320,13 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
       best = top.q;
       bestSize = this->cells_.size();
     }
-    const Index h = mesh.adjacent(top.cell, top.facet);
     // If the worst facet cannot be opened, no larger cavity can be better than the best so far.
-    if (h == None || mesh.isConstrained(top.cell, top.facet) || !editor.owns(mesh.cellOf(h)) ||
+    if (this->isWall(editor, top.cell, top.facet) ||
       static_cast<int>(this->cells_.size()) >= limits.cells)
     {
       break;
     }
+    const Index h = mesh.adjacent(top.cell, top.facet);
     more = this->take(editor, model, mesh.cellOf(h), limits.swallowed);
   }
   this->cells_.resize(bestSize);
@@ -249,15 +348,24 @@ void Cavity<D, Shape>::finish(MeshEditor<D>& editor)
     this->oldWorst_ = std::min(this->oldWorst_, mesh.quality(c));
   }
   this->facets_.clear();
+  this->behind_.clear();
+  const std::size_t size = this->cells_.size();
+  this->opened_.erase(std::remove_if(this->opened_.begin(), this->opened_.end(),
+                        [&](const Opened& o) { return o.since > size; }),
+    this->opened_.end());
   for (Index c : this->cells_)
   {
     for (int i = 0; i <= D; ++i)
     {
-      const Index h = mesh.adjacent(c, i);
-      if (h == None || mesh.isConstrained(c, i) || !editor.owns(mesh.cellOf(h)) ||
-        !editor.isMarked(mesh.cellOf(h), inside))
+      if (mesh.isConstrained(c, i) && this->isOpened(mesh, c, i))
+      {
+        continue; // of the outer surface, or between two cells of the cavity
+      }
+      if (this->isWall(editor, c, i) ||
+        !editor.isMarked(mesh.cellOf(mesh.adjacent(c, i)), inside))
       {
         this->facets_.push_back(mesh.facet(c, i));
+        this->behind_.push_back(c);
       }
     }
   }

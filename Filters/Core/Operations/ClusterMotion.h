@@ -27,7 +27,8 @@ public:
     const double old = mesh.quality(t);
     const auto mayMove = [&](Index p)
     {
-      return mesh.isFree(p) && judge.editor().star(p, this->star_) &&
+      return (mesh.isFree(p) || (judge.slides() && mesh.freedom(p) != Freedom::Fixed)) &&
+        judge.editor().star(p, this->star_) &&
         !(mesh.worstQuality(this->star_) < old);
     };
     this->gatherer_.gather(judge.editor(), t, 1, mayMove, this->cluster_);
@@ -37,6 +38,7 @@ public:
       return false;
     }
     this->readMetrics(judge);
+    const bool slides = this->findDirections(judge);
     const double now = this->problem_.maximize(this->cluster_, judge.model().quality,
       this->metrics_, judge.enough(old), 0.5 * judge.gain(old));
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
@@ -48,9 +50,14 @@ public:
       this->proposal_.cavity = cells;
       for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
       {
-        this->proposal_.moves.push_back({ this->cluster_.points[k], this->cluster_.x[k], {} });
+        const Index p = this->cluster_.points[k];
+        Vec<D> x = this->cluster_.x[k];
+        const Place place = mesh.isFree(p) ? Place() : judge.surface()->project(mesh.place(p), x, x);
+        this->proposal_.moves.push_back({ p, x, place });
       }
-      this->proposal_.oldWorst = this->proposal_.least = old;
+      this->proposal_.oldWorst = old;
+      // Nodes that slide were moved to the surface at last: that may have cost all of the gain.
+      this->proposal_.least = slides ? judge.required(old) : old;
       this->proposal_.newWorst = now;
       better = judge.accept(this->proposal_);
     }
@@ -59,6 +66,30 @@ public:
   }
 
 private:
+  /// The directions of the nodes that slide. False if there is none.
+  bool findDirections(Judge<D, Shape>& judge)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    this->directions_.clear();
+    bool slides = false;
+    for (int k = 0; k < this->cluster_.numberOfMoving && judge.slides(); ++k)
+    {
+      const Index p = this->cluster_.points[k];
+      Directions<D> directions;
+      if (!mesh.isFree(p))
+      {
+        judge.editor().star(p, this->star_);
+        directions.basis[0].setZero(); // without a tangent it stays
+        directions.count =
+          std::max(1, judge.surface()->tangents(mesh, this->star_, p, directions.basis));
+        slides = true;
+      }
+      this->directions_.push_back(directions);
+    }
+    this->problem_.restrict(this->directions_);
+    return slides;
+  }
+
   /// One metric for each cell of the cluster, or one for all.
   void readMetrics(const Judge<D, Shape>& judge)
   {
@@ -80,6 +111,7 @@ private:
   ClusterGatherer<D> gatherer_;
   Cluster<D> cluster_;
   std::vector<ElementMetric<D>> metrics_;
+  std::vector<Directions<D>> directions_;
   std::vector<Index> star_;
 };
 }

@@ -4,7 +4,7 @@
 /// the edge are joined to the triangles. (The paper's edge cluster to a ring node is the special
 /// case of a fan.) In 2D this is the swap of an edge. Where the surface may be remeshed, the ring
 /// can be open: it then runs from one facet of the surface to the next, and these two facets are
-/// swapped.
+/// swapped. At an interface there is such a ring on either side.
 ///
 ///      r3 ---- r2        r3 ---- r2       The ring seen from high along the edge (o), before and
 ///      | \   / |         | \     |        after. Each new triangle is joined to low and to high:
@@ -24,6 +24,7 @@
 #include "Surface/Surface.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace meshopt
 {
@@ -68,6 +69,7 @@ private:
   bool gatherPair(const MeshEditor<D>& editor, Index t, int e);
   Ring gatherRing(const MeshEditor<D>& editor, const Start& start);
   bool gatherOpenRing(const MeshEditor<D>& editor, Start start, const Surface<D>& surface);
+  bool gatherOther(const MeshEditor<D>& editor, Index first, const Surface<D>& surface);
   double triangulate(const QualityModel<D, Shape>& model, double above);
   void weigh(const QualityModel<D, Shape>& model);
   double pair(const QualityModel<D, Shape>& model, int i, int k, int j, double above) const;
@@ -76,6 +78,9 @@ private:
   std::vector<Index> cavity_;
   double ringWorst_ = 0.0;
   bool isOpen_ = false;            // the ring begins and ends at the surface
+  bool isSecond_ = false;          // this object is the other side of an interface
+  bool hasOther_ = false;          // the ring begins and ends at an interface
+  std::unique_ptr<EdgeRemoval> other_;
   Index low_ = None, high_ = None; // the edge; the ring runs counterclockwise seen from high_
   int n_ = 0;
   Index ring_[MaximumRing];
@@ -156,8 +161,8 @@ typename EdgeRemoval<D, Shape>::Ring EdgeRemoval<D, Shape>::gatherRing(
   }
 }
 
-/// From one facet of the outer surface to the next: goes back from the start to the first facet,
-/// then all the way to the other.
+/// From one facet of the surface to the next: goes back from the start to the first facet, then all
+/// the way to the other.
 template <int D, class Shape>
 bool EdgeRemoval<D, Shape>::gatherOpenRing(
   const MeshEditor<D>& editor, Start start, const Surface<D>& surface)
@@ -177,17 +182,47 @@ bool EdgeRemoval<D, Shape>::gatherOpenRing(
     start.local[D] = mesh.localIndex(next, c);
     start.cell = next;
   }
-  if (mesh.adjacent(start.cell, start.local[D]) != None ||
-    this->gatherRing(editor, start) != Ring::Blocked || this->n_ < 3)
+  if (this->gatherRing(editor, start) != Ring::Blocked || this->n_ < 3)
   {
     return false;
   }
-  // The facet of the surface is opposite to the second last ring point. It must be the outer
-  // surface: a facet between regions has cells on both sides, and both would have to change.
-  const Index last = this->cavity_.back();
-  this->isOpen_ = mesh.adjacent(last, mesh.localIndex(last, this->ring_[this->n_ - 2])) == None;
+  // The facet of the surface is opposite to the second last ring point.
+  const Index first = this->cavity_[0], last = this->cavity_.back();
+  const int i = mesh.localIndex(first, this->ring_[1]);
+  const int j = mesh.localIndex(last, this->ring_[this->n_ - 2]);
+  this->isOpen_ = surface.maySwap(mesh, mesh.patch(first, i), mesh.patch(last, j));
+  // A facet between regions has cells on both sides, and both change.
+  const Index across = mesh.adjacent(first, i);
+  this->hasOther_ = across != None && !this->isSecond_;
   return this->isOpen_ &&
-    surface.maySwap(mesh, this->low_, this->high_, this->ring_[0], this->ring_[this->n_ - 1]);
+    (!this->hasOther_ || this->gatherOther(editor, mesh.cellOf(across), surface));
+}
+
+/// The ring on the other side of an interface; `first`: a cell of it. It must join the same points.
+template <int D, class Shape>
+bool EdgeRemoval<D, Shape>::gatherOther(
+  const MeshEditor<D>& editor, Index first, const Surface<D>& surface)
+{
+  if (!this->other_)
+  {
+    this->other_ = std::make_unique<EdgeRemoval>();
+    this->other_->isSecond_ = true;
+  }
+  int e = 0;
+  const Simplex<D>& t = editor.mesh().nodes(first);
+  while (std::minmax(t[Local<D>::edges[e][0]], t[Local<D>::edges[e][1]]) !=
+    std::minmax(this->low_, this->high_))
+  {
+    ++e;
+  }
+  if (!editor.owns(first) || !this->other_->gather(editor, first, e, &surface))
+  {
+    return false;
+  }
+  const EdgeRemoval& o = *this->other_;
+  this->ringWorst_ = std::min(this->ringWorst_, o.ringWorst_);
+  return o.isOpen_ && o.ring_[0] == this->ring_[this->n_ - 1] &&
+    o.ring_[o.n_ - 1] == this->ring_[0];
 }
 
 template <int D, class Shape>
@@ -195,7 +230,7 @@ bool EdgeRemoval<D, Shape>::gather(
   const MeshEditor<D>& editor, Index t, int e, [[maybe_unused]] const Surface<D>* surface)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
-  this->isOpen_ = false;
+  this->isOpen_ = this->hasOther_ = false;
   bool found = false;
   if constexpr (D == 2)
   {
@@ -336,7 +371,10 @@ double EdgeRemoval<D, Shape>::propose(const MeshEditor<D>& editor,
   }
   else
   {
-    return this->triangulate(model, std::max(above, this->ringWorst_));
+    const double required = std::max(above, this->ringWorst_);
+    const double q = this->triangulate(model, required);
+    return q > required && this->hasOther_ ? std::min(q, this->other_->triangulate(model, required))
+                                           : q;
   }
 }
 
@@ -393,6 +431,15 @@ void EdgeRemoval<D, Shape>::fill(Proposal<D>& proposal, const SimplexMesh<D>& me
       proposal.kept.come = { { first, last, this->low_ }, { first, last, this->high_ } };
       proposal.kept.patches.assign(2, patch);
       proposal.kept.regions.assign(proposal.cells.size(), mesh.region(c));
+    }
+    if (this->hasOther_)
+    {
+      std::vector<Simplex<D>> cells;
+      this->other_->cells(cells);
+      const std::vector<Index>& cavity = this->other_->cavity_;
+      proposal.cells.insert(proposal.cells.end(), cells.begin(), cells.end());
+      proposal.cavity.insert(proposal.cavity.end(), cavity.begin(), cavity.end());
+      proposal.kept.regions.resize(proposal.cells.size(), mesh.region(cavity[0]));
     }
   }
 }

@@ -91,7 +91,7 @@ bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index 
   proposal.clear();
   bool isKept = false;
   if (!cellsAround(editor, t, a, b, proposal.cavity, isKept) ||
-    (isKept && !(surface && surface->mayDivide(mesh, a, b))))
+    (isKept && !(surface && surface->mayDivide(mesh, proposal.cavity, a, b))))
   {
     return false;
   }

@@ -23,13 +23,13 @@ public:
   /// Improves one cell by the other operations at a level; true if that helped. Must be set before
   /// improve() is called.
   using Improve = std::function<bool(Index t, int level)>;
-  void setImprove(Improve improve) { this->improve_ = std::move(improve); }
+  void setImprove(const Improve& improve) { this->improve_ = improve; }
 
   bool improve(Judge<D, Shape>& judge, Index t, int level)
   {
     const bool isLong = level > Level::LookAhead;
-    std::vector<Vec<D>> seeds;
-    NodeInsertion<D, Shape>::findSeeds(judge.mesh(), t, seeds);
+    std::vector<Seed> seeds;
+    NodeInsertion<D, Shape>::findAllSeeds(judge, t, seeds);
     const double old = judge.mesh().quality(t);
     bool done = false;
     for (std::size_t k = 0; k < seeds.size() && !done; ++k)
@@ -41,13 +41,15 @@ public:
   }
 
 private:
+  using Seed = typename NodeInsertion<D, Shape>::Seed;
+
   static constexpr int Operations = 30, ManyOperations = 120; ///< most tries after the insertion
   static constexpr double Promising = 0.3; ///< least quality at first, relative to the old one
 
-  bool tryFrom(Judge<D, Shape>& judge, Index t, Vec<D>& seed, double old, bool isLong)
+  bool tryFrom(Judge<D, Shape>& judge, Index t, Seed& seed, double old, bool isLong)
   {
     const auto mark = judge.begin();
-    const Index p = judge.editor().addPoint(seed);
+    const Index p = judge.editor().addPoint(seed.x);
     std::vector<Index> affected;
     judge.start();
     if (p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file NodeInsertion.h
 /// Inserts a node into a cell: the best cavity around the node is emptied and filled from the node,
-/// which is put at its best place there.
+/// which is put at its best place there. Where the surface takes part, also into a facet or an edge
+/// of the surface.
 #ifndef meshopt_Operations_NodeInsertion_h
 #define meshopt_Operations_NodeInsertion_h
 
@@ -21,11 +22,21 @@ public:
   static constexpr bool addsCells = true;
   static bool isOn(const Switches& switches) { return switches.insertNodes; }
 
+  /// Where a new node starts.
+  struct Seed
+  {
+    Vec<D> x;
+    Place place;                                ///< of a node on the surface
+    typename Cavity<D, Shape>::Opening opening; ///< the same
+    bool isOnSurface() const { return this->place.part != None; }
+  };
+
   bool improve(Judge<D, Shape>& judge, Index t, int)
   {
-    findSeeds(judge.mesh(), t, this->seeds_);
+    this->seeds_.clear();
+    findAllSeeds(judge, t, this->seeds_);
     const auto mark = judge.begin();
-    const Index p = judge.editor().addPoint(this->seeds_[0]);
+    const Index p = judge.editor().addPoint(this->seeds_[0].x);
     bool done = false;
     for (std::size_t k = 0; k < this->seeds_.size() && p != None && !done; ++k)
     {
@@ -40,20 +51,27 @@ public:
   /// half way there; the barycentre; the barycentres of the facets; the midpoints of the edges. The
   /// last two are pulled inwards by 10 %.
   static void findSeeds(const SimplexMesh<D>& mesh, Index t, std::vector<Vec<D>>& seeds);
+  /// Those, then, if the surface takes part, the midpoints of the cell's edges and the barycentres
+  /// of its facets there.
+  static void findAllSeeds(const Judge<D, Shape>& judge, Index t, std::vector<Seed>& seeds);
 
-  /// Finds the cavity of point p (which no cell uses yet) if it starts at x, then moves it to its
-  /// best place, which is returned in x. If `needsGain` and there is no gain, a second round starts
+  /// Finds the cavity of point p (which no cell uses yet) if it starts at the seed, then moves it
+  /// to its best place, which is returned in the seed. If `needsGain` and there is no gain, a second round starts
   /// at the new place. Returns the worst quality of the new cells; Never if there is no cavity.
   /// Call it within a transaction.
-  double find(Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x, bool needsGain);
+  double find(Judge<D, Shape>& judge, Index t, Index p, Seed& seed, bool needsGain);
   /// The worst quality in the cavity of the last find().
   double oldWorst() const { return this->cavity_.oldWorst(); }
-  /// Fills the cavity of the last find() from p at x, whether or not that gains.
-  bool fill(Judge<D, Shape>& judge, Index p, const Vec<D>& x);
+  /// Fills the cavity of the last find() from p at the seed's place, whether or not that gains.
+  bool fill(Judge<D, Shape>& judge, Index p, const Seed& seed);
 
 private:
-  bool tryGain(Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x,
+  static void addSurfaceSeed(const Judge<D, Shape>& judge, const std::array<Index, 3>& ids,
+    const std::vector<Index>& cells, std::vector<Seed>& seeds);
+  bool tryGain(Judge<D, Shape>& judge, Index t, Index p, Seed& seed,
     const typename Judge<D, Shape>::Mark& start);
+  double maximize(Judge<D, Shape>& judge, Seed& seed);
+  void changeSurface(const SimplexMesh<D>& mesh, Index p, const Seed& seed);
   void loadCavity(const Judge<D, Shape>& judge, Index p);
 
   static constexpr double Hopeless = 0.5; ///< part of the old worst: below it, no second round
@@ -62,7 +80,7 @@ private:
   Proposal<D> proposal_;
   Cavity<D, Shape> cavity_;
   StarProblem<D, Shape> problem_;
-  std::vector<Vec<D>> seeds_;
+  std::vector<Seed> seeds_;
 };
 
 template <int D, class Shape>
@@ -129,25 +147,170 @@ void NodeInsertion<D, Shape>::loadCavity(const Judge<D, Shape>& judge, Index p)
   }
 }
 
+/// Adds the middle of an edge (the last id is None) or of a facet of the surface, if nodes may be
+/// added there. `cells`: all that have it.
+template <int D, class Shape>
+void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
+  const std::array<Index, 3>& ids, const std::vector<Index>& cells, std::vector<Seed>& seeds)
+{
+  const SimplexMesh<D>& mesh = judge.mesh();
+  Seed seed;
+  seed.opening.ids = ids;
+  const auto has = [&](const Facet<D>& f)
+  {
+    return std::all_of(
+      ids.begin(), ids.end(), [&](Index p) { return p == None || hasId(f, p); });
+  };
+  for (Index c : cells)
+  {
+    for (int i = 0; i <= D; ++i)
+    {
+      if (mesh.isConstrained(c, i) && has(mesh.facet(c, i)))
+      {
+        seed.opening.patches.push_back(mesh.patch(c, i));
+      }
+    }
+  }
+  std::vector<Index>& patches = seed.opening.patches;
+  std::sort(patches.begin(), patches.end());
+  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  if (patches.empty() || patches[0] == None)
+  {
+    return;
+  }
+  const Vec<D>&a = mesh.point(ids[0]), &b = mesh.point(ids[1]);
+  seed.place = { Freedom::Patch, patches[0], 0.0 };
+  if (ids[2] != None)
+  {
+    seed.x = (a + b + mesh.point(ids[2])) / 3.0;
+    judge.surface()->project(seed.place, seed.x, seed.x);
+    seeds.push_back(seed);
+    return;
+  }
+  if (!judge.surface()->mayDivide(mesh, cells, ids[0], ids[1]))
+  {
+    return;
+  }
+  const auto span = judge.surface()->span(mesh, ids[0], ids[1]);
+  bool isKept = false;
+  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+  {
+    const Simplex<D>& t = mesh.nodes(cells[0]);
+    const Index p = t[Local<D>::edges[e][0]], q = t[Local<D>::edges[e][1]];
+    isKept |= mesh.isEdgeKept(cells[0], e) &&
+      ((p == ids[0] && q == ids[1]) || (p == ids[1] && q == ids[0]));
+  }
+  seed.x = 0.5 * (a + b);
+  if (isKept)
+  {
+    seed.place = { Freedom::Curve, span->part, 0.5 * (span->from + span->to) };
+    seed.x = judge.surface()->at(span->part, seed.place.parameter);
+  }
+  else
+  {
+    judge.surface()->project(seed.place, seed.x, seed.x);
+  }
+  seeds.push_back(seed);
+}
+
+template <int D, class Shape>
+void NodeInsertion<D, Shape>::findAllSeeds(
+  const Judge<D, Shape>& judge, Index t, std::vector<Seed>& seeds)
+{
+  const SimplexMesh<D>& mesh = judge.mesh();
+  std::vector<Vec<D>> inside;
+  findSeeds(mesh, t, inside);
+  for (const Vec<D>& x : inside)
+  {
+    seeds.push_back({ x, {}, {} });
+  }
+  if constexpr (D == 3)
+  {
+    if (!judge.slides())
+    {
+      return;
+    }
+    std::vector<Index> cells;
+    for (const auto& e : Local<3>::edges)
+    {
+      const Index a = mesh.nodes(t)[e[0]], b = mesh.nodes(t)[e[1]];
+      if (mesh.isBoundary(a) && mesh.isBoundary(b) && !mesh.ring(t, a, b, false, cells))
+      {
+        mesh.ring(t, a, b, true, cells);
+        addSurfaceSeed(judge, { a, b, None }, cells, seeds);
+      }
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      if (mesh.isConstrained(t, i))
+      {
+        addSurfaceSeed(judge, mesh.facet(t, i), { t }, seeds);
+      }
+    }
+  }
+}
+
+/// Moves the seed to the best place in its cavity; one of the surface, to the best place there.
+template <int D, class Shape>
+double NodeInsertion<D, Shape>::maximize(Judge<D, Shape>& judge, Seed& seed)
+{
+  const double old = this->cavity_.oldWorst();
+  if (!seed.isOnSurface())
+  {
+    return this->problem_.maximize(seed.x, judge.enough(old), 0.5 * judge.gain(old));
+  }
+  Directions<D> directions;
+  if constexpr (D == 3)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const auto& ids = seed.opening.ids;
+    if (seed.place.freedom == Freedom::Curve)
+    {
+      directions.count = 1;
+      directions.basis[0] = (mesh.point(ids[1]) - mesh.point(ids[0])).normalized();
+    }
+    else
+    {
+      Vec<3> normal = Vec<3>::Zero();
+      for (const auto& o : this->cavity_.opened())
+      {
+        const Vec<3>& a = mesh.point(o.nodes[0]);
+        const Vec<3> n = (mesh.point(o.nodes[1]) - a).cross(mesh.point(o.nodes[2]) - a);
+        normal += n.dot(normal) < 0.0 ? Vec<3>(-n) : n; // sorted ids tell no side
+      }
+      int axis = 0;
+      normal.cwiseAbs().minCoeff(&axis);
+      directions.count = 2;
+      directions.basis[0] = normal.cross(Vec<3>(Vec<3>::Unit(axis))).normalized();
+      directions.basis[1] = normal.cross(directions.basis[0]).normalized();
+    }
+  }
+  this->problem_.restrict(directions);
+  this->problem_.maximize(seed.x, judge.enough(old), 0.5 * judge.gain(old));
+  seed.place = judge.surface()->project(seed.place, seed.x, seed.x);
+  return this->problem_.evaluate(seed.x);
+}
+
 template <int D, class Shape>
 double NodeInsertion<D, Shape>::find(
-  Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x, bool needsGain)
+  Judge<D, Shape>& judge, Index t, Index p, Seed& seed, bool needsGain)
 {
   double q = Proposal<D>::Never;
   for (int round = 0; round < Rounds; ++round)
   {
-    judge.editor().movePoint(p, x, judge.mesh().nodes(t)[0]);
+    judge.editor().movePoint(p, seed.x, judge.mesh().nodes(t)[0]);
     typename Cavity<D, Shape>::Limits limits;
     // If no nodes may be removed, none may vanish inside the cavity either.
     limits.swallowed = judge.mayRemoveNodes() ? limits.swallowed : 0;
-    q = this->cavity_.grow(judge.editor(), judge.model(), t, p, x, limits);
+    q = this->cavity_.grow(judge.editor(), judge.model(), t, p, seed.x, limits,
+      seed.isOnSurface() ? &seed.opening : nullptr);
     if (!(q > 0.0))
     {
       return Proposal<D>::Never;
     }
     const double old = this->cavity_.oldWorst();
     this->loadCavity(judge, p);
-    q = this->problem_.maximize(x, judge.enough(old), 0.5 * judge.gain(old));
+    q = this->maximize(judge, seed);
     if (!needsGain || q > judge.required(old) || q < Hopeless * old)
     {
       break;
@@ -156,10 +319,67 @@ double NodeInsertion<D, Shape>::find(
   return q;
 }
 
+/// The facets and edges of the surface that the new node divides.
 template <int D, class Shape>
-bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Vec<D>& x)
+void NodeInsertion<D, Shape>::changeSurface(const SimplexMesh<D>& mesh, Index p, const Seed& seed)
 {
-  judge.editor().movePoint(p, x, this->cavity_.facets()[0][0]);
+  if constexpr (D == 3)
+  {
+    KeptChange<3>& kept = this->proposal_.kept;
+    this->proposal_.changesKept = true;
+    const bool isOnCurve = seed.place.freedom == Freedom::Curve;
+    const auto& ids = seed.opening.ids;
+    const auto isSeed = [&](Index a, Index b)
+    { return isOnCurve && sortedIds(a, b) == sortedIds(ids[0], ids[1]); };
+    struct Side
+    {
+      Index patch;
+      std::array<Index, 2> edge;
+      bool operator<(const Side& o) const
+      {
+        return this->patch != o.patch ? this->patch < o.patch : this->edge < o.edge;
+      }
+      bool operator==(const Side& o) const { return this->patch == o.patch && this->edge == o.edge; }
+    };
+    std::vector<Side> sides;
+    for (const auto& o : this->cavity_.opened())
+    {
+      kept.gone.push_back(o.nodes);
+      for (int i = 0; i < 3; ++i)
+      {
+        sides.push_back({ o.patch, sortedIds(o.nodes[i], o.nodes[(i + 1) % 3]) });
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t k = 0; k < sides.size(); ++k)
+    {
+      // An edge between two open facets vanishes; the others are joined to the node.
+      const bool isInside = (k > 0 && sides[k - 1] == sides[k]) ||
+        (k + 1 < sides.size() && sides[k + 1] == sides[k]);
+      const auto [a, b] = sides[k].edge;
+      if (!isInside && !isSeed(a, b))
+      {
+        kept.come.push_back({ a, b, p });
+        kept.patches.push_back(sides[k].patch);
+      }
+    }
+    if (isOnCurve)
+    {
+      kept.goneEdges.push_back({ ids[0], ids[1] });
+      kept.comeEdges.push_back({ ids[0], p });
+      kept.comeEdges.push_back({ p, ids[1] });
+    }
+    for (Index c : this->cavity_.behind())
+    {
+      kept.regions.push_back(mesh.region(c));
+    }
+  }
+}
+
+template <int D, class Shape>
+bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Seed& seed)
+{
+  judge.editor().movePoint(p, seed.x, this->cavity_.facets()[0][0]);
   this->proposal_.clear();
   this->proposal_.cavity = this->cavity_.cells();
   this->proposal_.oldWorst = this->cavity_.oldWorst();
@@ -170,14 +390,21 @@ bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Vec<D>
     cell[D] = p;
     this->proposal_.cells.push_back(cell);
   }
+  if (seed.isOnSurface())
+  {
+    judge.editor().setPlace(p, seed.place);
+    this->changeSurface(judge.mesh(), p, seed);
+    // The judge compares the worst with nothing here, but the surface must not fold.
+    return judge.measure(this->proposal_) && judge.accept(this->proposal_);
+  }
   return judge.accept(this->proposal_);
 }
 
 template <int D, class Shape>
 bool NodeInsertion<D, Shape>::tryGain(
-  Judge<D, Shape>& judge, Index t, Index p, Vec<D>& x, const typename Judge<D, Shape>::Mark& start)
+  Judge<D, Shape>& judge, Index t, Index p, Seed& seed, const typename Judge<D, Shape>::Mark& start)
 {
-  const double q = this->find(judge, t, p, x, true);
+  const double q = this->find(judge, t, p, seed, true);
   const double required = judge.required(this->cavity_.oldWorst());
   if (!(q > required) || judge.badBalance(this->problem_.values(), this->cavity_.cells()) > 0)
   {
@@ -187,7 +414,7 @@ bool NodeInsertion<D, Shape>::tryGain(
   // the true qualities are checked after the change.
   const bool isExact = judge.model().plain && !judge.model().weights;
   const auto mark = judge.begin();
-  const bool done = this->fill(judge, p, x) &&
+  const bool done = this->fill(judge, p, seed) &&
     (isExact ||
       (judge.mesh().worstQuality(judge.editor().created()) > required && judge.keepsGuard(start)));
   done ? judge.commit(mark) : judge.rollback(mark);

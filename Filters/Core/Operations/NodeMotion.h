@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file NodeMotion.h
-/// Moves each free node of a cell to its best place in its star.
+/// Moves each free node of a cell to its best place in its star, and each node on a patch of the
+/// surface to its best place there.
 #ifndef meshopt_Operations_NodeMotion_h
 #define meshopt_Operations_NodeMotion_h
 
@@ -49,12 +50,19 @@ public:
     for (Index v : nodes)
     {
       // All nodes of the cell are tried even if the first one helps: each gains for its own star.
-      moved |= judge.mesh().isFree(v) && this->move(judge, v);
+      moved |= this->mayMove(judge, v) && this->move(judge, v);
     }
     return moved;
   }
 
 private:
+  /// Nodes on curves are those of BoundaryChange.
+  bool mayMove(const Judge<D, Shape>& judge, Index v) const
+  {
+    return judge.mesh().isFree(v) ||
+      (judge.slides() && judge.mesh().freedom(v) == Freedom::Patch);
+  }
+
   bool move(Judge<D, Shape>& judge, Index v)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
@@ -67,6 +75,10 @@ private:
     }
     const double old = mesh.worstQuality(star);
     loadStar(judge, star, v, this->problem_);
+    if (!mesh.isFree(v))
+    {
+      return this->slide(judge, v);
+    }
     Vec<D> x = mesh.point(v);
     const double now = this->problem_.maximize(x, judge.enough(old), 0.5 * judge.gain(old));
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
@@ -85,6 +97,43 @@ private:
     this->proposal_.oldWorst = this->proposal_.least = old;
     this->proposal_.newWorst = now;
     return judge.accept(this->proposal_);
+  }
+
+  /// Moves a node of the surface in its tangent plane, then to the surface. Where that goes too far
+  /// for the surface, it goes half of the way, or a quarter.
+  bool slide(Judge<D, Shape>& judge, Index v)
+  {
+    constexpr int tries = 3;
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const std::vector<Index>& star = this->proposal_.cavity;
+    const double old = mesh.worstQuality(star), required = judge.required(old);
+    Directions<D> directions;
+    directions.count = judge.surface()->tangents(mesh, star, v, directions.basis);
+    const Vec<D> from = mesh.point(v);
+    Vec<D> to = from;
+    bool done = false, better = directions.count > 0;
+    if (better)
+    {
+      this->problem_.restrict(directions);
+      better = this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) > required;
+    }
+    double part = 1.0;
+    for (int k = 0; k < tries && better && !done; ++k, part *= 0.5)
+    {
+      Vec<D> x = from + part * (to - from);
+      const Place place = judge.surface()->project(mesh.place(v), x, x);
+      const double now = this->problem_.evaluate(x);
+      this->proposal_.moves.assign(1, { v, x, place });
+      this->proposal_.oldWorst = this->proposal_.least = old;
+      this->proposal_.newWorst = now;
+      done = now > required && judge.accept(this->proposal_);
+    }
+    judge.count(Operation::NodeMotion, done);
+    if (!done && !judge.editor().inTransaction())
+    {
+      judge.editor().setMoveFailed(v, judge.editor().clock());
+    }
+    return done;
   }
 
   Proposal<D> proposal_;

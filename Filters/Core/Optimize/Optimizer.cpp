@@ -248,10 +248,9 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   Report report;
   Clock clock(control, options.timeLimit);
   MeshEditor<D> editor(mesh);
-  if (surface && mesh.numberOfPointSlots() > 0)
+  if (surface)
   {
-    // Makes room for the places of all points, before editors of chunks may set some.
-    editor.setPlace(0, mesh.place(0));
+    editor.makeRoomForPlaces(); // before editors of chunks may set some
   }
   computeQualities<D>(editor, metric, options.measure, options.beta);
   PassRecord input = summarize(mesh, options.targetQuality, &report.invertedBefore);

@@ -14,6 +14,7 @@
 
 #include "Mesh/Cluster.h"
 #include "Quality/ElementQuality.h"
+#include "Reposition/Directions.h"
 #include "Reposition/MinNormPoint.h"
 #include "Reposition/TrustRegion.h"
 
@@ -26,6 +27,9 @@ template <int D, class Shape>
 class ClusterProblem
 {
 public:
+  /// The directions of each moving node of the next cluster. Empty: all may move anywhere.
+  void restrict(const std::vector<Directions<D>>& directions) { this->directions_ = directions; }
+
   /// Moves the moving nodes of the cluster to better places: changes cluster.x and cluster.quality.
   /// Returns the worst quality, which never falls. Stops when that is at least `enough`, when a
   /// step promises less than `gain`, or after maximumSteps steps. `metrics`: one per cell, or one
@@ -83,8 +87,10 @@ private:
       {
         if (cluster.nodes[k][i] < cluster.numberOfMoving)
         {
-          f.block[f.count] = cluster.nodes[k][i];
-          f.value[f.count++] = g[i];
+          const Index node = cluster.nodes[k][i];
+          f.block[f.count] = node;
+          f.value[f.count++] = this->directions_.empty() ? g[i]
+                                                         : this->directions_[node].along(g[i]);
         }
       }
       this->functions_.push_back(f);
@@ -155,6 +161,7 @@ private:
   }
 
   double worst_ = 0.0;
+  std::vector<Directions<D>> directions_;
   std::vector<SparsePoint<D>> functions_, points_; ///< q_k - worst and gradients; the w_k
   MinNormPoint<D> minNorm_;
   std::vector<Vec<D>> step_, x_;

@@ -12,6 +12,7 @@
 #include "Mesh/LocalNumbers.h"
 #include "Quality/EdgeSum.h"
 #include "Quality/ElementQuality.h"
+#include "Reposition/Directions.h"
 #include "Reposition/ProximalStep.h"
 #include "Reposition/TrustRegion.h"
 
@@ -32,7 +33,10 @@ public:
     this->ring_.clear();
     this->facets_.clear();
     this->metrics_.clear();
+    this->directions_.count = 0;
   }
+  /// From now on maximize() moves the node only in these directions.
+  void restrict(const Directions<D>& directions) { this->directions_ = directions; }
 
   int addPoint(Index p, const Vec<D>& x)
   {
@@ -207,7 +211,7 @@ private:
     {
       if (this->values_[k] < limit)
       {
-        this->active_.push_back({ this->values_[k], this->gradient(k, x) });
+        this->active_.push_back({ this->values_[k], this->directions_.along(this->gradient(k, x)) });
       }
     }
   }
@@ -256,6 +260,7 @@ private:
   std::vector<RingPoint> ring_;
   std::vector<FacetData> facets_;
   std::vector<ElementMetric<D>> metrics_;
+  Directions<D> directions_;
   std::vector<double> values_;
   std::vector<typename ProximalStep<D>::Function> active_;
   ProximalStep<D> solver_;

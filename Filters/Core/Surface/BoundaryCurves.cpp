@@ -9,8 +9,7 @@ namespace meshopt
 {
 namespace
 {
-constexpr double Tolerance = 1e-3;         ///< of the diagonal of the mesh
-constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
+constexpr double Tolerance = 1e-3; ///< of the diagonal of the mesh
 /// How far the curve may be from a new edge of the boundary, as a fraction of the edge's length.
 constexpr double Sagitta = 0.1;
 
@@ -109,7 +108,7 @@ void BoundaryCurves::build(
     this->addPiece(editor, chain, static_cast<Index>(this->curves_.size()), parameters);
     this->curves_.push_back(curve);
   }
-  this->join();
+  this->pieces_.join();
 }
 
 /// Every corner of the geometry must be a point of the boundary; that point then becomes a corner.
@@ -145,12 +144,6 @@ std::string BoundaryCurves::matchCorners(const SimplexMesh<2>& mesh, const LineN
   return {};
 }
 
-double BoundaryCurves::period(const Piece& piece) const
-{
-  const PlaneCurve& curve = this->curves_[piece.curve];
-  return curve.isClosed() ? curve.length() : 0.0;
-}
-
 namespace
 {
 /// A curve from a corner around to itself has two parameters at that corner. The middle of the edge
@@ -180,7 +173,7 @@ void tellEndsApart(const SimplexMesh<2>& mesh, const std::vector<Index>& points,
 void BoundaryCurves::addPiece(
   MeshEditor<2>& editor, const LineChain& chain, Index curve, const std::vector<double>& parameters)
 {
-  Piece piece;
+  CurvePiece piece;
   piece.curve = curve;
   if (!chain.isClosed)
   {
@@ -188,13 +181,17 @@ void BoundaryCurves::addPiece(
     piece.range = { parameters.front(), parameters.back() };
     piece.isEdge = chain.points.size() == 2;
   }
+  else
+  {
+    piece.period = this->curves_[curve].length();
+  }
   const std::size_t first = chain.isClosed ? 0 : 1;
   for (std::size_t k = first; k + first < chain.points.size(); ++k)
   {
     editor.setPlace(
       chain.points[k], { Freedom::Curve, static_cast<Index>(this->pieces_.size()), parameters[k] });
   }
-  this->pieces_.push_back(piece);
+  this->pieces_.add(piece);
 }
 
 /// The curve that is nearest to a chain of the mesh's boundary. `farthest` is the point of the
@@ -323,91 +320,8 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
       editor.setPlace(p, Place());
     }
   }
-  this->join();
+  this->pieces_.join();
   return error;
-}
-
-/// Finds the pieces on which two corners can be neighbours.
-void BoundaryCurves::join()
-{
-  this->betweenCorners_.clear();
-  for (std::size_t k = 0; k < this->pieces_.size(); ++k)
-  {
-    std::array<Index, 2> ends = this->pieces_[k].ends;
-    std::sort(ends.begin(), ends.end());
-    if (ends[0] != None && ends[0] != ends[1])
-    {
-      const auto [entry, isNew] = this->betweenCorners_.emplace(ends, static_cast<Index>(k));
-      if (!isNew)
-      {
-        const Index other = entry->second;
-        const bool otherIsEdge = other != None && this->pieces_[other].isEdge;
-        entry->second = this->pieces_[k].isEdge ? static_cast<Index>(k)
-          : otherIsEdge                         ? other
-                                                : None;
-      }
-    }
-  }
-}
-
-std::optional<Span> BoundaryCurves::span(const SimplexMesh<2>& mesh, Index a, Index b) const
-{
-  const Place pa = mesh.place(a), pb = mesh.place(b);
-  if (pa.part == None && pb.part == None)
-  {
-    const auto found = this->betweenCorners_.find({ std::min(a, b), std::max(a, b) });
-    if (found == this->betweenCorners_.end() || found->second == None)
-    {
-      return std::nullopt;
-    }
-    const Piece& piece = this->pieces_[found->second];
-    const bool forward = piece.ends[0] == a;
-    return Span{ found->second, piece.range[forward ? 0 : 1], piece.range[forward ? 1 : 0] };
-  }
-  const Index k = pa.part != None ? pa.part : pb.part;
-  const Piece& piece = this->pieces_[k];
-  // Parameter of p, as seen from the neighbour at s. A corner at both ends of the piece has two.
-  const auto parameter = [&](Index p, const Place& place, double s) -> std::optional<double>
-  {
-    if (place.part == k)
-    {
-      return place.parameter;
-    }
-    const bool isFirst = piece.ends[0] == p, isLast = piece.ends[1] == p;
-    if (place.part != None || (!isFirst && !isLast))
-    {
-      return std::nullopt;
-    }
-    const bool first = isFirst &&
-      (!isLast || std::fabs(s - piece.range[0]) < std::fabs(s - piece.range[1]));
-    return piece.range[first ? 0 : 1];
-  };
-  const std::optional<double> from = parameter(a, pa, pb.parameter);
-  const std::optional<double> to = parameter(b, pb, pa.parameter);
-  if (!from || !to)
-  {
-    return std::nullopt;
-  }
-  Span span{ k, *from, *to };
-  // On a closed piece the shorter way round is meant.
-  const double period = piece.ends[0] == None ? this->period(piece) : 0.0;
-  if (period > 0.0)
-  {
-    span.to += std::round((span.from - span.to) / period) * period;
-  }
-  return span;
-}
-
-bool BoundaryCurves::mayBeNeighbours(const Span& s) const
-{
-  const Piece& piece = this->pieces_[s.part];
-  if (piece.ends[0] != piece.ends[1])
-  {
-    return true;
-  }
-  const double all = piece.ends[0] == None ? this->period(piece)
-                                           : std::fabs(piece.range[1] - piece.range[0]);
-  return std::fabs(s.to - s.from) <= FarthestNeighbours * all;
 }
 
 Place BoundaryCurves::project(const Place& place, const Vec<2>& x, Vec<2>& there) const
@@ -419,8 +333,10 @@ Place BoundaryCurves::project(const Place& place, const Vec<2>& x, Vec<2>& there
   return result;
 }
 
-int BoundaryCurves::tangents(const Place& place, const Vec<2>&, std::array<Vec<2>, 2>& basis) const
+int BoundaryCurves::tangents(const SimplexMesh<2>& mesh, const std::vector<Index>&, Index v,
+  std::array<Vec<2>, 2>& basis) const
 {
+  const Place place = mesh.place(v);
   basis[0] = this->curves_[this->pieces_[place.part].curve].direction(place.parameter);
   return 1;
 }
@@ -464,7 +380,7 @@ bool BoundaryCurves::mayJoin(
   const bool isEar = std::any_of(star.begin(), star.end(),
     [&](Index c) { return mesh.localIndex(c, u) >= 0 && mesh.localIndex(c, w) >= 0; });
   const Span joined{ mesh.place(v).part, range->low, range->high };
-  if (isEar || !this->mayBeNeighbours(joined) ||
+  if (isEar || !this->pieces_.mayBeNeighbours(joined) ||
     this->sagitta(joined) > Sagitta * (mesh.point(u) - mesh.point(w)).norm())
   {
     return false;

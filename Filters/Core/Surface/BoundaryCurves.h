@@ -5,11 +5,11 @@
 #define meshopt_Surface_BoundaryCurves_h
 
 #include "Mesh/MeshEditor.h"
+#include "Surface/CurvePieces.h"
 #include "Surface/LineNetwork.h"
 #include "Surface/PlaneCurve.h"
 #include "Surface/Surface.h"
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -55,15 +55,20 @@ public:
     return this->curves_[this->pieces_[piece].curve].at(s);
   }
   Place project(const Place& place, const Vec<2>& x, Vec<2>& there) const override;
-  int tangents(const Place& place, const Vec<2>& x, std::array<Vec<2>, 2>& basis) const override;
-  std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const override;
+  int tangents(const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v,
+    std::array<Vec<2>, 2>& basis) const override;
+  std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const override
+  {
+    return this->pieces_.span(a, mesh.place(a), b, mesh.place(b));
+  }
   std::optional<SlidingRange> range(
     const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const override;
-  bool mayDivide(const SimplexMesh<2>& mesh, Index a, Index b) const override
+  bool mayDivide(
+    const SimplexMesh<2>& mesh, const std::vector<Index>&, Index a, Index b) const override
   {
     return this->span(mesh, a, b).has_value();
   }
-  bool maySwap(const SimplexMesh<2>&, Index, Index, Index, Index) const override { return false; }
+  bool maySwap(const SimplexMesh<2>&, Index, Index) const override { return false; }
   /// v can join only a neighbour on its piece. Not if that would fold the boundary, or if the curve
   /// would be farther from the new edge than a tenth of its length.
   bool mayJoin(
@@ -73,18 +78,9 @@ public:
   {
     return this->curves_[this->pieces_[s.part].curve].sagitta(s.from, s.to);
   }
-  /// Whether two neighbours on the piece may be this far apart. Not if it would no longer be clear
-  /// which way round a closed curve is meant.
-  bool mayBeNeighbours(const Span& s) const;
+  bool mayBeNeighbours(const Span& s) const { return this->pieces_.mayBeNeighbours(s); }
 
 private:
-  struct Piece
-  {
-    Index curve = None;
-    std::array<Index, 2> ends{ None, None }; ///< points of the mesh; None: closed
-    std::array<double, 2> range{ 0.0, 0.0 }; ///< parameters of the ends
-    bool isEdge = false;                     ///< one edge of the input, from end to end
-  };
   void markWhereSplinesOvershoot(LineNetwork& network, const CurveOptions& options) const;
   PlaneCurve curve(const LineNetwork& network, const LineChain& chain, bool splines) const;
   std::string matchCorners(const SimplexMesh<2>& mesh, const LineNetwork& geometry,
@@ -94,14 +90,9 @@ private:
   Index nearestCurve(const SimplexMesh<2>& mesh, const LineChain& chain, double tolerance,
     Index& farthest, double& distance) const;
   std::string place(MeshEditor<2>& editor, const LineChain& chain, double tolerance);
-  double period(const Piece& piece) const;
-  void join();
 
   std::vector<PlaneCurve> curves_;
-  std::vector<Piece> pieces_;
-  /// The piece on which two corners may be neighbours. If several pieces join them, it is the one
-  /// that was an edge of the input: there is at most one, and the others never become an edge.
-  std::map<std::array<Index, 2>, Index> betweenCorners_;
+  CurvePieces pieces_;
 };
 }
 

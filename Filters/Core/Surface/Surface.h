@@ -5,6 +5,7 @@
 #define meshopt_Surface_Surface_h
 
 #include "Mesh/SimplexMesh.h"
+#include "Surface/SurfaceChange.h"
 
 #include <array>
 #include <optional>
@@ -12,13 +13,6 @@
 
 namespace meshopt
 {
-/// The part of a curve between two points that are neighbours on it.
-struct Span
-{
-  Index part;      ///< number of the curve
-  double from, to; ///< parameters; for a closed curve they may be out of its range
-};
-
 /// The neighbours of a point along its curve. The point may slide between them.
 struct SlidingRange
 {
@@ -41,9 +35,10 @@ public:
   /// The place nearest to x on the part of `place`, and the point there.
   virtual Place project(const Place& place, const Vec<D>& x, Vec<D>& there) const = 0;
 
-  /// The orthonormal directions in which a point at a place may move, in `basis`. Returns their
-  /// number: one on a curve, two on a patch.
-  virtual int tangents(const Place& place, const Vec<D>& x, std::array<Vec<D>, D>& basis) const = 0;
+  /// The orthonormal directions in which point v of the surface may move, in `basis`; `star`: its
+  /// cells. Returns their number: one on a curve, two on a patch.
+  virtual int tangents(const SimplexMesh<D>& mesh, const std::vector<Index>& star, Index v,
+    std::array<Vec<D>, D>& basis) const = 0;
 
   /// The span of the kept edge from a to b. Empty if the edge is on no curve.
   virtual std::optional<Span> span(const SimplexMesh<D>& mesh, Index a, Index b) const = 0;
@@ -53,17 +48,30 @@ public:
   virtual std::optional<SlidingRange> range(
     const SimplexMesh<D>& mesh, const std::vector<Index>& star, Index v) const = 0;
 
-  /// Whether the edge from a to b, itself kept or in kept facets, may be divided.
-  virtual bool mayDivide(const SimplexMesh<D>& mesh, Index a, Index b) const = 0;
+  /// Whether the edge from a to b, itself kept or in kept facets, may be divided; `cells`: all
+  /// around it.
+  virtual bool mayDivide(
+    const SimplexMesh<D>& mesh, const std::vector<Index>& cells, Index a, Index b) const = 0;
 
-  /// Whether the two facets of the surface at the edge (a, b), with third nodes c and d, may be
-  /// replaced by those at the edge (c, d) (D = 3).
-  virtual bool maySwap(const SimplexMesh<D>& mesh, Index a, Index b, Index c, Index d) const = 0;
+  /// Whether an edge that is not kept, between two facets of these patches, may be swapped (D = 3).
+  virtual bool maySwap(const SimplexMesh<D>& mesh, Index patch, Index other) const = 0;
 
   /// Whether v may vanish into its neighbour u: the shape of the surface stays, nothing folds, and
   /// no curve or corner is lost. `star`: the cells of v.
   virtual bool mayJoin(
     const SimplexMesh<D>& mesh, const std::vector<Index>& star, Index v, Index u) const = 0;
+
+  /// Whether allows() has to be asked before a change is made.
+  virtual bool judgesChanges() const { return false; }
+  /// Whether the surface may change in this way.
+  virtual bool allows(const SurfaceChange<D>&) const { return true; }
+  /// Whether two facets of the surface may have this cosine between their normals at the edge from
+  /// a to b; `isKept`: an edge on a curve.
+  virtual bool allowsAngle(
+    const SimplexMesh<D>&, Index /*a*/, Index /*b*/, bool /*isKept*/, double /*cosine*/) const
+  {
+    return true;
+  }
 };
 }
 

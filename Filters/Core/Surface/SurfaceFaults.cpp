@@ -119,7 +119,8 @@ double angle(const SimplexMesh<3>& mesh, Index c, Index a, Index w)
       ends[ends[0] == None ? 0 : 1] = p;
     }
   }
-  const Vec<3> o = mesh.point(ends[0]), e = (mesh.point(ends[1]) - o).normalized();
+  const Vec<3>& o = mesh.point(ends[0]);
+  const Vec<3> e = (mesh.point(ends[1]) - o).normalized();
   const Vec<3> u = e.cross(Vec<3>(mesh.point(a) - o)), v = e.cross(Vec<3>(mesh.point(w) - o));
   return orientation(mesh.corners(c)) * std::atan2(u.cross(v).norm(), u.dot(v));
 }
@@ -251,7 +252,7 @@ std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>
   std::vector<Box<D>> result;
   for (std::size_t k = 0; k < facets.size(); ++k)
   {
-    const Vec<D> x = mesh.point(facets[k].nodes[0]);
+    const Vec<D>& x = mesh.point(facets[k].nodes[0]);
     Box<D> box{ x, x, static_cast<Index>(k) };
     for (Index p : facets[k].nodes)
     {

@@ -52,16 +52,12 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
       layers = 0;
       wanted = PolishedCells;
     }
-    else if (!widens || nearCap)
-    {
-      break;
-    }
-    else if (worst.size() == wanted && wanted < MostPolishedCells)
+    else if (widens && !nearCap && worst.size() == wanted && wanted < MostPolishedCells)
     {
       // First more cells; only then wider surroundings.
       wanted *= 2;
     }
-    else if (more && ++layers <= LiftedLayers)
+    else if (widens && !nearCap && more && ++layers <= LiftedLayers)
     {
       // The worst cells may be others by now.
       wanted = PolishedCells;

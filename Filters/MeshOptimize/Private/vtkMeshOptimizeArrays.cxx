@@ -22,6 +22,7 @@ constexpr vtkMeshBridge::ArrayRole Roles[NumberOfInputArrays] = {
   { "size array", nullptr, false, false, { { 1, 0 } } },
   { "metric array", nullptr, false, false, { { 6, 9 } } },
   { "corner array", nullptr, false, false, { { 1, 0 } } },
+  { "patch array", nullptr, true, true, { { 1, 0 } } },
 };
 
 } // namespace
@@ -37,7 +38,7 @@ void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name)
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays)
 {
   vtkDataArray** targets[NumberOfInputArrays] = { &arrays.Region, &arrays.FixedPoints, &arrays.Size,
-    &arrays.Metric, &arrays.Corners };
+    &arrays.Metric, &arrays.Corners, &arrays.Patch };
   arrays = InputArrays();
   for (int i = 0; i < NumberOfInputArrays; ++i)
   {

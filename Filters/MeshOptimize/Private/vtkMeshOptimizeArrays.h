@@ -25,7 +25,8 @@ enum ArrayIndex
   SizeArray = 2,
   MetricArray = 3,
   CornerArray = 4,
-  NumberOfInputArrays = 5
+  PatchArray = 5,
+  NumberOfInputArrays = 6
 };
 
 /**
@@ -38,6 +39,7 @@ struct InputArrays
   vtkDataArray* Size = nullptr;
   vtkDataArray* Metric = nullptr;
   vtkDataArray* Corners = nullptr;
+  vtkDataArray* Patch = nullptr;
 };
 
 /**

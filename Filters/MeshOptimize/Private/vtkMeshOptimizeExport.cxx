@@ -145,6 +145,15 @@ void GetOutputNodes(vtkUnstructuredGrid* grid, const OutputMap& map, const Simpl
   std::size_t cell, std::vector<vtkIdType>& nodes)
 {
   nodes.clear();
+  const std::size_t firstTriangle = map.CellToSlot.size() - map.Triangles.size();
+  if (cell >= firstTriangle)
+  {
+    for (Index p : map.Triangles[cell - firstTriangle])
+    {
+      nodes.push_back(map.SlotToPoint[p]);
+    }
+    return;
+  }
   const Index slot = map.CellToSlot[cell];
   if (slot != meshopt::None)
   {

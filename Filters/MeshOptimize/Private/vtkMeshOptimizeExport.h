@@ -35,6 +35,8 @@ struct OutputMap
   std::vector<meshopt::Index> CellToSlot;
   /// Number of output cells that are cells of the input.
   vtkIdType NumberOfOldCells = 0;
+  /// The last cells of the output: new triangles on a surface that slides, by core slots.
+  std::vector<meshopt::Facet<3>> Triangles;
 };
 
 /**

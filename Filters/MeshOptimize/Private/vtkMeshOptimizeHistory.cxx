@@ -98,6 +98,10 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkIdTypeArray>(fields, "NumberOfInvertedCellsAfter", report.invertedAfter);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
+  if (outcome.HasSurfaceDistance)
+  {
+    AddFigure<vtkDoubleArray>(fields, "SurfaceDistance", outcome.SurfaceDistance);
+  }
   const meshopt::EdgeLengths& lengths = outcome.Lengths;
   if (lengths.edges > 0)
   {

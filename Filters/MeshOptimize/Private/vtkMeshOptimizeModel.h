@@ -12,6 +12,9 @@
 #include "Mesh/SimplexMesh.h"
 #include "Metric/NodalMetric.h"
 
+#include <utility>
+#include <vector>
+
 class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
@@ -26,6 +29,9 @@ struct Model
   vtkMeshBridge::Frame<D> Frame;
   meshopt::SimplexMesh<D> Mesh;
   meshopt::NodalMetric<D> Metric;
+  /// Triangles that ride on a surface that slides (D = 3): sorted points, and cell of the grid; in
+  /// ascending order.
+  std::vector<std::pair<meshopt::Facet<3>, vtkIdType>> Riding;
 };
 
 } // namespace vtkMeshOptimizeBridge

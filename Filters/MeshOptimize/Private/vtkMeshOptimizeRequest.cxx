@@ -92,6 +92,7 @@ void Outcome::Add(const Outcome& other)
   this->NumberOfQuadraticSimplices += other.NumberOfQuadraticSimplices;
   this->NumberOfOperations += other.NumberOfOperations;
   this->Seconds += other.Seconds;
+  this->SurfaceDistance = std::max(this->SurfaceDistance, other.SurfaceDistance);
   this->Lengths.add(other.Lengths);
   this->Overlap = Joined(this->Overlap, other.Overlap);
   this->Tangle = Joined(this->Tangle, other.Tangle);

@@ -10,6 +10,7 @@
 #include "Run/Options.h"
 #include "Run/Report.h"
 #include "Surface/BoundaryCurves.h"
+#include "Surface/SurfaceDivision.h"
 
 #include "vtkType.h"
 
@@ -36,7 +37,9 @@ struct Request
   double OptimizeBelow = 0.0; ///< only cells under it, and layers around them, may change; 0: all
   int NumberOfLayers = 0;
   bool Slide = false; ///< the boundary may be remeshed along its curves
-  meshopt::CurveOptions Curves;
+  meshopt::CurveOptions Curves;    ///< of triangles
+  meshopt::SurfaceOptions Surface; ///< of tetrahedra
+  bool ToleranceIsAbsolute = false; ///< Surface.tolerance is a length, not a fraction
   vtkPolyData* Geometry = nullptr; ///< source of the curves; nullptr: the mesh itself
 
   /// Whether sizes are used: in the quality, or because the boundary follows them.
@@ -61,6 +64,8 @@ struct Outcome
   vtkIdType NumberOfQuadraticSimplices = 0;
   vtkIdType NumberOfOperations = 0;
   double Seconds = 0.0;
+  double SurfaceDistance = 0.0;    ///< proved, between the surface of before and that of after
+  bool HasSurfaceDistance = false; ///< a surface of tetrahedra took part
   meshopt::EdgeLengths Lengths; ///< at the end; no edges if neither sizes nor a metric are given
   std::string Sizes;            ///< information for the user about the wanted sizes, or empty
   std::string Overlap;          ///< about cells of the input that overlap, or empty

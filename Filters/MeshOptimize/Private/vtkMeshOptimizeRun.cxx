@@ -4,12 +4,13 @@
 #include "vtkMeshBridgeCells.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeFrame.h"
-#include "vtkMeshOptimizeCurves.h"
+#include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeExport.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeImport.h"
 #include "vtkMeshOptimizeModel.h"
 #include "vtkMeshOptimizeQuality.h"
+#include "vtkMeshOptimizeRiding.h"
 #include "vtkMeshOptimizeSizes.h"
 #include "vtkMeshOptimizeTangle.h"
 #include "vtkMeshOptimizeTransfer.h"
@@ -32,29 +33,15 @@ namespace vtkMeshOptimizeBridge
 namespace
 {
 
-/**
- * What the boundary may slide along; nullptr: it is kept.
- */
-template <int D>
-const meshopt::Surface<D>* SurfaceOf(
-  const Request& request, [[maybe_unused]] const meshopt::BoundaryCurves& curves)
-{
-  if constexpr (D == 2)
-  {
-    return request.Slide ? &curves : nullptr;
-  }
-  return nullptr;
-}
-
 template <int D>
 void Optimize(
-  const Request& request, const meshopt::BoundaryCurves& curves, Model<D>& model, Outcome& outcome)
+  const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model, Outcome& outcome)
 {
   const auto start = std::chrono::steady_clock::now();
   const double areaBefore = D == 2 ? model.Mesh.volume() : 0.0;
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(
-    model.Mesh, model.Metric, request.OptionsNow(), request.Control, SurfaceOf<D>(request, curves));
+    model.Mesh, model.Metric, request.OptionsNow(), request.Control, request.Slide ? &surface : nullptr);
   outcome.NumberOfCells = model.Mesh.countCells();
   outcome.Sizes = Joined(DescribeSizes(outcome.Report, request),
     D == 2 ? DescribeArea(areaBefore, model.Mesh.volume(), request) : "");
@@ -76,7 +63,7 @@ void Optimize(
  */
 template <int D>
 void OptimizeZone(
-  const Request& request, const meshopt::BoundaryCurves& curves, Model<D>& model, Outcome& outcome)
+  const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model, Outcome& outcome)
 {
   std::vector<meshopt::Simplex<D>> others;
   const LeftOut rest = RestrictToZone(request, model, others);
@@ -85,22 +72,34 @@ void OptimizeZone(
   {
     before.emplace(model.Mesh, model.Metric);
   }
-  Optimize(request, curves, model, outcome);
+  Optimize<D>(request, surface, model, outcome);
   if (before && outcome.Report.invertedBefore > 0 && !FitsTogether(model.Mesh, others))
   {
     std::tie(model.Mesh, model.Metric) = *before;
     Request moving = request;
     moving.Options.reconnect = moving.Options.insertNodes = moving.Options.removeNodes = false;
-    Optimize(moving, curves, model, outcome);
+    Optimize<D>(moving, surface, model, outcome);
   }
   AddLeftOut(rest, outcome);
 }
 
+double DistanceOf(const meshopt::BoundaryCurves&, const meshopt::SimplexMesh<2>&) { return 0.0; }
+
+double DistanceOf(const meshopt::SlidingSurface& surface, const meshopt::SimplexMesh<3>& mesh)
+{
+  return surface.distance(mesh);
+}
+
 template <int D>
-void Export(const Request& request, Model<D>& model, vtkUnstructuredGrid* output, Outcome& outcome)
+void Export(const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model,
+  vtkUnstructuredGrid* output, Outcome& outcome)
 {
   vtkUnstructuredGrid* input = model.Grid;
-  const OutputMap map = MapOutput(model);
+  OutputMap map = MapOutput(model);
+  if (request.Slide)
+  {
+    MapRiding(model, surface, map);
+  }
   ExportMesh(model, map, output);
   std::vector<Sample> samples;
   if (input->GetPointData()->GetNumberOfArrays() > 0 && !map.SampledPoints.empty())
@@ -111,6 +110,12 @@ void Export(const Request& request, Model<D>& model, vtkUnstructuredGrid* output
   TransferCellData(input->GetCellData(), map, output->GetCellData());
   SetMetricOfGhosts(request, model);
   AddMeshQuality(model, map, request.Options, output);
+  if (request.Slide)
+  {
+    AddBoundaryPlace(model, map, output);
+    outcome.HasSurfaceDistance = D == 3;
+    outcome.SurfaceDistance = DistanceOf(surface, model.Mesh);
+  }
   outcome.Tangle = DescribeTangle(output, map, model.Mesh, outcome.Report);
 }
 
@@ -127,24 +132,29 @@ Model<D> StartModel(vtkUnstructuredGrid* input, const InputArrays& arrays,
 }
 
 /**
- * Completes a model that has been started, and makes the curves of its boundary.
+ * Completes a model that has been started, and makes what its boundary slides along.
  */
 template <int D>
-std::string MakeModel(const Request& request, Model<D>& model, meshopt::BoundaryCurves& curves)
+std::string MakeModel(
+  const Request& request, Model<D>& model, typename SurfaceOf<D>::type& surface)
 {
+  if (request.Slide)
+  {
+    FindRiding(model);
+  }
   std::string error = vtkMeshBridge::FindFrame(model.Grid, model.Cells, model.Frame);
   error = error.empty() ? BuildMesh(model) : error;
   error = error.empty() ? SetMetric(request, model) : error;
   error = error.empty() ? CheckCount(request, model) : error;
-  return error.empty() ? BuildCurves(request, model, curves) : error;
+  return error.empty() ? BuildSurface(request, model, surface) : error;
 }
 
 template <int D>
 std::string OptimizeSimplices(
   const Request& request, Model<D> model, vtkUnstructuredGrid* output, Outcome& outcome)
 {
-  meshopt::BoundaryCurves curves;
-  const std::string error = MakeModel(request, model, curves);
+  typename SurfaceOf<D>::type surface;
+  const std::string error = MakeModel<D>(request, model, surface);
   if (!error.empty())
   {
     return error;
@@ -153,13 +163,13 @@ std::string OptimizeSimplices(
   outcome.Overlap = DescribeOverlap(model.Mesh);
   if (request.OptimizeBelow > 0.0)
   {
-    OptimizeZone(request, curves, model, outcome);
+    OptimizeZone<D>(request, surface, model, outcome);
   }
   else
   {
-    Optimize(request, curves, model, outcome);
+    Optimize<D>(request, surface, model, outcome);
   }
-  Export(request, model, output, outcome);
+  Export<D>(request, surface, model, output, outcome);
   return {};
 }
 

@@ -25,7 +25,8 @@ public:
     there = Vec<3>(x[0], x[1], 0.0);
     return place;
   }
-  int tangents(const Place&, const Vec<3>&, std::array<Vec<3>, 3>& basis) const override
+  int tangents(const SimplexMesh<3>&, const std::vector<Index>&, Index,
+    std::array<Vec<3>, 3>& basis) const override
   {
     basis[0] = Vec<3>::UnitX();
     basis[1] = Vec<3>::UnitY();
@@ -40,13 +41,14 @@ public:
   {
     return std::nullopt;
   }
-  bool mayDivide(const SimplexMesh<3>& mesh, Index a, Index b) const override
+  bool mayDivide(
+    const SimplexMesh<3>& mesh, const std::vector<Index>&, Index a, Index b) const override
   {
     return slides(mesh, a) && isOn(mesh, b);
   }
-  bool maySwap(const SimplexMesh<3>& mesh, Index a, Index b, Index c, Index d) const override
+  bool maySwap(const SimplexMesh<3>&, Index patch, Index other) const override
   {
-    return isOn(mesh, a) && isOn(mesh, b) && isOn(mesh, c) && isOn(mesh, d);
+    return patch == 7 && other == 7;
   }
   bool mayJoin(
     const SimplexMesh<3>& mesh, const std::vector<Index>&, Index v, Index u) const override
@@ -172,7 +174,7 @@ TEST_F(SurfacePatch, NodesOfThePatchHaveAPlace)
     EXPECT_EQ(this->mesh.freedom(p), Freedom::Patch);
     EXPECT_FALSE(this->mesh.isFree(p));
     std::array<Vec<3>, 3> basis;
-    EXPECT_EQ(this->floor.tangents(this->mesh.place(p), this->mesh.point(p), basis), 2);
+    EXPECT_EQ(this->floor.tangents(this->mesh, {}, p, basis), 2);
   }
   this->check();
 }
@@ -289,7 +291,7 @@ TEST_F(SurfacePatch, AnEdgeIsDivided)
     {
       const Index a = this->mesh.nodes(c)[Local<3>::edges[e][0]];
       const Index b = this->mesh.nodes(c)[Local<3>::edges[e][1]];
-      if (!this->floor.mayDivide(this->mesh, a, b))
+      if (!this->floor.mayDivide(this->mesh, {}, a, b))
       {
         continue;
       }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMeshOptimizeCurves.h"
+#include "vtkMeshOptimizeSurface.h"
+
+#include "vtkMeshOptimizeRiding.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -14,10 +17,14 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "Mesh/Ids.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -210,7 +217,138 @@ bool HasCornerArray(vtkAlgorithm* filter, vtkPolyData* geometry)
   return FindCorners(filter, geometry) != nullptr;
 }
 
-std::string BuildCurves(const Request& request, Model<2>& model, meshopt::BoundaryCurves& curves)
+namespace
+{
+
+/**
+ * Calls f(cell, ids) for each tetrahedron.
+ */
+template <class F>
+void ForTetrahedra(vtkUnstructuredGrid* grid, F&& f)
+{
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (grid->GetCellType(c) == VTK_TETRA)
+    {
+      vtkIdType n = 0;
+      const vtkIdType* ids = nullptr;
+      grid->GetCellPoints(c, n, ids);
+      const bool isValid = n == 4 &&
+        std::all_of(
+          ids, ids + 4, [&](vtkIdType p) { return p >= 0 && p < grid->GetNumberOfPoints(); });
+      if (isValid) // others are reported later
+      {
+        f(ids);
+      }
+    }
+  }
+}
+
+/**
+ * The faces of tetrahedra that only one has.
+ */
+std::vector<meshopt::Facet<3>> ListOuterFaces(vtkUnstructuredGrid* grid)
+{
+  std::vector<meshopt::Facet<3>> all, once;
+  ForTetrahedra(grid,
+    [&](const vtkIdType* ids)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        all.push_back(meshopt::sortedIds(meshopt::Facet<3>{ static_cast<Index>(ids[(i + 1) % 4]),
+          static_cast<Index>(ids[(i + 2) % 4]), static_cast<Index>(ids[(i + 3) % 4]) }));
+      }
+    });
+  std::sort(all.begin(), all.end());
+  for (std::size_t k = 0; k < all.size(); ++k)
+  {
+    if ((k == 0 || all[k - 1] != all[k]) && (k + 1 == all.size() || all[k + 1] != all[k]))
+    {
+      once.push_back(all[k]);
+    }
+  }
+  return once;
+}
+
+using Place = std::array<double, 9>; // of a facet: its corners in order
+
+Place PlaceOf(vtkUnstructuredGrid* grid, const meshopt::Facet<3>& face)
+{
+  std::array<std::array<double, 3>, 3> x;
+  for (int i = 0; i < 3; ++i)
+  {
+    grid->GetPoint(face[i], x[i].data());
+  }
+  std::sort(x.begin(), x.end());
+  Place place;
+  for (int i = 0; i < 9; ++i)
+  {
+    place[i] = x[i / 3][i % 3];
+  }
+  return place;
+}
+
+} // namespace
+
+std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
+  Request& request, const std::vector<vtkUnstructuredGrid*>& grids)
+{
+  std::vector<std::vector<meshopt::Facet<3>>> locked(grids.size());
+  if (!request.Slide)
+  {
+    return locked;
+  }
+  vtkBoundingBox box;
+  for (vtkUnstructuredGrid* grid : grids)
+  {
+    ForTetrahedra(grid,
+      [&](const vtkIdType* ids)
+      {
+        for (int i = 0; i < 4; ++i)
+        {
+          double x[3];
+          grid->GetPoint(ids[i], x);
+          box.AddPoint(x);
+        }
+      });
+  }
+  if (!request.ToleranceIsAbsolute && box.IsValid())
+  {
+    request.Surface.tolerance *= box.GetDiagonalLength();
+    request.ToleranceIsAbsolute = true;
+  }
+  if (grids.size() < 2)
+  {
+    return locked;
+  }
+  // Faces of different blocks at the same place.
+  std::vector<std::tuple<Place, std::size_t, meshopt::Facet<3>>> faces;
+  for (std::size_t k = 0; k < grids.size(); ++k)
+  {
+    for (const meshopt::Facet<3>& face : ListOuterFaces(grids[k]))
+    {
+      faces.emplace_back(PlaceOf(grids[k], face), k, face);
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  for (std::size_t k = 1; k < faces.size(); ++k)
+  {
+    if (std::get<0>(faces[k - 1]) == std::get<0>(faces[k]))
+    {
+      for (std::size_t i : { k - 1, k })
+      {
+        locked[std::get<1>(faces[i])].push_back(std::get<2>(faces[i]));
+      }
+    }
+  }
+  for (std::vector<meshopt::Facet<3>>& ofGrid : locked)
+  {
+    std::sort(ofGrid.begin(), ofGrid.end());
+  }
+  return locked;
+}
+
+std::string BuildSurface(const Request& request, Model<2>& model, meshopt::BoundaryCurves& curves)
 {
   if (!request.Slide)
   {
@@ -229,11 +367,29 @@ std::string BuildCurves(const Request& request, Model<2>& model, meshopt::Bounda
   return error.empty() ? curves.build(editor, network, request.Curves, corners) : error;
 }
 
-std::string BuildCurves(const Request& request, Model<3>&, meshopt::BoundaryCurves&)
+std::string BuildSurface(const Request& request, Model<3>& model, meshopt::SlidingSurface& surface)
 {
-  return request.Slide ? "The boundary mode Slide is for triangles in a plane; the surface of "
-                         "tetrahedra can only be kept (boundary mode Fixed)."
-                       : "";
+  if (!request.Slide)
+  {
+    return {};
+  }
+  if (request.Geometry)
+  {
+    return "The geometry on input port 1 is for triangles in a plane; tetrahedra slide on their own "
+           "surface.";
+  }
+  if (!model.Metric.isTrivial() || request.Options.beta > 0.0 ||
+    request.Options.desiredSize > 0.0 || model.Arrays.Size)
+  {
+    return "The boundary mode Slide of tetrahedra does not work together with wanted sizes or a "
+           "metric.";
+  }
+  meshopt::SurfaceOptions options = request.Surface;
+  options.corners = ReadCorners(model.Arrays.Corners, model.Cells);
+  options.labels = LabelRiding(model);
+  meshopt::MeshEditor<3> editor(model.Mesh);
+  surface.build(editor, options);
+  return {};
 }
 
 } // namespace vtkMeshOptimizeBridge

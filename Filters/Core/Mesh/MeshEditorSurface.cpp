@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the editor sets on a surface that takes part: places, patches and kept edges.
+#include "Mesh/MeshEditor.h"
+
+#include <cassert>
+
+namespace meshopt
+{
+template <int D>
+void MeshEditor<D>::makeRoomForPlaces()
+{
+  if (this->mesh_->places_.empty())
+  {
+    assert(this->owner_ == None); // others would read while this one grows
+    this->mesh_->places_.resize(this->mesh_->points_.size());
+  }
+}
+
+template <int D>
+void MeshEditor<D>::setPlace(Index p, const Place& place)
+{
+  this->makeRoomForPlaces();
+  this->savePlace(p);
+  this->mesh_->places_[p] = place;
+}
+
+template <int D>
+void MeshEditor<D>::setPatch(Index c, int i, Index patch)
+{
+  if (this->mesh_->patches_.empty())
+  {
+    assert(this->owner_ == None && this->depth_ == 0);
+    this->growPatches(true);
+  }
+  this->saveCell(c);
+  this->mesh_->patches_[c][i] = patch;
+  // The facet is stored twice, once for each of its cells.
+  const Index h = this->mesh_->adjacent(c, i);
+  if (h != None)
+  {
+    this->saveCell(Mesh::cellOf(h));
+    this->mesh_->patches_[Mesh::cellOf(h)][Mesh::facetOf(h)] = patch;
+  }
+}
+
+template <int D>
+void MeshEditor<D>::keepEdge(Index c, Index a, Index b)
+{
+  assert(D == 3 && this->depth_ == 0);
+  std::vector<Index> cells;
+  if constexpr (D == 3)
+  {
+    this->mesh_->ring(c, a, b, true, cells);
+  }
+  for (Index k : cells)
+  {
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      const Simplex<D>& t = this->mesh_->nodes(k);
+      const Index p = t[Local<D>::edges[e][0]], q = t[Local<D>::edges[e][1]];
+      if ((p == a && q == b) || (p == b && q == a))
+      {
+        this->mesh_->cellData_[k].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + e));
+      }
+    }
+  }
+  this->mesh_->hasConstrainedEdges_ = true;
+}
+
+template void MeshEditor<2>::makeRoomForPlaces();
+template void MeshEditor<3>::makeRoomForPlaces();
+template void MeshEditor<2>::setPlace(Index, const Place&);
+template void MeshEditor<3>::setPlace(Index, const Place&);
+template void MeshEditor<2>::setPatch(Index, int, Index);
+template void MeshEditor<3>::setPatch(Index, int, Index);
+template void MeshEditor<2>::keepEdge(Index, Index, Index);
+template void MeshEditor<3>::keepEdge(Index, Index, Index);
+}

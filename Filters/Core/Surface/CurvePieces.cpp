@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Surface/CurvePieces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meshopt
+{
+namespace
+{
+constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
+}
+
+/// Finds the pieces on which two corners can be neighbours.
+void CurvePieces::join()
+{
+  this->betweenCorners_.clear();
+  for (std::size_t k = 0; k < this->pieces_.size(); ++k)
+  {
+    std::array<Index, 2> ends = this->pieces_[k].ends;
+    std::sort(ends.begin(), ends.end());
+    if (ends[0] != None && ends[0] != ends[1])
+    {
+      const auto [entry, isNew] = this->betweenCorners_.emplace(ends, static_cast<Index>(k));
+      if (!isNew)
+      {
+        const Index other = entry->second;
+        const bool otherIsEdge = other != None && this->pieces_[other].isEdge;
+        entry->second = this->pieces_[k].isEdge ? static_cast<Index>(k)
+          : otherIsEdge                         ? other
+                                                : None;
+      }
+    }
+  }
+}
+
+std::optional<Span> CurvePieces::span(
+  Index a, const Place& pa, Index b, const Place& pb) const
+{
+  if (pa.part == None && pb.part == None)
+  {
+    const auto found = this->betweenCorners_.find({ std::min(a, b), std::max(a, b) });
+    if (found == this->betweenCorners_.end() || found->second == None)
+    {
+      return std::nullopt;
+    }
+    const CurvePiece& piece = this->pieces_[found->second];
+    const bool forward = piece.ends[0] == a;
+    return Span{ found->second, piece.range[forward ? 0 : 1], piece.range[forward ? 1 : 0] };
+  }
+  const Index k = pa.part != None ? pa.part : pb.part;
+  const CurvePiece& piece = this->pieces_[k];
+  // Parameter of p, as seen from the neighbour at s. A corner at both ends of the piece has two.
+  const auto parameter = [&](Index p, const Place& place, double s) -> std::optional<double>
+  {
+    if (place.part == k)
+    {
+      return place.parameter;
+    }
+    const bool isFirst = piece.ends[0] == p, isLast = piece.ends[1] == p;
+    if (place.part != None || (!isFirst && !isLast))
+    {
+      return std::nullopt;
+    }
+    const bool first = isFirst &&
+      (!isLast || std::fabs(s - piece.range[0]) < std::fabs(s - piece.range[1]));
+    return piece.range[first ? 0 : 1];
+  };
+  const std::optional<double> from = parameter(a, pa, pb.parameter);
+  const std::optional<double> to = parameter(b, pb, pa.parameter);
+  if (!from || !to)
+  {
+    return std::nullopt;
+  }
+  Span span{ k, *from, *to };
+  // On a closed piece the shorter way round is meant.
+  if (piece.period > 0.0)
+  {
+    span.to += std::round((span.from - span.to) / piece.period) * piece.period;
+  }
+  return span;
+}
+
+bool CurvePieces::mayBeNeighbours(const Span& s) const
+{
+  const CurvePiece& piece = this->pieces_[s.part];
+  if (piece.ends[0] != piece.ends[1])
+  {
+    return true;
+  }
+  const double all = piece.ends[0] == None ? piece.period
+                                           : std::fabs(piece.range[1] - piece.range[0]);
+  return std::fabs(s.to - s.from) <= FarthestNeighbours * all;
+}
+}

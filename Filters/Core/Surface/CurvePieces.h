@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file CurvePieces.h
+/// The pieces of curves that nodes slide along, from corner to corner: which piece joins two nodes.
+#ifndef meshopt_Surface_CurvePieces_h
+#define meshopt_Surface_CurvePieces_h
+
+#include "Mesh/Place.h"
+#include "Surface/Surface.h"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace meshopt
+{
+struct CurvePiece
+{
+  Index curve = None;
+  std::array<Index, 2> ends{ None, None }; ///< points of the mesh; None: closed
+  std::array<double, 2> range{ 0.0, 0.0 }; ///< parameters of the ends
+  double period = 0.0;                     ///< of a closed piece
+  bool isEdge = false;                     ///< one edge of the input, from end to end
+};
+
+/// Pieces are what Surface calls the parts of points on curves.
+class CurvePieces
+{
+public:
+  void clear() { this->pieces_.clear(); }
+  void add(const CurvePiece& piece) { this->pieces_.push_back(piece); }
+  /// To be called after the last piece has been added.
+  void join();
+
+  std::size_t size() const { return this->pieces_.size(); }
+  const CurvePiece& operator[](Index k) const { return this->pieces_[k]; }
+
+  /// The span from point a to point b, whose places are given. Empty if they are on no common
+  /// piece. Two corners that several pieces join are neighbours only on the one that was an edge of
+  /// the input.
+  std::optional<Span> span(Index a, const Place& placeOfA, Index b, const Place& placeOfB) const;
+
+  /// Whether two neighbours on the piece may be this far apart. Not if it would no longer be clear
+  /// which way round a closed piece is meant.
+  bool mayBeNeighbours(const Span& s) const;
+
+private:
+  std::vector<CurvePiece> pieces_;
+  /// The piece on which two corners may be neighbours. If several pieces join them, it is the one
+  /// that was an edge of the input: there is at most one, and the others never become an edge.
+  std::map<std::array<Index, 2>, Index> betweenCorners_;
+};
+}
+
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file ReferenceSurface.h
+/// The surface of a mesh as it was at first: where its points are, and whether other facets stay
+/// within a distance of it.
+///
+/// Every change is judged against this copy, never against the mesh of a moment ago: nothing
+/// drifts.
+#ifndef meshopt_Surface_ReferenceSurface_h
+#define meshopt_Surface_ReferenceSurface_h
+
+#include "Surface/SurfaceChange.h"
+
+#include <unsupported/Eigen/BVH>
+
+#include <vector>
+
+namespace meshopt
+{
+/// The proof of distance. The normals of a facet R of the reference sweep out its prism, and the
+/// height of a point in the prism is its distance to R. Suppose that
+///  - above each point of R there is a point of the mesh, of a height of at most the tolerance;
+///  - the nodes of the mesh lie on the reference;
+///  - what the mesh has in any prism, nearer than twice the tolerance, is within the tolerance.
+/// Then every point of R is within the tolerance of the mesh; and every point of the mesh within
+/// that of the reference: those in prisms by their heights; those in the wedges between prisms,
+/// above edges and points of the reference, since a facet's part in a wedge is convex, its corners
+/// lie in the walls of prisms, and the distance to an edge or a point is a convex function.
+///
+/// A change replaces facets G by facets N with the same border. As seen along the normal of R, both
+/// cover the same points, if none of them is turned away. So it keeps the first condition if the
+/// heights of N over each R that G covered are small: covers() computes them at the corners of the
+/// overlay of N and R, between which they are linear.
+class ReferenceSurface
+{
+public:
+  using Piece = SurfacePiece<3>;
+
+  /// Adds a facet: corners in order, seen from outside counter-clockwise. `isSigned` is false if
+  /// outside cannot be told from inside, as with a facet within one region.
+  void add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned);
+  /// To be called once, after the last facet. `tolerance`: a length; `least`: that of rounding. No
+  /// facet may use more of the tolerance than a quarter of the thickness of the wall that it is a
+  /// side of, and a third of the gap in front of it: no wall is pressed flat, and no gap closed.
+  void finish(double tolerance, double least);
+
+  /// The point of the patch nearest to x. Returns the number of its facet, in the order of add();
+  /// -1 if the patch has none.
+  int project(Index patch, const Vec<3>& x, Vec<3>& there) const;
+
+  /// Whether facets of one patch may be replaced. Corners are ordered like those of the reference.
+  /// `gone` was within the tolerance. Facets that turn by more than 75 degrees from the reference
+  /// that they stand for are refused.
+  bool covers(const std::vector<Piece>& gone, const std::vector<Piece>& come) const;
+
+  /// The greatest height of the facet over the reference of its patch, counted as in covers().
+  double height(const Piece& piece) const;
+
+
+private:
+  struct Facet
+  {
+    Vec<3> origin, along, across, normal; ///< a frame: the corners are (0, 0), (l, 0), (p, q)
+    double l, p, q;
+    Index patch;
+    bool isSigned;
+    std::array<Vec<3>, 3> x;
+    double tolerance = 0.0; ///< its own
+  };
+  struct Heights
+  {
+    double least, most; ///< in absolute value; least > most: the facet is not in the prism
+    double cosine;      ///< between the normals
+  };
+  using Box = Eigen::AlignedBox<double, 3>;
+
+  Heights heights(const Facet& r, const Piece& piece) const;
+  bool covers(
+    const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come) const;
+  double room(const Facet& f, std::vector<int>& near) const;
+  /// `patch`: None for all.
+  void findNear(const Box& box, Index patch, std::vector<int>& found) const;
+
+  std::vector<Facet> facets_;
+  Eigen::KdBVH<double, 3, int> tree_;
+  double tolerance_ = 0.0;
+};
+}
+
+#endif

@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Surface/SlidingSurface.h"
+
+#include "Mesh/Ids.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace meshopt
+{
+namespace
+{
+/// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
+/// sideways, and above the reference besides.
+constexpr double CurveShare = 0.4;
+}
+
+void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
+{
+  *this = SlidingSurface();
+  const SurfaceDivision division(editor.mesh(), options);
+  this->isExact_ = division.isExact;
+  this->tolerance_ = division.tolerance;
+  this->freedom_ = division.freedom;
+  this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
+  this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
+  this->addPatches(editor, division);
+  this->addCurves(editor, division);
+  for (std::size_t p = 0; p < division.freedom.size(); ++p)
+  {
+    this->corners_ += division.freedom[p] == Freedom::Fixed;
+    if (division.freedom[p] == Freedom::Patch)
+    {
+      editor.setPlace(static_cast<Index>(p), { Freedom::Patch, division.patchOfPoint[p], 0.0 });
+    }
+  }
+}
+
+void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
+{
+  const SimplexMesh<3>& mesh = editor.mesh();
+  this->patches_.resize(division.numberOfPatches);
+  for (Index k = 0; k < division.numberOfPatches && this->isExact_; ++k)
+  {
+    Patch& patch = this->patches_[k];
+    patch.plane = division.planes[k];
+    const Vec<3>& n = patch.plane.normal;
+    // A plane along axes gets a basis along axes: coordinates that are equal then stay so.
+    int axis = 0;
+    n.cwiseAbs().minCoeff(&axis);
+    patch.basis[0] = n.cross(Vec<3>(Vec<3>::Unit(axis))).normalized();
+    patch.basis[1] = n.cross(patch.basis[0]);
+  }
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    editor.setPatch(mesh.cellOf(part.handle), mesh.facetOf(part.handle), part.patch);
+    if (part.patch == None)
+    {
+      continue;
+    }
+    Patch& patch = this->patches_[part.patch];
+    patch.region = part.region;
+    patch.isSigned = part.region != part.other;
+    patch.label = part.label;
+    this->reference_.add(
+      { mesh.point(part.nodes[0]), mesh.point(part.nodes[1]), mesh.point(part.nodes[2]) },
+      part.patch, patch.isSigned);
+    this->inputFacets_.push_back(sortedIds(part.nodes));
+  }
+  this->reference_.finish(this->tolerance_, division.rounding);
+}
+
+void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& division)
+{
+  const SimplexMesh<3>& mesh = editor.mesh();
+  for (const SurfaceDivision::Chain& chain : division.chains)
+  {
+    std::vector<Vec<3>> points;
+    for (Index p : chain.points)
+    {
+      points.push_back(mesh.point(p));
+    }
+    const SpaceCurve curve(std::move(points), chain.isClosed);
+    const auto number = static_cast<Index>(this->curves_.size());
+    CurvePiece piece;
+    piece.curve = number;
+    if (chain.isClosed)
+    {
+      piece.period = curve.length();
+    }
+    else
+    {
+      piece.ends = { chain.points.front(), chain.points.back() };
+      piece.range = { 0.0, curve.length() };
+      piece.isEdge = chain.points.size() == 2;
+    }
+    for (std::size_t k = 0; k < chain.points.size(); ++k)
+    {
+      if (division.freedom[chain.points[k]] == Freedom::Curve)
+      {
+        editor.setPlace(chain.points[k], { Freedom::Curve, number, curve.parameter(k) });
+      }
+    }
+    this->pieces_.add(piece);
+    this->curves_.push_back(curve);
+    this->isSharp_.push_back(chain.isSharp);
+  }
+  this->pieces_.join();
+  const auto isOnCurve = [&](Index a, Index b)
+  {
+    return std::binary_search(
+      division.curveEdges.begin(), division.curveEdges.end(), sortedIds(a, b));
+  };
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    const Index handles[2] = { part.handle,
+      mesh.adjacent(mesh.cellOf(part.handle), mesh.facetOf(part.handle)) };
+    for (Index h : handles)
+    {
+      for (int i = 0; i < 3 && h != None; ++i)
+      {
+        const Index a = part.nodes[i], b = part.nodes[(i + 1) % 3];
+        if (isOnCurve(a, b))
+        {
+          editor.keepEdge(mesh.cellOf(h), a, b);
+        }
+      }
+    }
+  }
+}
+
+const Facet<3>& SlidingSurface::inputFacet(Index patch, const Vec<3>& x) const
+{
+  Vec<3> there;
+  return this->inputFacets_[this->reference_.project(patch, x, there)];
+}
+
+Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there) const
+{
+  Place result = place;
+  if (place.freedom == Freedom::Curve)
+  {
+    const SpaceCurve& curve = this->curves_[place.part];
+    result.parameter = curve.closest(x, place.parameter);
+    there = curve.at(result.parameter);
+  }
+  else if (this->isExact_)
+  {
+    const Patch& patch = this->patches_[place.part];
+    const Vec<3> d = x - patch.plane.origin;
+    // In this form, points of a plane along axes have exactly the same coordinate.
+    there = patch.plane.origin + patch.basis[0] * patch.basis[0].dot(d) +
+      patch.basis[1] * patch.basis[1].dot(d);
+  }
+  else
+  {
+    this->reference_.project(place.part, x, there);
+  }
+  return result;
+}
+
+int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v,
+  std::array<Vec<3>, 3>& basis) const
+{
+  const Place place = mesh.place(v);
+  if (place.freedom == Freedom::Curve)
+  {
+    basis[0] = this->curves_[place.part].direction(place.parameter);
+    return 1;
+  }
+  if (this->isExact_)
+  {
+    basis[0] = this->patches_[place.part].basis[0];
+    basis[1] = this->patches_[place.part].basis[1];
+    return 2;
+  }
+  Vec<3> normal = Vec<3>::Zero();
+  for (Index c : star)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const Facet<3> f = mesh.facet(c, i);
+      if (mesh.isConstrained(c, i) && hasId(f, v))
+      {
+        const Vec<3>& a = mesh.point(f[0]);
+        const double side = mesh.region(c) == this->patches_[place.part].region ? 1.0 : -1.0;
+        normal += side * (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
+      }
+    }
+  }
+  if (!(normal.norm() > 0.0))
+  {
+    return 0;
+  }
+  int axis = 0;
+  normal.cwiseAbs().minCoeff(&axis);
+  basis[0] = normal.cross(Vec<3>(Vec<3>::Unit(axis))).normalized();
+  basis[1] = normal.cross(basis[0]).normalized();
+  return 2;
+}
+
+std::optional<Span> SlidingSurface::span(const SimplexMesh<3>& mesh, Index a, Index b) const
+{
+  const Place pa = mesh.place(a), pb = mesh.place(b);
+  if (pa.freedom == Freedom::Patch || pb.freedom == Freedom::Patch)
+  {
+    return std::nullopt;
+  }
+  return this->pieces_.span(a, pa, b, pb);
+}
+
+std::optional<SlidingRange> SlidingSurface::range(
+  const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v) const
+{
+  if (mesh.freedom(v) != Freedom::Curve)
+  {
+    return std::nullopt;
+  }
+  std::vector<Index> ends;
+  for (Index c : star)
+  {
+    for (int e = 0; e < 6; ++e)
+    {
+      const Index a = mesh.nodes(c)[Local<3>::edges[e][0]];
+      const Index b = mesh.nodes(c)[Local<3>::edges[e][1]];
+      if ((a == v || b == v) && mesh.isEdgeConstrained(c, e))
+      {
+        ends.push_back(a == v ? b : a);
+      }
+    }
+  }
+  std::sort(ends.begin(), ends.end()); // the order of the star must not matter
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  if (ends.size() != 2)
+  {
+    return std::nullopt;
+  }
+  const auto low = this->span(mesh, v, ends[0]), high = this->span(mesh, v, ends[1]);
+  return low && high ? std::optional<SlidingRange>({ { ends[0], ends[1] }, low->to, high->to })
+                     : std::nullopt;
+}
+
+/// Whether the new edge between two points of a curve stays near it.
+bool SlidingSurface::follows(const Span& span) const
+{
+  return this->pieces_.mayBeNeighbours(span) &&
+    this->curves_[span.part].deviation(span.from, span.to) <= CurveShare * this->tolerance_;
+}
+
+bool SlidingSurface::mayDivide(
+  const SimplexMesh<3>& mesh, const std::vector<Index>& cells, Index a, Index b) const
+{
+  bool isKept = false;
+  std::vector<std::array<Index, 4>> patches; // facet, patch
+  for (Index c : cells)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const Facet<3> f = mesh.facet(c, i);
+      if (mesh.isConstrained(c, i) && hasId(f, a) && hasId(f, b))
+      {
+        const Facet<3> key = sortedIds(f);
+        patches.push_back({ key[0], key[1], key[2], mesh.patch(c, i) });
+      }
+    }
+    for (int e = 0; e < 6; ++e)
+    {
+      const Simplex<3>& t = mesh.nodes(c);
+      isKept |= mesh.isEdgeConstrained(c, e) &&
+        sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]) == sortedIds(a, b);
+    }
+  }
+  std::sort(patches.begin(), patches.end());
+  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  const bool isLocked = std::any_of(
+    patches.begin(), patches.end(), [](const auto& p) { return p[3] == None; });
+  if (isLocked || patches.empty())
+  {
+    return false;
+  }
+  return isKept ? this->span(mesh, a, b).has_value()
+                : patches.size() == 2 && patches[0][3] == patches[1][3];
+}
+
+bool SlidingSurface::maySwap(const SimplexMesh<3>&, Index patch, Index other) const
+{
+  return patch != None && patch == other;
+}
+
+bool SlidingSurface::mayJoin(
+  const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const
+{
+  const Place place = mesh.place(v);
+  if (place.freedom == Freedom::Patch)
+  {
+    // Along an edge of the surface: one that is in a facet of the patch.
+    return std::any_of(star.begin(), star.end(),
+      [&](Index c)
+      {
+        for (int i = 0; i < 4; ++i)
+        {
+          const Facet<3> f = mesh.facet(c, i);
+          if (mesh.isConstrained(c, i) && hasId(f, v) && hasId(f, u))
+          {
+            return true;
+          }
+        }
+        return false;
+      });
+  }
+  const auto range = this->range(mesh, star, v);
+  if (!range || (range->ends[0] != u && range->ends[1] != u))
+  {
+    return false;
+  }
+  const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
+  if (u == w || !this->follows({ place.part, range->low, range->high }))
+  {
+    return false;
+  }
+  if (mesh.place(u).part == None && mesh.place(w).part == None)
+  {
+    const auto between = this->span(mesh, u, w);
+    return between && between->part == place.part; // several curves may join two corners
+  }
+  return true;
+}
+
+SurfacePiece<3> SlidingSurface::oriented(const SurfacePiece<3>& piece) const
+{
+  SurfacePiece<3> result = piece;
+  if (piece.region == this->patches_[piece.patch].region)
+  {
+    std::swap(result.x[1], result.x[2]); // seen from outside, as the reference is
+  }
+  return result;
+}
+
+/// In its plane, and not folded.
+bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
+{
+  const Patch& patch = this->patches_[piece.patch];
+  const Vec<3> n = (piece.x[1] - piece.x[0]).cross(piece.x[2] - piece.x[0]);
+  return (n.dot(patch.plane.normal) > 0.0 || !patch.isSigned) &&
+    std::all_of(piece.x.begin(), piece.x.end(),
+      [&](const Vec<3>& x)
+      {
+        return std::fabs(patch.plane.normal.dot(x - patch.plane.origin)) <= this->tolerance_;
+      });
+}
+
+bool SlidingSurface::allows(const SurfaceChange<3>& change) const
+{
+  const auto isLocked = [](const SurfacePiece<3>& piece) { return piece.patch == None; };
+  if (std::any_of(change.gone.begin(), change.gone.end(), isLocked) ||
+    std::any_of(change.come.begin(), change.come.end(), isLocked) ||
+    !std::all_of(change.spans.begin(), change.spans.end(),
+      [&](const Span& span) { return this->follows(span); }))
+  {
+    return false;
+  }
+  if (this->isExact_)
+  {
+    return std::all_of(change.come.begin(), change.come.end(),
+      [&](const SurfacePiece<3>& piece) { return this->isFlat(this->oriented(piece)); });
+  }
+  std::vector<SurfacePiece<3>> gone, come;
+  std::set<Index> patches;
+  for (const SurfacePiece<3>& piece : change.come)
+  {
+    patches.insert(piece.patch);
+  }
+  for (Index k : patches) // each by itself
+  {
+    gone.clear();
+    come.clear();
+    for (const SurfacePiece<3>& piece : change.gone)
+    {
+      if (piece.patch == k)
+      {
+        gone.push_back(this->oriented(piece));
+      }
+    }
+    for (const SurfacePiece<3>& piece : change.come)
+    {
+      if (piece.patch == k)
+      {
+        come.push_back(this->oriented(piece));
+      }
+    }
+    if (gone.empty() || !this->reference_.covers(gone, come))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool SlidingSurface::allowsAngle(
+  const SimplexMesh<3>& mesh, Index a, Index b, bool isKept, double cosine) const
+{
+  if (this->isExact_)
+  {
+    return true; // planes stay
+  }
+  if (!isKept)
+  {
+    return cosine >= this->featureCosine_;
+  }
+  const std::optional<Span> span = this->span(mesh, a, b);
+  return !span || !this->isSharp_[span->part] || cosine <= this->halfCosine_;
+}
+
+double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
+{
+  double most = 0.0;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
+    {
+      const Index patch = mesh.isConstrained(c, i) ? mesh.patch(c, i) : None;
+      if (patch == None || mesh.region(c) != this->patches_[patch].region)
+      {
+        continue;
+      }
+      const Facet<3> f = mesh.facet(c, i);
+      const SurfacePiece<3> piece = this->oriented(
+        { { mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2]) }, patch, mesh.region(c) });
+      if (this->isExact_)
+      {
+        for (const Vec<3>& x : piece.x)
+        {
+          const SurfaceDivision::Plane& plane = this->patches_[patch].plane;
+          most = std::max(most, std::fabs(plane.normal.dot(x - plane.origin)));
+        }
+      }
+      else
+      {
+        most = std::max(most, this->reference_.height(piece));
+      }
+    }
+    for (int e = 0; e < 6 && mesh.isAlive(c); ++e)
+    {
+      const Simplex<3>& t = mesh.nodes(c);
+      const auto span = mesh.isEdgeConstrained(c, e)
+        ? this->span(mesh, t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]])
+        : std::nullopt;
+      if (span)
+      {
+        most = std::max(most, this->curves_[span->part].deviation(span->from, span->to));
+      }
+    }
+  }
+  return most;
+}
+}

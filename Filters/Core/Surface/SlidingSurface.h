@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SlidingSurface.h
+/// The surface of a tetrahedral mesh that takes part: patches, and curves between corners, on which
+/// nodes slide, come and go, within a distance from where the surface was.
+#ifndef meshopt_Surface_SlidingSurface_h
+#define meshopt_Surface_SlidingSurface_h
+
+#include "Mesh/MeshEditor.h"
+#include "Surface/CurvePieces.h"
+#include "Surface/ReferenceSurface.h"
+#include "Surface/SpaceCurve.h"
+#include "Surface/Surface.h"
+#include "Surface/SurfaceDivision.h"
+
+#include <memory>
+
+namespace meshopt
+{
+/// Nodes of a patch get the place Freedom::Patch and the number of the patch; those of a curve,
+/// except its corners, Freedom::Curve, its number and their parameter. Patches and curves are those
+/// of SurfaceDivision. Edges on curves become kept edges of the mesh.
+///
+/// Nodes always lie on the surface as it was. Facets and edges between them are accepted if the
+/// surface of before and that of after stay within the tolerance of each other (ReferenceSurface,
+/// SpaceCurve::deviation()); if exact, if they lie in the plane of their patch and do not fold.
+class SlidingSurface final : public Surface<3>
+{
+public:
+  void build(MeshEditor<3>& editor, const SurfaceOptions& options);
+
+  Index numberOfPatches() const { return static_cast<Index>(this->patches_.size()); }
+  std::size_t numberOfCurves() const { return this->pieces_.size(); }
+  Index numberOfCorners() const { return this->corners_; }
+  bool isExact() const { return this->isExact_; }
+  double tolerance() const { return this->tolerance_; }
+  /// Freedom of each point of the input; Free if it is not on the surface.
+  const std::vector<Freedom>& freedom() const { return this->freedom_; }
+
+  /// The number that the facets of a patch had in SurfaceOptions::labels.
+  Index label(Index patch) const { return this->patches_[patch].label; }
+  /// The facet of the input (sorted ids) that is nearest to x, of those of the patch.
+  const Facet<3>& inputFacet(Index patch, const Vec<3>& x) const;
+
+  /// The distance that is proved between the surface of before and that of `mesh` (both ways).
+  double distance(const SimplexMesh<3>& mesh) const;
+
+  Vec<3> at(Index curve, double parameter) const override
+  {
+    return this->curves_[curve].at(parameter);
+  }
+  Place project(const Place& place, const Vec<3>& x, Vec<3>& there) const override;
+  int tangents(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v,
+    std::array<Vec<3>, 3>& basis) const override;
+  std::optional<Span> span(const SimplexMesh<3>& mesh, Index a, Index b) const override;
+  std::optional<SlidingRange> range(
+    const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v) const override;
+  bool mayDivide(
+    const SimplexMesh<3>& mesh, const std::vector<Index>& cells, Index a, Index b) const override;
+  bool maySwap(const SimplexMesh<3>& mesh, Index patch, Index other) const override;
+  bool mayJoin(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u)
+    const override;
+  bool judgesChanges() const override { return true; }
+  bool allows(const SurfaceChange<3>& change) const override;
+  /// Inside a patch, up to the feature angle. At a curve that is sharp, from half of it on.
+  bool allowsAngle(
+    const SimplexMesh<3>& mesh, Index a, Index b, bool isKept, double cosine) const override;
+
+private:
+  struct Patch
+  {
+    Index region = 0;     ///< facets are ordered as seen from outside of it
+    Index label = None;
+    bool isSigned = true; ///< the other side has another region, or none
+    SurfaceDivision::Plane plane;
+    std::array<Vec<3>, 2> basis{ Vec<3>::Zero(), Vec<3>::Zero() }; ///< of the plane
+  };
+
+  void addPatches(MeshEditor<3>& editor, const SurfaceDivision& division);
+  void addCurves(MeshEditor<3>& editor, const SurfaceDivision& division);
+  bool follows(const Span& span) const;
+  bool isFlat(const SurfacePiece<3>& piece) const;
+  SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
+
+  std::vector<Patch> patches_;
+  std::vector<SpaceCurve> curves_; ///< of the pieces with the same numbers
+  std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
+  CurvePieces pieces_;
+  ReferenceSurface reference_;
+  std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
+  std::vector<Freedom> freedom_;
+  Index corners_ = 0;
+  bool isExact_ = false;
+  double tolerance_ = 0.0;
+  double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it
+};
+}
+
+#endif

@@ -1,0 +1,663 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Surface/SurfaceDivision.h"
+
+#include "Mesh/Ids.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace meshopt
+{
+namespace
+{
+/// The least tolerance, in units in the last place of the greatest coordinate.
+constexpr double Ulps = 8.0;
+/// Below this part of the diagonal, only what is flat can change at all.
+constexpr double ExactBelow = 1e-6;
+/// What is flat lies in a slab of this half width, in tolerances.
+constexpr double Slab = 0.5;
+
+/// Whether the triangle runs through its edge ab from a to b.
+bool runsForwards(const Facet<3>& f, Index a, Index b)
+{
+  return (f[0] == a && f[1] == b) || (f[1] == a && f[2] == b) || (f[2] == a && f[0] == b);
+}
+
+Index thirdNode(const Facet<3>& f, const std::array<Index, 2>& edge)
+{
+  return f[0] != edge[0] && f[0] != edge[1]
+    ? f[0]
+    : (f[1] != edge[0] && f[1] != edge[1] ? f[1] : f[2]);
+}
+
+template <class T>
+bool contains(const std::vector<T>& sorted, const T& value)
+{
+  return std::binary_search(sorted.begin(), sorted.end(), value);
+}
+}
+
+double SurfaceDivision::cosine(double degrees)
+{
+  return std::cos(degrees * std::acos(-1.0) / 180.0);
+}
+
+SurfaceDivision::SurfaceDivision(const SimplexMesh<3>& mesh, const SurfaceOptions& options)
+  : mesh_(mesh)
+{
+  this->tolerance = options.tolerance;
+  this->measure();
+  this->collectParts(options);
+  this->lockTwins();
+  this->collectEdges();
+  this->findCurves(options);
+  this->findPatches();
+  this->findCorners(options);
+  this->findChains();
+}
+
+void SurfaceDivision::measure()
+{
+  Eigen::AlignedBox<double, 3> box;
+  for (Index p = 0; p < this->mesh_.numberOfPointSlots(); ++p)
+  {
+    if (this->mesh_.isPointAlive(p))
+    {
+      box.extend(this->mesh_.point(p));
+    }
+  }
+  if (box.isEmpty())
+  {
+    return;
+  }
+  this->diagonal = box.diagonal().norm();
+  const double greatest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  this->isExact = this->tolerance < ExactBelow * this->diagonal;
+  this->rounding = Ulps * std::numeric_limits<double>::epsilon() * greatest;
+  this->tolerance = std::max(this->tolerance, this->rounding);
+}
+
+void SurfaceDivision::collectParts(const SurfaceOptions& options)
+{
+  for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i < 4 && this->mesh_.isAlive(c); ++i)
+    {
+      if (!this->mesh_.isConstrained(c, i))
+      {
+        continue;
+      }
+      Part part;
+      part.handle = this->mesh_.handle(c, i);
+      part.region = this->mesh_.region(c);
+      const Index h = this->mesh_.adjacent(c, i);
+      if (h != None)
+      {
+        part.other = this->mesh_.region(this->mesh_.cellOf(h));
+        // Once for both sides.
+        if (part.other < part.region || (part.other == part.region && h < part.handle))
+        {
+          continue;
+        }
+      }
+      part.nodes = this->mesh_.facet(c, i);
+      std::swap(part.nodes[1], part.nodes[2]); // now as seen from outside
+      const Facet<3> key = sortedIds(part.nodes);
+      const auto label = std::lower_bound(options.labels.begin(), options.labels.end(), key,
+        [](const auto& entry, const Facet<3>& f) { return entry.first < f; });
+      part.label = label != options.labels.end() && label->first == key ? label->second : None;
+      const bool isFixed = std::all_of(key.begin(), key.end(),
+        [&](Index p)
+        { return (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) != 0; });
+      part.isLocked = isFixed || contains(options.locked, key);
+      this->parts.push_back(part);
+    }
+  }
+}
+
+/// Facets that lie on others, corner by corner, without having their points: the lips of a closed
+/// crack. They stay, so that their nodes stay in pairs.
+void SurfaceDivision::lockTwins()
+{
+  std::vector<std::pair<std::array<double, 9>, Index>> places;
+  for (std::size_t k = 0; k < this->parts.size(); ++k)
+  {
+    std::array<std::array<double, 3>, 3> x;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec<3>& p = this->mesh_.point(this->parts[k].nodes[i]);
+      x[i] = { p[0], p[1], p[2] };
+    }
+    std::sort(x.begin(), x.end());
+    std::array<double, 9> key;
+    for (int i = 0; i < 9; ++i)
+    {
+      key[i] = x[i / 3][i % 3];
+    }
+    places.emplace_back(key, static_cast<Index>(k));
+  }
+  std::sort(places.begin(), places.end());
+  for (std::size_t k = 1; k < places.size(); ++k)
+  {
+    if (places[k].first == places[k - 1].first)
+    {
+      this->parts[places[k].second].isLocked = this->parts[places[k - 1].second].isLocked = true;
+    }
+  }
+}
+
+void SurfaceDivision::collectEdges()
+{
+  struct Incidence
+  {
+    std::array<Index, 2> nodes;
+    Index part;
+    int opposite;
+  };
+  std::vector<Incidence> all;
+  all.reserve(3 * this->parts.size());
+  for (std::size_t k = 0; k < this->parts.size(); ++k)
+  {
+    const Facet<3>& f = this->parts[k].nodes;
+    for (int i = 0; i < 3; ++i)
+    {
+      all.push_back({ sortedIds(f[(i + 1) % 3], f[(i + 2) % 3]), static_cast<Index>(k), i });
+    }
+  }
+  std::sort(all.begin(), all.end(),
+    [](const Incidence& a, const Incidence& b)
+    { return a.nodes != b.nodes ? a.nodes < b.nodes : a.part < b.part; });
+  this->edgesOf_.resize(this->parts.size());
+  for (const Incidence& i : all)
+  {
+    if (this->edges_.empty() || this->edges_.back().nodes != i.nodes)
+    {
+      this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false });
+    }
+    this->edgesOf_[i.part][i.opposite] = static_cast<Index>(this->edges_.size()) - 1;
+    this->incidences_.push_back(i.part);
+    this->edges_.back().last = this->incidences_.size();
+  }
+}
+
+/// Not of unit length: twice the area.
+Vec<3> SurfaceDivision::normal(const Part& part) const
+{
+  const Vec<3>& a = this->mesh_.point(part.nodes[0]);
+  return (this->mesh_.point(part.nodes[1]) - a).cross(this->mesh_.point(part.nodes[2]) - a);
+}
+
+/// Whether the two parts of the edge lie in one plane. The greater of them decides which: a needle
+/// has none.
+bool SurfaceDivision::isFlat(const Edge& edge) const
+{
+  const Part* parts[2] = { &this->parts[this->incidences_[edge.first]],
+    &this->parts[this->incidences_[edge.first + 1]] };
+  Vec<3> n[2] = { this->normal(*parts[0]), this->normal(*parts[1]) };
+  const auto [a, b] = edge.nodes;
+  const bool alike = runsForwards(parts[0]->nodes, a, b) != runsForwards(parts[1]->nodes, a, b);
+  const int greater = n[1].squaredNorm() > n[0].squaredNorm() ? 1 : 0;
+  const double area = n[greater].norm();
+  const double width = area / (this->mesh_.point(b) - this->mesh_.point(a)).norm();
+  const Vec<3>& other = this->mesh_.point(thirdNode(parts[1 - greater]->nodes, edge.nodes));
+  return width > this->tolerance && (alike ? 1.0 : -1.0) * n[0].dot(n[1]) >= 0.0 &&
+    std::fabs(n[greater].dot(other - this->mesh_.point(a))) <= Slab * this->tolerance * area;
+}
+
+bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) const
+{
+  if (edge.last - edge.first != 2)
+  {
+    return true;
+  }
+  const Part &f = this->parts[this->incidences_[edge.first]],
+             &g = this->parts[this->incidences_[edge.first + 1]];
+  if (f.region != g.region || f.other != g.other || f.label != g.label || f.isLocked != g.isLocked)
+  {
+    return true;
+  }
+  if (this->isExact)
+  {
+    return !this->isFlat(edge);
+  }
+  return this->isSharp(edge, options.featureAngle);
+}
+
+/// Whether the two facets of the edge turn by more than the angle.
+bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
+{
+  const Part &f = this->parts[this->incidences_[edge.first]],
+             &g = this->parts[this->incidences_[edge.first + 1]];
+  const Vec<3> n = this->normal(f), m = this->normal(g);
+  const auto [a, b] = edge.nodes;
+  const bool alike = runsForwards(f.nodes, a, b) != runsForwards(g.nodes, a, b);
+  return (alike ? 1.0 : -1.0) * n.dot(m) < cosine(featureAngle) * n.norm() * m.norm();
+}
+
+void SurfaceDivision::findCurves(const SurfaceOptions& options)
+{
+  for (Edge& edge : this->edges_)
+  {
+    edge.isCurve = this->isCurve(edge, options);
+    edge.isSharp = edge.last - edge.first == 2 && this->isSharp(edge, options.featureAngle);
+  }
+  this->isCorner_.assign(this->mesh_.numberOfPointSlots(), 0);
+  for (Index c = 0; this->mesh_.hasConstrainedEdges() && c < this->mesh_.numberOfCellSlots(); ++c)
+  {
+    for (int e = 0; e < 6 && this->mesh_.isAlive(c); ++e)
+    {
+      if (this->mesh_.isEdgeConstrained(c, e))
+      {
+        const Simplex<3>& t = this->mesh_.nodes(c);
+        const auto key = sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]);
+        const auto found = std::lower_bound(this->edges_.begin(), this->edges_.end(), key,
+          [](const Edge& edge, const std::array<Index, 2>& k) { return edge.nodes < k; });
+        if (found != this->edges_.end() && found->nodes == key)
+        {
+          found->isCurve = true;
+          continue;
+        }
+        // A line that leaves the surface: its ends stay.
+        this->isCorner_[key[0]] = this->isCorner_[key[1]] = 1;
+      }
+    }
+  }
+}
+
+/// Collects in filled_ the parts that hang together with the seed and belong to no patch; of `plane`
+/// (null: any) only those that lie in it. Sides that could be either are chosen alike.
+void SurfaceDivision::fill(Index seed, const Plane* plane)
+{
+  const auto isIn = [&](const Part& part)
+  {
+    return !plane ||
+      std::all_of(part.nodes.begin(), part.nodes.end(),
+        [&](Index p)
+        {
+          return std::fabs(plane->normal.dot(this->mesh_.point(p) - plane->origin)) <=
+            Slab * this->tolerance;
+        });
+  };
+  this->filled_.assign(1, seed);
+  this->parts[seed].patch = this->numberOfPatches;
+  for (std::size_t k = 0; k < this->filled_.size(); ++k)
+  {
+    const Part& f = this->parts[this->filled_[k]];
+    for (Index e : this->edgesOf_[this->filled_[k]])
+    {
+      const Edge& edge = this->edges_[e];
+      for (std::size_t i = edge.first; i < edge.last && !edge.isCurve; ++i)
+      {
+        Part& g = this->parts[this->incidences_[i]];
+        if (g.patch != None || g.isLocked || !isIn(g))
+        {
+          continue;
+        }
+        const auto [a, b] = edge.nodes;
+        if (g.region == g.other && runsForwards(f.nodes, a, b) == runsForwards(g.nodes, a, b))
+        {
+          std::swap(g.nodes[1], g.nodes[2]);
+          g.handle = this->mesh_.adjacent(
+            this->mesh_.cellOf(g.handle), this->mesh_.facetOf(g.handle));
+        }
+        g.patch = this->numberOfPatches;
+        this->filled_.push_back(this->incidences_[i]);
+      }
+    }
+  }
+}
+
+/// Finds the plane of these parts. False if not all of them lie in it.
+bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) const
+{
+  Vec<3> normal = Vec<3>::Zero();
+  const Vec<3> base = this->mesh_.point(this->parts[numbers[0]].nodes[0]);
+  double sum = 0.0, count = 0.0;
+  for (Index k : numbers)
+  {
+    normal += this->normal(this->parts[k]);
+  }
+  plane.normal = normal.normalized();
+  for (Index k : numbers)
+  {
+    for (Index p : this->parts[k].nodes)
+    {
+      sum += plane.normal.dot(this->mesh_.point(p) - base);
+      count += 1.0;
+    }
+  }
+  plane.origin = base + plane.normal * (sum / count);
+  return std::all_of(numbers.begin(), numbers.end(),
+    [&](Index k)
+    {
+      const Part& part = this->parts[k];
+      return this->normal(part).dot(plane.normal) >= 0.0 &&
+        std::all_of(part.nodes.begin(), part.nodes.end(),
+          [&](Index p)
+          {
+            return std::fabs(plane.normal.dot(this->mesh_.point(p) - plane.origin)) <=
+              Slab * this->tolerance;
+          });
+    });
+}
+
+void SurfaceDivision::findPatches()
+{
+  // The largest parts first: their planes are the most reliable.
+  std::vector<Index> order(this->parts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<double> areas;
+  for (const Part& part : this->parts)
+  {
+    areas.push_back(this->normal(part).squaredNorm());
+  }
+  std::stable_sort(
+    order.begin(), order.end(), [&](Index a, Index b) { return areas[a] > areas[b]; });
+  for (Index seed : order)
+  {
+    if (this->parts[seed].patch != None || this->parts[seed].isLocked)
+    {
+      continue;
+    }
+    this->fill(seed, nullptr);
+    Plane plane;
+    if (this->isExact && !this->fits(this->filled_, plane))
+    {
+      // Flat from facet to facet, but not as a whole: only what lies in the plane of the seed.
+      const auto release = [&]
+      {
+        for (Index k : this->filled_)
+        {
+          this->parts[k].patch = None;
+        }
+      };
+      release();
+      plane = { this->mesh_.point(this->parts[seed].nodes[0]),
+        this->normal(this->parts[seed]).normalized() };
+      const Plane ofSeed = plane;
+      this->fill(seed, &ofSeed);
+      if (!this->fits(this->filled_, plane))
+      {
+        release();
+        this->filled_.assign(1, seed);
+        this->parts[seed].patch = this->numberOfPatches;
+        this->fits(this->filled_, plane);
+      }
+    }
+    this->planes.push_back(plane);
+    ++this->numberOfPatches;
+  }
+  for (Edge& edge : this->edges_)
+  {
+    edge.isCurve = edge.isCurve ||
+      this->parts[this->incidences_[edge.first]].patch !=
+        this->parts[this->incidences_[edge.last - 1]].patch;
+    if (edge.isCurve)
+    {
+      this->curveEdges.push_back(edge.nodes);
+    }
+  }
+}
+
+/// The patches that the edge separates.
+std::vector<Index> SurfaceDivision::signature(Index edge) const
+{
+  std::vector<Index> patches;
+  for (std::size_t i = this->edges_[edge].first; i < this->edges_[edge].last; ++i)
+  {
+    patches.push_back(this->parts[this->incidences_[i]].patch);
+  }
+  std::sort(patches.begin(), patches.end());
+  return patches;
+}
+
+/// Whether the surface touches itself at point p. `around`: its parts; `curves`: its edges on
+/// curves, none or two. There must be one fan of facets around a point of a patch, and one from
+/// curve to curve for each facet at a curve.
+bool SurfaceDivision::isPinched(
+  Index p, const std::vector<Index>& around, const std::vector<Index>& curves) const
+{
+  std::vector<char> seen(around.size(), 0);
+  std::size_t fans = 0;
+  for (std::size_t first = 0; first < around.size(); ++first)
+  {
+    if (seen[first])
+    {
+      continue;
+    }
+    ++fans;
+    std::vector<std::size_t> front{ first };
+    std::vector<Index> ends; // curves that the fan meets
+    seen[first] = 1;
+    while (!front.empty())
+    {
+      const Index part = around[front.back()];
+      front.pop_back();
+      for (Index e : this->edgesOf_[part])
+      {
+        const Edge& edge = this->edges_[e];
+        if (!hasId(edge.nodes, p))
+        {
+          continue;
+        }
+        if (edge.isCurve)
+        {
+          ends.push_back(e);
+          continue;
+        }
+        for (std::size_t i = edge.first; i < edge.last; ++i)
+        {
+          const auto k = static_cast<std::size_t>(
+            std::find(around.begin(), around.end(), this->incidences_[i]) - around.begin());
+          if (!seen[k])
+          {
+            seen[k] = 1;
+            front.push_back(k);
+          }
+        }
+      }
+    }
+    if (ends.size() != curves.size() || (ends.size() == 2 && ends[0] == ends[1]))
+    {
+      return true;
+    }
+  }
+  return curves.empty() && fans != 1;
+}
+
+void SurfaceDivision::findCorners(const SurfaceOptions& options)
+{
+  const Index n = this->mesh_.numberOfPointSlots();
+  this->freedom.assign(n, Freedom::Free);
+  this->patchOfPoint.assign(n, None);
+  // Parts and curves at each point, as one list each, sorted by point.
+  std::vector<std::array<Index, 2>> partsAt, curvesAt;
+  for (std::size_t k = 0; k < this->parts.size(); ++k)
+  {
+    for (Index p : this->parts[k].nodes)
+    {
+      partsAt.push_back({ p, static_cast<Index>(k) });
+    }
+  }
+  for (std::size_t e = 0; e < this->edges_.size(); ++e)
+  {
+    for (Index p : this->edges_[e].nodes)
+    {
+      if (this->edges_[e].isCurve)
+      {
+        curvesAt.push_back({ p, static_cast<Index>(e) });
+      }
+    }
+  }
+  std::sort(partsAt.begin(), partsAt.end());
+  std::sort(curvesAt.begin(), curvesAt.end());
+  std::size_t i = 0, j = 0;
+  std::vector<Index> around, curves;
+  while (i < partsAt.size())
+  {
+    const Index p = partsAt[i][0];
+    around.clear();
+    curves.clear();
+    for (; i < partsAt.size() && partsAt[i][0] == p; ++i)
+    {
+      around.push_back(partsAt[i][1]);
+    }
+    for (; j < curvesAt.size() && curvesAt[j][0] == p; ++j)
+    {
+      curves.push_back(curvesAt[j][1]);
+    }
+    const bool isMarked = this->isCorner_[p] ||
+      (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) ||
+      (!options.corners.empty() && options.corners[p]);
+    const bool isLocked = std::any_of(
+      around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
+    this->freedom[p] = Freedom::Fixed;
+    if (isMarked || isLocked || (curves.size() != 0 && curves.size() != 2) ||
+      this->isPinched(p, around, curves))
+    {
+      continue;
+    }
+    if (curves.empty())
+    {
+      this->freedom[p] = Freedom::Patch;
+      this->patchOfPoint[p] = this->parts[around[0]].patch;
+    }
+    else if (this->signature(curves[0]) == this->signature(curves[1]) &&
+      !this->turns(p, curves, options.cornerAngle))
+    {
+      this->freedom[p] = Freedom::Curve;
+    }
+  }
+}
+
+/// Whether the curve turns sharply at p.
+bool SurfaceDivision::turns(Index p, const std::vector<Index>& curves, double angle) const
+{
+  Vec<3> d[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    const std::array<Index, 2>& e = this->edges_[curves[k]].nodes;
+    d[k] = this->mesh_.point(e[0] == p ? e[1] : e[0]) - this->mesh_.point(p);
+  }
+  return -d[0].dot(d[1]) < cosine(std::min(angle, 90.0)) * d[0].norm() * d[1].norm();
+}
+
+/// From each corner along the curves to the next; then what is left, which is closed.
+void SurfaceDivision::findChains()
+{
+  std::vector<std::array<Index, 2>> ends; // point, edge
+  for (std::size_t e = 0; e < this->edges_.size(); ++e)
+  {
+    if (this->edges_[e].isCurve)
+    {
+      ends.push_back({ this->edges_[e].nodes[0], static_cast<Index>(e) });
+      ends.push_back({ this->edges_[e].nodes[1], static_cast<Index>(e) });
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<char> used(this->edges_.size(), 0);
+  const auto follow = [&](Index p, Index e)
+  {
+    Chain chain;
+    chain.points.push_back(p);
+    while (true)
+    {
+      used[e] = 1;
+      chain.isSharp = chain.isSharp && this->edges_[e].isSharp;
+      const std::array<Index, 2>& nodes = this->edges_[e].nodes;
+      p = nodes[0] == p ? nodes[1] : nodes[0];
+      chain.isClosed = p == chain.points[0] && this->freedom[p] == Freedom::Curve;
+      if (chain.isClosed)
+      {
+        break;
+      }
+      chain.points.push_back(p);
+      if (this->freedom[p] != Freedom::Curve)
+      {
+        break;
+      }
+      auto next = std::lower_bound(ends.begin(), ends.end(), std::array<Index, 2>{ p, 0 });
+      e = (*next)[1] == e ? (*(next + 1))[1] : (*next)[1];
+    }
+    this->chains.push_back(chain);
+  };
+  for (const bool fromCorners : { true, false })
+  {
+    for (const auto& [p, e] : ends)
+    {
+      if (!used[e] && (this->freedom[p] != Freedom::Curve) == fromCorners)
+      {
+        follow(p, e);
+      }
+    }
+  }
+  if (this->isExact)
+  {
+    this->straighten();
+  }
+}
+
+/// Divides the chains into straight ones. Where they turn, their points become corners.
+void SurfaceDivision::straighten()
+{
+  std::vector<Chain> straight;
+  const auto isStraight = [&](const std::vector<Index>& points, std::size_t from, std::size_t to)
+  {
+    const Vec<3>& a = this->mesh_.point(points[from]);
+    const Vec<3> along = this->mesh_.point(points[to]) - a;
+    const double l = along.norm();
+    double last = 0.0;
+    for (std::size_t k = from + 1; k < to; ++k)
+    {
+      const Vec<3> d = this->mesh_.point(points[k]) - a;
+      const double t = d.dot(along) / l;
+      if (!(t > last && t < l) || (d - along * (t / l)).norm() > Slab * this->tolerance)
+      {
+        return false;
+      }
+      last = t;
+    }
+    return l > 0.0;
+  };
+  for (Chain& chain : this->chains)
+  {
+    if (chain.isClosed)
+    {
+      // It begins where it turns: no straight chain then contains its first point.
+      const std::size_t n = chain.points.size();
+      std::size_t first = 0;
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        const std::vector<Index> three{ chain.points[(k + n - 1) % n], chain.points[k],
+          chain.points[(k + 1) % n] };
+        if (!isStraight(three, 0, 2))
+        {
+          first = k;
+          break;
+        }
+      }
+      std::rotate(chain.points.begin(), chain.points.begin() + first, chain.points.end());
+      chain.points.push_back(Index(chain.points[0]));
+    }
+    for (std::size_t from = 0; from + 1 < chain.points.size();)
+    {
+      std::size_t to = from + 1;
+      while (to + 1 < chain.points.size() && isStraight(chain.points, from, to + 1))
+      {
+        ++to;
+      }
+      Chain piece;
+      piece.isSharp = chain.isSharp;
+      piece.points.assign(chain.points.begin() + from, chain.points.begin() + to + 1);
+      this->freedom[piece.points.front()] = this->freedom[piece.points.back()] = Freedom::Fixed;
+      straight.push_back(piece);
+      from = to;
+    }
+  }
+  this->chains.swap(straight);
+}
+}

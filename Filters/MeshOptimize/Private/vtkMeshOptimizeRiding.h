@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Triangles of the grid that are faces of its tetrahedra: where the surface slides, they ride on it.
+ */
+#ifndef vtkMeshOptimizeRiding_h
+#define vtkMeshOptimizeRiding_h
+
+#include "vtkMeshOptimizeExport.h"
+#include "vtkMeshOptimizeRequest.h"
+
+#include "Surface/SlidingSurface.h"
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * Finds these triangles, and notes them in the model. Their points are then used by tetrahedra
+ * only. A face with two triangles has none that rides.
+ */
+void FindRiding(Model<3>& model);
+void FindRiding(Model<2>& model);
+
+/**
+ * Numbers for the riding triangles, equal where they carry the same values: of the patch array, or
+ * without one, of all cell arrays of one integer (global and pedigree ids excepted).
+ */
+std::vector<std::pair<meshopt::Facet<3>, meshopt::Index>> LabelRiding(const Model<3>& model);
+
+/**
+ * The riding triangles of the optimized mesh, in the map: those that are still there, and new ones,
+ * each with the data of the nearest of the same patch.
+ */
+void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, OutputMap& map);
+void MapRiding(const Model<2>& model, const meshopt::BoundaryCurves& curves, OutputMap& map);
+
+/**
+ * Adds the point array BoundaryPlace: 0 inside, 1 on a patch, 2 on a curve, 3 a corner or fixed.
+ */
+void AddBoundaryPlace(const Model<3>& model, const OutputMap& map, vtkUnstructuredGrid* output);
+void AddBoundaryPlace(const Model<2>& model, const OutputMap& map, vtkUnstructuredGrid* output);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The proof of distance against brute force, and changes that it must refuse.
+#include "SlidingBoxes.h"
+
+using namespace meshopt;
+
+namespace
+{
+using Piece = SurfacePiece<3>;
+
+/// A square of n x n boxes, two triangles each, with the heights of a function.
+template <class F>
+std::vector<Piece> sheet(int n, F&& height)
+{
+  std::vector<Piece> pieces;
+  const auto at = [&](int i, int j)
+  {
+    const double u = i / double(n), v = j / double(n);
+    return Vec<3>(u, v, height(u, v));
+  };
+  for (int i = 0; i < n; ++i)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      pieces.push_back({ { at(i, j), at(i + 1, j), at(i + 1, j + 1) }, 0, 0 });
+      pieces.push_back({ { at(i, j), at(i + 1, j + 1), at(i, j + 1) }, 0, 0 });
+    }
+  }
+  return pieces;
+}
+
+ReferenceSurface reference(const std::vector<Piece>& pieces, double tolerance)
+{
+  ReferenceSurface surface;
+  for (const Piece& piece : pieces)
+  {
+    surface.add(piece.x, piece.patch, true);
+  }
+  surface.finish(tolerance, 1e-15);
+  return surface;
+}
+
+std::vector<std::array<Vec<3>, 3>> facetsOf(const std::vector<Piece>& pieces)
+{
+  std::vector<std::array<Vec<3>, 3>> facets;
+  for (const Piece& piece : pieces)
+  {
+    facets.push_back(piece.x);
+  }
+  return facets;
+}
+
+TEST(ReferenceSurface, TheNearestPointAgainstBruteForce)
+{
+  const auto hill = sheet(8, [](double u, double v) { return 0.3 * std::sin(4 * u) * v; });
+  const ReferenceSurface surface = reference(hill, 1e-3);
+  TestRandom random(1);
+  for (int k = 0; k < 300; ++k)
+  {
+    const Vec<3> x(random(), random(), random());
+    Vec<3> there;
+    const int facet = surface.project(0, x, there);
+    ASSERT_GE(facet, 0);
+    double best = std::numeric_limits<double>::infinity();
+    for (const Piece& piece : hill)
+    {
+      best = std::min(best, distanceTo(piece.x, x));
+    }
+    EXPECT_NEAR((there - x).norm(), best, 1e-12);
+    EXPECT_NEAR(distanceTo(hill[facet].x, there), 0.0, 1e-12);
+  }
+  Vec<3> there;
+  EXPECT_EQ(surface.project(1, Vec<3>::Zero(), there), -1); // no such patch
+}
+
+TEST(ReferenceSurface, AcceptsOnlyWhatIsWithinTheToleranceBothWays)
+{
+  int accepted = 0, refused = 0;
+  for (double tolerance : { 0.002, 0.01, 0.05 })
+  {
+    for (double amplitude : { 0.0, 0.003, 0.02, 0.1, 0.15 })
+    {
+      const auto shape = [&](double u, double v)
+      { return amplitude * std::sin(5 * u + 1) * std::cos(4 * v); };
+      const auto fine = sheet(9, shape);
+      const ReferenceSurface surface = reference(fine, tolerance);
+      for (int n : { 2, 3, 5, 6, 9 })
+      {
+        // Of another number of boxes: the border is another one, too, but only by a sagitta.
+        const auto coarse = sheet(n, shape);
+        const double there = sampledDistance(facetsOf(coarse), facetsOf(fine), 12);
+        const double back = sampledDistance(facetsOf(fine), facetsOf(coarse), 12);
+        if (surface.covers(fine, coarse))
+        {
+          ++accepted;
+          EXPECT_LE(there, tolerance) << amplitude << ' ' << n;
+          EXPECT_LE(back, tolerance) << amplitude << ' ' << n;
+        }
+        else
+        {
+          ++refused;
+          EXPECT_GT(std::max(there, back), 0.5 * tolerance) << amplitude << ' ' << n;
+        }
+      }
+    }
+  }
+  EXPECT_GT(accepted, 10);
+  EXPECT_GT(refused, 10);
+}
+
+TEST(ReferenceSurface, ABumpIsNotCutOff)
+{
+  // From after to before all is well; from before to after the tip is lost.
+  const auto bump = sheet(10,
+    [](double u, double v)
+    { return std::max(0.0, 0.03 - 0.3 * std::hypot(u - 0.5, v - 0.5)); });
+  const auto flat = sheet(10, [](double, double) { return 0.0; });
+  EXPECT_FALSE(reference(bump, 0.01).covers(bump, flat));
+  EXPECT_TRUE(reference(bump, 0.04).covers(bump, flat));
+}
+
+TEST(ReferenceSurface, AFoldIsRefused)
+{
+  const auto flat = sheet(4, [](double, double) { return 0.0; });
+  auto folded = flat;
+  for (Piece& piece : folded)
+  {
+    for (Vec<3>& x : piece.x)
+    {
+      x[0] = x == Vec<3>(0.5, 0.5, 0.0) ? 0.9 : x[0]; // over its neighbours
+    }
+  }
+  EXPECT_FALSE(reference(flat, 0.1).covers(flat, folded));
+}
+
+TEST(ReferenceSurface, AThinWallKeepsItsThickness)
+{
+  // Two sheets back to back, nearer to each other than the tolerance.
+  constexpr double thickness = 0.01;
+  auto wall = sheet(6, [](double u, double v) { return 0.02 * std::sin(6 * u) * std::sin(6 * v); });
+  const auto front = wall;
+  for (const Piece& piece : front)
+  {
+    Piece back = piece;
+    std::swap(back.x[1], back.x[2]);
+    for (Vec<3>& x : back.x)
+    {
+      x[2] -= thickness;
+    }
+    wall.push_back(back);
+  }
+  const ReferenceSurface surface = reference(wall, 0.1);
+  const auto pressed = sheet(6, [&](double u, double v)
+    { return 0.02 * std::sin(6 * u) * std::sin(6 * v) - 0.9 * thickness; });
+  EXPECT_FALSE(surface.covers(front, pressed));
+  const auto little = sheet(6, [&](double u, double v)
+    { return 0.02 * std::sin(6 * u) * std::sin(6 * v) - 0.1 * thickness; });
+  EXPECT_TRUE(surface.covers(front, little));
+}
+
+TEST(ReferenceSurface, HeightsBoundTheDistance)
+{
+  const auto shape = [](double u, double v) { return 0.05 * std::sin(5 * u) * std::cos(4 * v); };
+  const auto fine = sheet(12, shape), coarse = sheet(5, shape);
+  const ReferenceSurface surface = reference(fine, 0.05);
+  double proved = 0.0;
+  for (const Piece& piece : coarse)
+  {
+    proved = std::max(proved, surface.height(piece));
+  }
+  EXPECT_GE(proved, sampledDistance(facetsOf(coarse), facetsOf(fine), 10) - 1e-12);
+  EXPECT_LT(proved, 0.05);
+}
+}

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole runs with a surface that takes part: what they reach, and what must stay.
+#include "Metric/NodalMetric.h"
+#include "Optimize/Optimizer.h"
+#include "SlidingBoxes.h"
+#include "TestThreads.h"
+
+using namespace meshopt;
+
+namespace
+{
+struct Outcome
+{
+  SimplexMesh<3> mesh;
+  Report report;
+  double distance = 0.0;
+};
+
+Outcome optimized(const MeshInput<3>& in, double tolerance, bool slides = true, int n = 1)
+{
+  Outcome outcome;
+  Sliding made(in, [&]
+    {
+      SurfaceOptions options;
+      options.tolerance = tolerance;
+      return options;
+    }());
+  SimplexMesh<3> kept = buildMesh(in);
+  NodalMetric<3> metric;
+  Options options;
+  options.effort = Effort::Default;
+  const Control control = n > 1 ? threads(n) : Control();
+  outcome.report = slides ? optimize<3>(made.mesh, metric, options, control, &made.surface)
+                          : optimize<3>(kept, metric, options, control);
+  outcome.distance = made.surface.distance(made.mesh);
+  outcome.mesh = slides ? made.mesh : kept;
+  expectSound(outcome.mesh);
+  return outcome;
+}
+
+double areaOf(const SimplexMesh<3>& mesh)
+{
+  double area = 0.0;
+  for (const auto& t : surfaceOf(mesh))
+  {
+    area += 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+  }
+  return area;
+}
+
+TEST(SlidingSurface, ABoxGetsBetterAndStaysABox)
+{
+  for (bool isTurned : { false, true })
+  {
+    MeshInput<3> in = slidingBox(6, 0.3, 7);
+    if (isTurned)
+    {
+      turn(in);
+    }
+    const SimplexMesh<3> before = buildMesh(in);
+    const Outcome kept = optimized(in, 0.0, false), slid = optimized(in, 0.0);
+    EXPECT_GE(slid.report.worstAfter, 0.6);
+    EXPECT_LT(kept.report.worstAfter, slid.report.worstAfter);
+    const double rounding = isTurned ? 1e-14 : 0.0;
+    EXPECT_LE(slid.distance, rounding);
+    EXPECT_NEAR(slid.mesh.volume(), 1.0, 1e-13);
+    EXPECT_NEAR(areaOf(slid.mesh), 6.0, 1e-13);
+    EXPECT_LE(sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 3), rounding);
+    EXPECT_LE(sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 3), rounding);
+  }
+}
+
+TEST(SlidingSurface, ACurvedBodyStaysWithinItsTolerance)
+{
+  MeshInput<3> in = slidingBox(6, 0.3, 3);
+  bend(in);
+  const SimplexMesh<3> before = buildMesh(in);
+  double last = 0.0;
+  for (double tolerance : { 2e-3, 2e-2 })
+  {
+    const Outcome slid = optimized(in, tolerance);
+    EXPECT_GT(slid.report.worstAfter, last);
+    last = slid.report.worstAfter;
+    const double there = sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 6);
+    const double back = sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 6);
+    EXPECT_LE(there, slid.distance + 1e-12);
+    EXPECT_LE(back, tolerance);
+    EXPECT_LE(slid.distance, tolerance);
+    EXPECT_GT(there, 0.0);
+  }
+  EXPECT_GE(last, 0.6);
+}
+
+TEST(SlidingSurface, RegionsKeepTheirVolumes)
+{
+  MeshInput<3> in = slidingBox(6, 0.0);
+  splitRegions(in);
+  // The interface x = 1/2 is displaced in its plane.
+  TestRandom random(11);
+  for (Vec<3>& x : in.points)
+  {
+    const bool isInside = (x.array() > 0.0).all() && (x.array() < 1.0).all();
+    x += isInside ? 0.3 / 6 * Vec<3>(x[0] == 0.5 ? 0.0 : random(), random(), random())
+                  : Vec<3>(Vec<3>::Zero());
+  }
+  const Outcome kept = optimized(in, 0.0, false), slid = optimized(in, 0.0);
+  EXPECT_GE(slid.report.worstAfter, std::max(0.6, kept.report.worstAfter));
+  double volumes[2] = { 0.0, 0.0 };
+  for (Index c = 0; c < slid.mesh.numberOfCellSlots(); ++c)
+  {
+    if (slid.mesh.isAlive(c))
+    {
+      volumes[slid.mesh.region(c)] += signedVolume(slid.mesh.corners(c));
+    }
+  }
+  EXPECT_NEAR(volumes[0], 0.5, 1e-14);
+  EXPECT_NEAR(volumes[1], 0.5, 1e-14);
+}
+
+TEST(SlidingSurface, TheSameBytesWithAnyNumberOfThreads)
+{
+  MeshInput<3> in = slidingBox(20, 0.3, 5); // 48 000 cells: several chunks
+  bend(in);
+  const Outcome one = optimized(in, 1e-3), two = optimized(in, 1e-3, true, 2);
+  ASSERT_EQ(one.mesh.numberOfCellSlots(), two.mesh.numberOfCellSlots());
+  ASSERT_EQ(one.mesh.numberOfPointSlots(), two.mesh.numberOfPointSlots());
+  for (Index c = 0; c < one.mesh.numberOfCellSlots(); ++c)
+  {
+    ASSERT_EQ(one.mesh.isAlive(c), two.mesh.isAlive(c));
+    ASSERT_TRUE(!one.mesh.isAlive(c) || one.mesh.nodes(c) == two.mesh.nodes(c));
+  }
+  for (Index p = 0; p < one.mesh.numberOfPointSlots(); ++p)
+  {
+    ASSERT_EQ(one.mesh.point(p), two.mesh.point(p));
+  }
+}
+
+TEST(SlidingSurface, ARidgeStaysWhereItWas)
+{
+  // Bent by 2 degrees at x = 1/2: with no tolerance the crease is a curve like the others.
+  MeshInput<3> in = slidingBox(6, 0.3, 9);
+  for (Vec<3>& x : in.points)
+  {
+    x[2] += 0.035 * std::max(0.0, x[0] - 0.5) * (x[2] == 1.0 ? 1.0 : x[2]);
+  }
+  const SimplexMesh<3> before = buildMesh(in);
+  const Outcome slid = optimized(in, 0.0);
+  EXPECT_LE(sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 4), 1e-15);
+  EXPECT_LE(sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 4), 1e-15);
+}
+}
