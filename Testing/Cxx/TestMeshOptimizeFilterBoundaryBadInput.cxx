@@ -71,11 +71,6 @@ TEST_F(MeshOptimizeFilterBoundaryBadInput, NeedsWorstFirst)
     [](vtkMeshOptimizeFilter* f) { f->SetBoundaryModeToSlide(); });
 }
 
-TEST_F(MeshOptimizeFilterBoundaryBadInput, NeedsTriangles)
-{
-  ExpectError(MakeBox(2, 0.1), { "Slide", "tetrahedra" });
-}
-
 TEST_F(MeshOptimizeFilterBoundaryBadInput, Options)
 {
   ExpectError(Square, { "Slide", "OptimizeBelow" },

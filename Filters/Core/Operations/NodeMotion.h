@@ -99,39 +99,48 @@ private:
     return judge.accept(this->proposal_);
   }
 
-  /// Moves a node of the surface in its tangent plane, then to the surface. Where that goes too far
-  /// for the surface, it goes half of the way, or a quarter.
+  /// Moves a node of the surface in its tangent plane; if that goes too far for the surface, in the
+  /// direction in which it bends least.
   bool slide(Judge<D, Shape>& judge, Index v)
   {
-    constexpr int tries = 3;
-    const SimplexMesh<D>& mesh = judge.mesh();
-    const std::vector<Index>& star = this->proposal_.cavity;
-    const double old = mesh.worstQuality(star), required = judge.required(old);
     Directions<D> directions;
-    directions.count = judge.surface()->tangents(mesh, star, v, directions.basis);
-    const Vec<D> from = mesh.point(v);
-    Vec<D> to = from;
-    bool done = false, better = directions.count > 0;
-    if (better)
+    directions.count = judge.surface()->tangents(
+      judge.mesh(), this->proposal_.cavity, v, directions.basis);
+    bool done = false;
+    for (; directions.count > 0 && !done; --directions.count)
     {
-      this->problem_.restrict(directions);
-      better = this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) > required;
-    }
-    double part = 1.0;
-    for (int k = 0; k < tries && better && !done; ++k, part *= 0.5)
-    {
-      Vec<D> x = from + part * (to - from);
-      const Place place = judge.surface()->project(mesh.place(v), x, x);
-      const double now = this->problem_.evaluate(x);
-      this->proposal_.moves.assign(1, { v, x, place });
-      this->proposal_.oldWorst = this->proposal_.least = old;
-      this->proposal_.newWorst = now;
-      done = now > required && judge.accept(this->proposal_);
+      done = this->slideAlong(judge, v, directions);
     }
     judge.count(Operation::NodeMotion, done);
     if (!done && !judge.editor().inTransaction())
     {
       judge.editor().setMoveFailed(v, judge.editor().clock());
+    }
+    return done;
+  }
+
+  /// Then to the surface; if that goes too far, half of the way, or a quarter.
+  bool slideAlong(Judge<D, Shape>& judge, Index v, const Directions<D>& directions)
+  {
+    constexpr int tries = 3;
+    const double old = judge.mesh().worstQuality(this->proposal_.cavity);
+    const double required = judge.required(old);
+    const Vec<D> from = judge.mesh().point(v);
+    Vec<D> to = from;
+    this->problem_.restrict(directions);
+    const bool mayGain =
+      this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) > required;
+    double part = 1.0;
+    bool done = false;
+    for (int k = 0; k < tries && mayGain && !done; ++k, part *= 0.5)
+    {
+      Vec<D> x = from + part * (to - from);
+      const Place place = judge.surface()->project(judge.mesh().place(v), x, x);
+      const double now = this->problem_.evaluate(x);
+      this->proposal_.moves.assign(1, { v, x, place });
+      this->proposal_.oldWorst = this->proposal_.least = old;
+      this->proposal_.newWorst = now;
+      done = now > required && judge.accept(this->proposal_);
     }
     return done;
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace meshopt
@@ -177,7 +178,10 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
     basis[1] = this->patches_[place.part].basis[1];
     return 2;
   }
+  // Where facets bend, the first direction is the one along which they bend least, such as that of a
+  // ridge.
   Vec<3> normal = Vec<3>::Zero();
+  Tensor<3> bends = Tensor<3>::Zero();
   for (Index c : star)
   {
     for (int i = 0; i < 4; ++i)
@@ -186,8 +190,9 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
       if (mesh.isConstrained(c, i) && hasId(f, v))
       {
         const Vec<3>& a = mesh.point(f[0]);
-        const double side = mesh.region(c) == this->patches_[place.part].region ? 1.0 : -1.0;
-        normal += side * (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
+        const Vec<3> n = (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
+        normal += mesh.region(c) == this->patches_[place.part].region ? n : Vec<3>(-n);
+        bends += n * n.transpose() / std::max(n.norm(), std::numeric_limits<double>::min());
       }
     }
   }
@@ -195,10 +200,14 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
   {
     return 0;
   }
+  normal.normalize();
   int axis = 0;
   normal.cwiseAbs().minCoeff(&axis);
-  basis[0] = normal.cross(Vec<3>(Vec<3>::Unit(axis))).normalized();
-  basis[1] = normal.cross(basis[0]).normalized();
+  const Vec<3> u = normal.cross(Vec<3>(Vec<3>::Unit(axis))).normalized(), w = normal.cross(u);
+  const double uu = u.dot(bends * u), uw = u.dot(bends * w), ww = w.dot(bends * w);
+  const double angle = 0.5 * std::atan2(2.0 * uw, uu - ww); // of the direction of most bending
+  basis[0] = std::cos(angle) * w - std::sin(angle) * u;
+  basis[1] = normal.cross(basis[0]);
   return 2;
 }
 

@@ -36,7 +36,8 @@ public:
   virtual Place project(const Place& place, const Vec<D>& x, Vec<D>& there) const = 0;
 
   /// The orthonormal directions in which point v of the surface may move, in `basis`; `star`: its
-  /// cells. Returns their number: one on a curve, two on a patch.
+  /// cells. Returns their number: one on a curve, two on a patch; of these, the surface bends less
+  /// along the first.
   virtual int tangents(const SimplexMesh<D>& mesh, const std::vector<Index>& star, Index v,
     std::array<Vec<D>, D>& basis) const = 0;
 

@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surface of tetrahedra that slides: what vtkMeshOptimizeFilter takes and gives.
+#include "MeshOptimizeFilterTesting.h"
+
+#include "vtkIntArray.h"
+#include "vtkMath.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkPolyData.h"
+#include "vtkTriangle.h"
+
+using namespace Testing;
+
+namespace
+{
+
+class Sliding : public OptimizeFilter
+{
+public:
+  explicit Sliding(double tolerance)
+    : OptimizeFilter(vtkMeshOptimizeFilter::WorstFirst)
+  {
+    (*this)->SetBoundaryModeToSlide();
+    (*this)->SetSurfaceTolerance(tolerance);
+  }
+};
+
+/**
+ * A box whose points are displaced inside, in its faces and along its edges.
+ */
+Grid MakeBadBox(int n, double jitter)
+{
+  Grid grid = MakeBox(n, jitter);
+  Random random;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    Point x = GetPoint(grid, p);
+    const bool isInside = std::all_of(
+      x.begin(), x.end(), [](double v) { return v > 0.0 && v < 1.0; });
+    for (double& v : x)
+    {
+      const double move = jitter / n * random();
+      v += !isInside && v > 0.0 && v < 1.0 ? move : 0.0;
+    }
+    grid->GetPoints()->SetPoint(p, x.data());
+  }
+  return grid;
+}
+
+/**
+ * Adds the triangles of the faces z = 0 (id 1 where x < 1/2, else 2) and z = 1 (id 3). Tetrahedra
+ * have the id 0. The number of each cell is in another array.
+ */
+void AddTriangles(vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkIntArray> ids, numbers;
+  ids->SetName("Physical");
+  numbers->SetName("Number");
+  const vtkIdType n = grid->GetNumberOfCells();
+  for (vtkIdType c = 0; c < n; ++c)
+  {
+    ids->InsertNextValue(0);
+  }
+  for (vtkIdType c = 0; c < n; ++c)
+  {
+    const std::vector<vtkIdType> t = CellPoints(grid, c);
+    for (int i = 0; i < 4; ++i)
+    {
+      const std::vector<vtkIdType> face{ t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4] };
+      for (double z : { 0.0, 1.0 })
+      {
+        double x = 0.0;
+        bool isIn = true;
+        for (vtkIdType p : face)
+        {
+          isIn = isIn && GetPoint(grid, p)[2] == z;
+          x += GetPoint(grid, p)[0] / 3.0;
+        }
+        if (isIn)
+        {
+          AddCell(grid, VTK_TRIANGLE, face);
+          ids->InsertNextValue(z == 1.0 ? 3 : x < 0.5 ? 1 : 2);
+        }
+      }
+    }
+  }
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    numbers->InsertNextValue(static_cast<int>(c));
+  }
+  grid->GetCellData()->AddArray(ids);
+  grid->GetCellData()->AddArray(numbers);
+}
+
+double AreaOf(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  const std::vector<vtkIdType> t = CellPoints(grid, cell);
+  return vtkTriangle::TriangleArea(
+    GetPoint(grid, t[0]).data(), GetPoint(grid, t[1]).data(), GetPoint(grid, t[2]).data());
+}
+
+/**
+ * The area of the triangles of each id. Each must be a face of a tetrahedron.
+ */
+std::map<int, double> AreasOf(vtkUnstructuredGrid* grid)
+{
+  std::set<std::vector<vtkIdType>> faces;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const std::vector<vtkIdType> t = CellPoints(grid, c);
+    for (int i = 0; i < 4 && grid->GetCellType(c) == VTK_TETRA; ++i)
+    {
+      std::vector<vtkIdType> face{ t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4] };
+      std::sort(face.begin(), face.end());
+      faces.insert(face);
+    }
+  }
+  std::map<int, double> areas;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    if (grid->GetCellType(c) == VTK_TRIANGLE)
+    {
+      std::vector<vtkIdType> face = CellPoints(grid, c);
+      std::sort(face.begin(), face.end());
+      EXPECT_EQ(faces.count(face), 1u);
+      areas[static_cast<int>(grid->GetCellData()->GetArray("Physical")->GetComponent(c, 0))] +=
+        AreaOf(grid, c);
+    }
+  }
+  return areas;
+}
+
+TEST(MeshOptimizeFilterSurface, ABadSurfaceGetsBetterAndStaysTheSameSet)
+{
+  Grid grid = MakeBadBox(6, 0.3);
+  OptimizeFilter kept(vtkMeshOptimizeFilter::WorstFirst);
+  kept->SetInputData(grid);
+  kept->Update();
+  Sliding slid(0.0);
+  slid->SetInputData(grid);
+  slid->Update();
+  EXPECT_LT(kept->GetWorstQualityAfter(), 0.6);
+  EXPECT_GE(slid->GetWorstQualityAfter(), 0.6);
+  EXPECT_EQ(slid->GetSurfaceDistance(), 0.0);
+  EXPECT_EQ(Figure(slid->GetOutput(), "SurfaceDistance"), 0.0);
+  EXPECT_EQ(kept->GetOutput()->GetFieldData()->GetArray("SurfaceDistance"), nullptr);
+  EXPECT_EQ(kept->GetOutput()->GetPointData()->GetArray("BoundaryPlace"), nullptr);
+  double volume = 0.0;
+  for (vtkIdType c = 0; c < slid->GetOutput()->GetNumberOfCells(); ++c)
+  {
+    volume += SignedVolume(slid->GetOutput(), c);
+  }
+  EXPECT_NEAR(volume, 1.0, 1e-13);
+  // Each node of the surface has a face's coordinate, exactly, and says what it may do.
+  vtkDataArray* places = slid->GetOutput()->GetPointData()->GetArray("BoundaryPlace");
+  ASSERT_NE(places, nullptr);
+  int corners = 0;
+  for (vtkIdType p = 0; p < slid->GetOutput()->GetNumberOfPoints(); ++p)
+  {
+    const Point x = GetPoint(slid->GetOutput(), p);
+    const auto sides = std::count_if(
+      x.begin(), x.end(), [](double v) { return v == 0.0 || v == 1.0; });
+    EXPECT_EQ(places->GetComponent(p, 0), static_cast<double>(sides));
+    corners += sides == 3;
+  }
+  EXPECT_EQ(corners, 8);
+}
+
+TEST(MeshOptimizeFilterSurface, TheToleranceIsAFractionUnlessAbsolute)
+{
+  Grid grid = MakeBadBox(5, 0.3);
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    Point x = GetPoint(grid, p);
+    x[2] += 0.4 * x[0] * (1.0 - x[0]);
+    grid->GetPoints()->SetPoint(p, x.data());
+  }
+  double bounds[6];
+  grid->GetBounds(bounds);
+  const double diagonal = std::sqrt(std::pow(bounds[1] - bounds[0], 2) +
+    std::pow(bounds[3] - bounds[2], 2) + std::pow(bounds[5] - bounds[4], 2));
+  Sliding fraction(3e-3), length(3e-3 * diagonal), strict(1e-5);
+  length->ToleranceIsAbsoluteOn();
+  for (Sliding* filter : { &fraction, &length, &strict })
+  {
+    (*filter)->SetInputData(grid);
+    (*filter)->Update();
+  }
+  EXPECT_TRUE(SameGrid(fraction->GetOutput(), length->GetOutput()));
+  EXPECT_GT(fraction->GetSurfaceDistance(), 1e-5 * diagonal);
+  EXPECT_LE(fraction->GetSurfaceDistance(), 3e-3 * diagonal);
+  EXPECT_LE(strict->GetSurfaceDistance(), 1e-5 * diagonal);
+  EXPECT_GE(fraction->GetWorstQualityAfter(), strict->GetWorstQualityAfter());
+}
+
+TEST(MeshOptimizeFilterSurface, TrianglesRideOnIt)
+{
+  Grid grid = MakeBadBox(6, 0.0);
+  AddTriangles(grid);
+  // The border between the ids 1 and 2 is the line x = 1/2 of the floor. Displace all else.
+  Random random;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    Point x = GetPoint(grid, p);
+    const bool isBorder = x[0] == 0.5 && x[2] == 0.0;
+    for (double& v : x)
+    {
+      const double move = 0.05 * random();
+      v += v > 0.0 && v < 1.0 && !isBorder ? move : 0.0;
+    }
+    grid->GetPoints()->SetPoint(p, x.data());
+  }
+  const std::map<int, double> before = AreasOf(grid);
+  Sliding filter(0.0);
+  filter->SetPatchArray("Physical");
+  filter->SetInputData(grid);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  EXPECT_GE(filter->GetWorstQualityAfter(), 0.6);
+  EXPECT_FALSE(SameFacets(KeptFacets(grid), KeptFacets(output))); // the surface took part
+  const std::map<int, double> after = AreasOf(output);
+  ASSERT_EQ(after.size(), 3u);
+  for (const auto& [id, area] : before)
+  {
+    EXPECT_NEAR(after.at(id), area, 1e-13) << id;
+  }
+  // Each triangle of the output has the data of one triangle of the input, and looks the same way.
+  vtkDataArray* numbers = output->GetCellData()->GetArray("Number");
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    const auto source = static_cast<vtkIdType>(numbers->GetComponent(c, 0));
+    EXPECT_EQ(output->GetCellType(c), grid->GetCellType(source));
+    if (output->GetCellType(c) == VTK_TRIANGLE)
+    {
+      double n[3], m[3];
+      const std::vector<vtkIdType> t = CellPoints(output, c), s = CellPoints(grid, source);
+      vtkTriangle::ComputeNormal(GetPoint(output, t[0]).data(), GetPoint(output, t[1]).data(),
+        GetPoint(output, t[2]).data(), n);
+      vtkTriangle::ComputeNormal(GetPoint(grid, s[0]).data(), GetPoint(grid, s[1]).data(),
+        GetPoint(grid, s[2]).data(), m);
+      EXPECT_GT(vtkMath::Dot(n, m), 0.99);
+    }
+  }
+}
+
+TEST(MeshOptimizeFilterSurface, WithoutAPatchArrayAllIntegersCount)
+{
+  // The array Number is different for each triangle: none of them may change.
+  Grid grid = MakeBadBox(4, 0.2);
+  AddTriangles(grid);
+  Sliding filter(0.0);
+  filter->SetInputData(grid);
+  filter->Update();
+  std::map<int, double> before = AreasOf(grid), after = AreasOf(filter->GetOutput());
+  for (const auto& [id, area] : before)
+  {
+    EXPECT_NEAR(after.at(id), area, 1e-13) << id;
+  }
+}
+
+TEST(MeshOptimizeFilterSurface, CellsThatPassThroughKeepTheirFaces)
+{
+  Grid grid = MakeBadBox(4, 0.2);
+  // A pyramid on each of the first faces z = 1 that make up a square, and a line of its own.
+  const vtkIdType top = 4 * 25;
+  const Point apex{ { 0.1, 0.1, 1.5 } };
+  const vtkIdType p = grid->GetPoints()->InsertNextPoint(apex.data());
+  AddCell(grid, VTK_PYRAMID, { top, top + 1, top + 6, top + 5, p });
+  AddCell(grid, VTK_LINE, { top + 2, top + 3 });
+  Sliding filter(0.0);
+  filter->SetInputData(grid);
+  filter->Update();
+  vtkUnstructuredGrid* output = filter->GetOutput();
+  int pyramids = 0, lines = 0;
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    const int type = output->GetCellType(c);
+    const vtkIdType source = type == VTK_PYRAMID ? grid->GetNumberOfCells() - 2
+                                                 : grid->GetNumberOfCells() - 1;
+    if (type == VTK_PYRAMID || type == VTK_LINE)
+    {
+      ++(type == VTK_PYRAMID ? pyramids : lines);
+      const std::vector<vtkIdType> now = CellPoints(output, c), then = CellPoints(grid, source);
+      for (std::size_t k = 0; k < now.size(); ++k)
+      {
+        EXPECT_EQ(GetPoint(output, now[k]), GetPoint(grid, then[k]));
+      }
+    }
+  }
+  EXPECT_EQ(pyramids, 1);
+  EXPECT_EQ(lines, 1);
+  // The two triangles under the pyramid are still there.
+  const auto before = KeptFacets(grid), after = KeptFacets(output);
+  int found = 0;
+  for (const std::vector<Point>& facet : before)
+  {
+    const bool isUnder = std::all_of(facet.begin(), facet.end(),
+      [&](const Point& x)
+      {
+        return x == GetPoint(grid, top) || x == GetPoint(grid, top + 1) ||
+          x == GetPoint(grid, top + 5) || x == GetPoint(grid, top + 6);
+      });
+    found += isUnder && after.count(facet) == 1;
+  }
+  EXPECT_EQ(found, 2);
+}
+
+TEST(MeshOptimizeFilterSurface, BlocksKeepTheFacesThatTheyShare)
+{
+  Grid one = MakeBadBox(4, 0.2), two = MakeBadBox(4, 0.2);
+  for (vtkIdType p = 0; p < two->GetNumberOfPoints(); ++p)
+  {
+    Point x = GetPoint(two, p);
+    x[0] = 2.0 - x[0]; // mirrored: the two touch at x = 1
+    two->GetPoints()->SetPoint(p, x.data());
+  }
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, one);
+  blocks->SetBlock(1, two);
+  Sliding filter(1e-3);
+  Messages messages(filter.Get());
+  filter->SetInputData(blocks);
+  filter->Update();
+  auto output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  std::set<std::vector<Point>> at[2];
+  for (unsigned int k = 0; k < 2; ++k)
+  {
+    for (const std::vector<Point>& facet :
+      KeptFacets(vtkUnstructuredGrid::SafeDownCast(output->GetBlock(k))))
+    {
+      if (std::all_of(facet.begin(), facet.end(), [](const Point& x) { return x[0] == 1.0; }))
+      {
+        at[k].insert(facet);
+      }
+    }
+  }
+  EXPECT_EQ(at[0].size(), 32u);
+  EXPECT_TRUE(SameFacets(at[0], at[1]));
+}
+
+TEST(MeshOptimizeFilterSurface, TheSameBytesWithAnyNumberOfThreads)
+{
+  Grid grid = MakeBadBox(20, 0.2);
+  Sliding one(1e-3), four(1e-3);
+  one->SetNumberOfThreads(1);
+  four->SetNumberOfThreads(4);
+  for (Sliding* filter : { &one, &four })
+  {
+    (*filter)->SetEffort(vtkMeshOptimizeFilter::Quick);
+    (*filter)->SetInputData(grid);
+    (*filter)->Update();
+  }
+  EXPECT_TRUE(SameGrid(one->GetOutput(), four->GetOutput()));
+  EXPECT_TRUE(
+    SameArrays(one->GetOutput()->GetPointData(), four->GetOutput()->GetPointData()));
+}
+
+TEST(MeshOptimizeFilterSurface, WhatItCannotDoIsAnError)
+{
+  const auto expect = [](const Texts& words, const Prepare& prepare, vtkUnstructuredGrid* grid)
+  {
+    ExpectOptimizeError(vtkMeshOptimizeFilter::WorstFirst, grid, words,
+      [&](vtkMeshOptimizeFilter* f)
+      {
+        f->SetBoundaryModeToSlide();
+        prepare(f);
+      });
+  };
+  Grid box = MakeBox(2, 0.1);
+  expect({ "Slide", "tetrahedra", "sizes" },
+    [](vtkMeshOptimizeFilter* f) { f->SetDesiredSize(0.1); }, box);
+  expect({ "Slide", "OptimizeBelow" },
+    [](vtkMeshOptimizeFilter* f) { f->SetOptimizeBelow(0.3); }, box);
+  expect({ "Slide", "WorstFirst" },
+    [](vtkMeshOptimizeFilter* f) { f->SetAlgorithmToPaper1996(); }, box);
+  expect({ "geometry", "triangles" },
+    [](vtkMeshOptimizeFilter* f) { f->SetGeometryData(vtkSmartPointer<vtkPolyData>::New()); }, box);
+  expect({ "None here" }, [](vtkMeshOptimizeFilter* f) { f->SetPatchArray("None here"); }, box);
+  Grid metric = MakeBox(2, 0.1);
+  vtkNew<vtkDoubleArray> tensors;
+  tensors->SetName("M");
+  tensors->SetNumberOfComponents(6);
+  for (vtkIdType p = 0; p < metric->GetNumberOfPoints(); ++p)
+  {
+    tensors->InsertNextTuple6(4, 1, 1 + GetPoint(metric, p)[0], 0, 0, 0);
+  }
+  metric->GetPointData()->AddArray(tensors);
+  expect({ "Slide", "metric" }, [](vtkMeshOptimizeFilter* f) { f->SetMetricArray("M"); }, metric);
+}
+
+} // namespace
