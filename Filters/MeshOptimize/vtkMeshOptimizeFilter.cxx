@@ -4,9 +4,9 @@
 #include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
-#include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeRun.h"
+#include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeWarnings.h"
 
 #include "vtkCompositeDataIterator.h"

@@ -235,8 +235,8 @@ TEST(MeshOptimizeFilterSurface, TrianglesRideOnIt)
       const std::vector<vtkIdType> t = CellPoints(output, c), s = CellPoints(grid, source);
       vtkTriangle::ComputeNormal(GetPoint(output, t[0]).data(), GetPoint(output, t[1]).data(),
         GetPoint(output, t[2]).data(), n);
-      vtkTriangle::ComputeNormal(GetPoint(grid, s[0]).data(), GetPoint(grid, s[1]).data(),
-        GetPoint(grid, s[2]).data(), m);
+      vtkTriangle::ComputeNormal(
+        GetPoint(grid, s[0]).data(), GetPoint(grid, s[1]).data(), GetPoint(grid, s[2]).data(), m);
       EXPECT_GT(vtkMath::Dot(n, m), 0.99);
     }
   }
@@ -350,8 +350,7 @@ TEST(MeshOptimizeFilterSurface, TheSameBytesWithAnyNumberOfThreads)
     (*filter)->Update();
   }
   EXPECT_TRUE(SameGrid(one->GetOutput(), four->GetOutput()));
-  EXPECT_TRUE(
-    SameArrays(one->GetOutput()->GetPointData(), four->GetOutput()->GetPointData()));
+  EXPECT_TRUE(SameArrays(one->GetOutput()->GetPointData(), four->GetOutput()->GetPointData()));
 }
 
 TEST(MeshOptimizeFilterSurface, WhatItCannotDoIsAnError)
@@ -366,15 +365,18 @@ TEST(MeshOptimizeFilterSurface, WhatItCannotDoIsAnError)
       });
   };
   Grid box = MakeBox(2, 0.1);
-  expect({ "Slide", "tetrahedra", "sizes" },
-    [](vtkMeshOptimizeFilter* f) { f->SetDesiredSize(0.1); }, box);
-  expect({ "Slide", "OptimizeBelow" },
-    [](vtkMeshOptimizeFilter* f) { f->SetOptimizeBelow(0.3); }, box);
-  expect({ "Slide", "WorstFirst" },
-    [](vtkMeshOptimizeFilter* f) { f->SetAlgorithmToPaper1996(); }, box);
-  expect({ "geometry", "triangles" },
+  expect(
+    { "Slide", "tetrahedra", "sizes" }, [](vtkMeshOptimizeFilter* f) { f->SetDesiredSize(0.1); },
+    box);
+  expect(
+    { "Slide", "OptimizeBelow" }, [](vtkMeshOptimizeFilter* f) { f->SetOptimizeBelow(0.3); }, box);
+  expect(
+    { "Slide", "WorstFirst" }, [](vtkMeshOptimizeFilter* f) { f->SetAlgorithmToPaper1996(); }, box);
+  expect(
+    { "geometry", "triangles" },
     [](vtkMeshOptimizeFilter* f) { f->SetGeometryData(vtkSmartPointer<vtkPolyData>::New()); }, box);
-  expect({ "None here" }, [](vtkMeshOptimizeFilter* f) { f->SetPatchArray("None here"); }, box);
+  expect(
+    { "None here" }, [](vtkMeshOptimizeFilter* f) { f->SetPatchArray("None here"); }, box);
   Grid metric = MakeBox(2, 0.1);
   vtkNew<vtkDoubleArray> tensors;
   tensors->SetName("M");
@@ -384,7 +386,8 @@ TEST(MeshOptimizeFilterSurface, WhatItCannotDoIsAnError)
     tensors->InsertNextTuple6(4, 1, 1 + GetPoint(metric, p)[0], 0, 0, 0);
   }
   metric->GetPointData()->AddArray(tensors);
-  expect({ "Slide", "metric" }, [](vtkMeshOptimizeFilter* f) { f->SetMetricArray("M"); }, metric);
+  expect(
+    { "Slide", "metric" }, [](vtkMeshOptimizeFilter* f) { f->SetMetricArray("M"); }, metric);
 }
 
 } // namespace

@@ -269,8 +269,7 @@ bool Judge<D, Shape>::replace(const Proposal<D>& p)
   const bool knows = !p.qualities.empty();
   if (!(p.newWorst > p.least) || !this->fits(p) ||
     !keepsEdges<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) ||
-    (p.changesKept && this->slides() && !this->keepsSurface(p)) ||
-    !this->growth.allows(p.growth()))
+    (p.changesKept && this->slides() && !this->keepsSurface(p)) || !this->growth.allows(p.growth()))
   {
     return false;
   }
@@ -308,8 +307,7 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
   // mesh.
   const Mark mark = this->begin();
   const bool slides = this->slides() &&
-    std::any_of(
-      p.moves.begin(), p.moves.end(), [](const auto& m) { return m.place.part != None; });
+    std::any_of(p.moves.begin(), p.moves.end(), [](const auto& m) { return m.place.part != None; });
   if (slides)
   {
     this->changes_.beforeMoves(this->mesh(), p);
@@ -334,7 +332,8 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
     bad += this->badness(q) - this->badness(old);
     this->editor_->setQuality(c, q);
   }
-  good = good && (!slides ||
+  good = good &&
+    (!slides ||
       (this->changes_.allowsMoves(*this->surface_, this->mesh(), p) &&
         this->changes_.allowsAngles(*this->surface_, this->mesh(), p.cavity)));
   if (!good || (this->guardsAll_ && bad > 0 && p.oldWorst > 0.0))

@@ -43,8 +43,7 @@ public:
         const int k = find(p.kept.come, sortedIds(facetOf(p.cells[n], i)));
         if (k >= 0)
         {
-          this->add(
-            mesh, p.cells[n], i, p.kept.patches[k], p.kept.regions[n], this->change_.come);
+          this->add(mesh, p.cells[n], i, p.kept.patches[k], p.kept.regions[n], this->change_.come);
         }
       }
     }

@@ -139,8 +139,8 @@ private:
     if (!range)
     {
       std::sort(this->neighbours_.begin(), this->neighbours_.end());
-      this->neighbours_.erase(std::unique(this->neighbours_.begin(), this->neighbours_.end()),
-        this->neighbours_.end());
+      this->neighbours_.erase(
+        std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
     }
   }
 

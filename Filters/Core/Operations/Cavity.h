@@ -151,8 +151,8 @@ bool Cavity<D, Shape>::isOpened(const SimplexMesh<D>& mesh, Index c, int i) cons
     return false;
   }
   const Facet<D> key = sortedIds(mesh.facet(c, i));
-  return std::any_of(this->opened_.begin(), this->opened_.end(),
-    [&](const Opened& o) { return o.nodes == key; });
+  return std::any_of(
+    this->opened_.begin(), this->opened_.end(), [&](const Opened& o) { return o.nodes == key; });
 }
 
 /// Whether the cavity cannot grow through facet i of cell c.
@@ -235,7 +235,8 @@ bool Cavity<D, Shape>::take(
     }
     if (mesh.isConstrained(c, i) && this->opens(mesh, c, i))
     {
-      if (h != None && !(editor.owns(mesh.cellOf(h)) && editor.isMarked(mesh.cellOf(h), this->mark_)))
+      if (h != None &&
+        !(editor.owns(mesh.cellOf(h)) && editor.isMarked(mesh.cellOf(h), this->mark_)))
       {
         // Of an interface both sides are needed: the other cell comes next.
         this->heap_.push_back({ -std::numeric_limits<double>::infinity(), c, i });
@@ -361,8 +362,7 @@ void Cavity<D, Shape>::finish(MeshEditor<D>& editor)
       {
         continue; // of the outer surface, or between two cells of the cavity
       }
-      if (this->isWall(editor, c, i) ||
-        !editor.isMarked(mesh.cellOf(mesh.adjacent(c, i)), inside))
+      if (this->isWall(editor, c, i) || !editor.isMarked(mesh.cellOf(mesh.adjacent(c, i)), inside))
       {
         this->facets_.push_back(mesh.facet(c, i));
         this->behind_.push_back(c);

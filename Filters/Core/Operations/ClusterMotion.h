@@ -28,8 +28,7 @@ public:
     const auto mayMove = [&](Index p)
     {
       return (mesh.isFree(p) || (judge.slides() && mesh.freedom(p) != Freedom::Fixed)) &&
-        judge.editor().star(p, this->star_) &&
-        !(mesh.worstQuality(this->star_) < old);
+        judge.editor().star(p, this->star_) && !(mesh.worstQuality(this->star_) < old);
     };
     this->gatherer_.gather(judge.editor(), t, 1, mayMove, this->cluster_);
     const std::vector<Index>& cells = this->cluster_.cells;
@@ -52,7 +51,8 @@ public:
       {
         const Index p = this->cluster_.points[k];
         Vec<D> x = this->cluster_.x[k];
-        const Place place = mesh.isFree(p) ? Place() : judge.surface()->project(mesh.place(p), x, x);
+        const Place place = mesh.isFree(p) ? Place()
+                                           : judge.surface()->project(mesh.place(p), x, x);
         this->proposal_.moves.push_back({ p, x, place });
       }
       this->proposal_.oldWorst = old;
@@ -80,8 +80,8 @@ private:
       {
         judge.editor().star(p, this->star_);
         directions.basis[0].setZero(); // without a tangent it stays
-        directions.count =
-          std::max(1, judge.surface()->tangents(mesh, this->star_, p, directions.basis));
+        directions.count = std::max(
+          1, judge.surface()->tangents(mesh, this->star_, p, directions.basis));
         slides = true;
       }
       this->directions_.push_back(directions);

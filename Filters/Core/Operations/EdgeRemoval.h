@@ -77,9 +77,9 @@ private:
 
   std::vector<Index> cavity_;
   double ringWorst_ = 0.0;
-  bool isOpen_ = false;            // the ring begins and ends at the surface
-  bool isSecond_ = false;          // this object is the other side of an interface
-  bool hasOther_ = false;          // the ring begins and ends at an interface
+  bool isOpen_ = false;   // the ring begins and ends at the surface
+  bool isSecond_ = false; // this object is the other side of an interface
+  bool hasOther_ = false; // the ring begins and ends at an interface
   std::unique_ptr<EdgeRemoval> other_;
   Index low_ = None, high_ = None; // the edge; the ring runs counterclockwise seen from high_
   int n_ = 0;

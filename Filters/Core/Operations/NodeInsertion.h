@@ -56,9 +56,9 @@ public:
   static void findAllSeeds(const Judge<D, Shape>& judge, Index t, std::vector<Seed>& seeds);
 
   /// Finds the cavity of point p (which no cell uses yet) if it starts at the seed, then moves it
-  /// to its best place, which is returned in the seed. If `needsGain` and there is no gain, a second round starts
-  /// at the new place. Returns the worst quality of the new cells; Never if there is no cavity.
-  /// Call it within a transaction.
+  /// to its best place, which is returned in the seed. If `needsGain` and there is no gain, a second
+  /// round starts at the new place. Returns the worst quality of the new cells; Never if there is
+  /// no cavity. Call it within a transaction.
   double find(Judge<D, Shape>& judge, Index t, Index p, Seed& seed, bool needsGain);
   /// The worst quality in the cavity of the last find().
   double oldWorst() const { return this->cavity_.oldWorst(); }
@@ -156,10 +156,8 @@ void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
   const SimplexMesh<D>& mesh = judge.mesh();
   Seed seed;
   seed.opening.ids = ids;
-  const auto has = [&](const Facet<D>& f)
-  {
-    return std::all_of(
-      ids.begin(), ids.end(), [&](Index p) { return p == None || hasId(f, p); });
+  const auto has = [&](const Facet<D>& f) {
+    return std::all_of(ids.begin(), ids.end(), [&](Index p) { return p == None || hasId(f, p); });
   };
   for (Index c : cells)
   {
@@ -339,7 +337,10 @@ void NodeInsertion<D, Shape>::changeSurface(const SimplexMesh<D>& mesh, Index p,
       {
         return this->patch != o.patch ? this->patch < o.patch : this->edge < o.edge;
       }
-      bool operator==(const Side& o) const { return this->patch == o.patch && this->edge == o.edge; }
+      bool operator==(const Side& o) const
+      {
+        return this->patch == o.patch && this->edge == o.edge;
+      }
     };
     std::vector<Side> sides;
     for (const auto& o : this->cavity_.opened())

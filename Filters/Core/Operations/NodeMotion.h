@@ -59,8 +59,7 @@ private:
   /// Nodes on curves are those of BoundaryChange.
   bool mayMove(const Judge<D, Shape>& judge, Index v) const
   {
-    return judge.mesh().isFree(v) ||
-      (judge.slides() && judge.mesh().freedom(v) == Freedom::Patch);
+    return judge.mesh().isFree(v) || (judge.slides() && judge.mesh().freedom(v) == Freedom::Patch);
   }
 
   bool move(Judge<D, Shape>& judge, Index v)
@@ -128,8 +127,8 @@ private:
     const Vec<D> from = judge.mesh().point(v);
     Vec<D> to = from;
     this->problem_.restrict(directions);
-    const bool mayGain =
-      this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) > required;
+    const bool mayGain = this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) >
+      required;
     double part = 1.0;
     bool done = false;
     for (int k = 0; k < tries && mayGain && !done; ++k, part *= 0.5)

@@ -211,7 +211,8 @@ private:
     {
       if (this->values_[k] < limit)
       {
-        this->active_.push_back({ this->values_[k], this->directions_.along(this->gradient(k, x)) });
+        this->active_.push_back(
+          { this->values_[k], this->directions_.along(this->gradient(k, x)) });
       }
     }
   }

@@ -105,8 +105,8 @@ void BoundaryCurves::build(
     {
       parameters.push_back(curve.parameter(k));
     }
-    this->addPiece(editor, chain, static_cast<Index>(this->curves_.size()), parameters);
     this->curves_.push_back(curve);
+    this->addPiece(editor, chain, static_cast<Index>(this->curves_.size()) - 1, parameters);
   }
   this->pieces_.join();
 }
@@ -183,7 +183,8 @@ void BoundaryCurves::addPiece(
   }
   else
   {
-    piece.period = this->curves_[curve].length();
+    const PlaneCurve& along = this->curves_[curve];
+    piece.period = along.isClosed() ? along.length() : 0.0;
   }
   const std::size_t first = chain.isClosed ? 0 : 1;
   for (std::size_t k = first; k + first < chain.points.size(); ++k)

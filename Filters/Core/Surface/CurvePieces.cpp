@@ -34,8 +34,7 @@ void CurvePieces::join()
   }
 }
 
-std::optional<Span> CurvePieces::span(
-  Index a, const Place& pa, Index b, const Place& pb) const
+std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const Place& pb) const
 {
   if (pa.part == None && pb.part == None)
   {

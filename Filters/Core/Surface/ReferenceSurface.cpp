@@ -306,8 +306,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
   return result;
 }
 
-bool ReferenceSurface::covers(
-  const std::vector<Piece>& gone, const std::vector<Piece>& come) const
+bool ReferenceSurface::covers(const std::vector<Piece>& gone, const std::vector<Piece>& come) const
 {
   Box box;
   for (const auto* pieces : { &gone, &come })

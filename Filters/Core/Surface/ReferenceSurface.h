@@ -55,7 +55,6 @@ public:
   /// The greatest height of the facet over the reference of its patch, counted as in covers().
   double height(const Piece& piece) const;
 
-
 private:
   struct Facet
   {
@@ -74,8 +73,7 @@ private:
   using Box = Eigen::AlignedBox<double, 3>;
 
   Heights heights(const Facet& r, const Piece& piece) const;
-  bool covers(
-    const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come) const;
+  bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come) const;
   double room(const Facet& f, std::vector<int>& near) const;
   /// `patch`: None for all.
   void findNear(const Box& box, Index patch, std::vector<int>& found) const;

@@ -178,8 +178,8 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
     basis[1] = this->patches_[place.part].basis[1];
     return 2;
   }
-  // Where facets bend, the first direction is the one along which they bend least, such as that of a
-  // ridge.
+  // Where facets bend, the first direction is the one along which they bend least, such as that of
+  // a ridge.
   Vec<3> normal = Vec<3>::Zero();
   Tensor<3> bends = Tensor<3>::Zero();
   for (Index c : star)
@@ -356,9 +356,7 @@ bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
   return (n.dot(patch.plane.normal) > 0.0 || !patch.isSigned) &&
     std::all_of(piece.x.begin(), piece.x.end(),
       [&](const Vec<3>& x)
-      {
-        return std::fabs(patch.plane.normal.dot(x - patch.plane.origin)) <= this->tolerance_;
-      });
+      { return std::fabs(patch.plane.normal.dot(x - patch.plane.origin)) <= this->tolerance_; });
 }
 
 bool SlidingSurface::allows(const SurfaceChange<3>& change) const

@@ -57,8 +57,8 @@ public:
   bool mayDivide(
     const SimplexMesh<3>& mesh, const std::vector<Index>& cells, Index a, Index b) const override;
   bool maySwap(const SimplexMesh<3>& mesh, Index patch, Index other) const override;
-  bool mayJoin(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u)
-    const override;
+  bool mayJoin(
+    const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const override;
   bool judgesChanges() const override { return true; }
   bool allows(const SurfaceChange<3>& change) const override;
   /// Inside a patch, up to the feature angle. At a curve that is sharp, from half of it on.
@@ -68,7 +68,7 @@ public:
 private:
   struct Patch
   {
-    Index region = 0;     ///< facets are ordered as seen from outside of it
+    Index region = 0; ///< facets are ordered as seen from outside of it
     Index label = None;
     bool isSigned = true; ///< the other side has another region, or none
     SurfaceDivision::Plane plane;
@@ -82,7 +82,7 @@ private:
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
 
   std::vector<Patch> patches_;
-  std::vector<SpaceCurve> curves_; ///< of the pieces with the same numbers
+  std::vector<SpaceCurve> curves_;    ///< of the pieces with the same numbers
   std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
   CurvePieces pieces_;
   ReferenceSurface reference_;

@@ -23,8 +23,7 @@ SpaceCurve::SpaceCurve(std::vector<Vec<3>> points, bool isClosed)
   this->knots_.assign(1, 0.0);
   for (std::size_t k = 1; k < this->points_.size(); ++k)
   {
-    this->knots_.push_back(
-      this->knots_.back() + (this->points_[k] - this->points_[k - 1]).norm());
+    this->knots_.push_back(this->knots_.back() + (this->points_[k] - this->points_[k - 1]).norm());
   }
 }
 
@@ -133,7 +132,8 @@ double SpaceCurve::deviation(double from, double to) const
     }
     const Vec<3> d = this->points_[k] - a;
     const double t = d.dot(chord) / l;
-    if (!(t >= last - slack && t <= l + slack)) // it turns back: the chord may then be far from the curve
+    if (!(t >= last - slack &&
+          t <= l + slack)) // it turns back: the chord may then be far from the curve
     {
       return std::numeric_limits<double>::infinity();
     }

@@ -29,9 +29,8 @@ bool runsForwards(const Facet<3>& f, Index a, Index b)
 
 Index thirdNode(const Facet<3>& f, const std::array<Index, 2>& edge)
 {
-  return f[0] != edge[0] && f[0] != edge[1]
-    ? f[0]
-    : (f[1] != edge[0] && f[1] != edge[1] ? f[1] : f[2]);
+  return f[0] != edge[0] && f[0] != edge[1] ? f[0]
+                                            : (f[1] != edge[0] && f[1] != edge[1] ? f[1] : f[2]);
 }
 
 template <class T>
@@ -75,7 +74,8 @@ void SurfaceDivision::measure()
     return;
   }
   this->diagonal = box.diagonal().norm();
-  const double greatest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  const double greatest = std::max(
+    box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   this->isExact = this->tolerance < ExactBelow * this->diagonal;
   this->rounding = Ulps * std::numeric_limits<double>::epsilon() * greatest;
   this->tolerance = std::max(this->tolerance, this->rounding);
@@ -268,8 +268,8 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
   }
 }
 
-/// Collects in filled_ the parts that hang together with the seed and belong to no patch; of `plane`
-/// (null: any) only those that lie in it. Sides that could be either are chosen alike.
+/// Collects in filled_ the parts that hang together with the seed and belong to no patch; if
+/// `plane` is given, only those that lie in it. Sides that could be either are chosen alike.
 void SurfaceDivision::fill(Index seed, const Plane* plane)
 {
   const auto isIn = [&](const Part& part)

@@ -52,7 +52,7 @@ struct SurfaceDivision
     Index region = 0;    ///< of that cell
     Index other = None;  ///< region on the other side; None: outside
     Index label = None;
-    Index patch = None;  ///< None: it stays as it is
+    Index patch = None; ///< None: it stays as it is
     bool isLocked = false;
   };
   /// Points from corner to corner, or of a closed curve.
@@ -114,8 +114,8 @@ private:
   std::vector<Edge> edges_;
   std::vector<Index> incidences_;             // parts at the edges
   std::vector<std::array<Index, 3>> edgesOf_; // of each part: opposite to its nodes
-  std::vector<Index> filled_;           // by fill()
-  std::vector<std::uint8_t> isCorner_; // of each point: a line leaves the surface there
+  std::vector<Index> filled_;                 // by fill()
+  std::vector<std::uint8_t> isCorner_;        // of each point: a line leaves the surface there
 };
 }
 

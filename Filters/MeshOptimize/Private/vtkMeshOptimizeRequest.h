@@ -36,11 +36,11 @@ struct Request
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   double OptimizeBelow = 0.0; ///< only cells under it, and layers around them, may change; 0: all
   int NumberOfLayers = 0;
-  bool Slide = false; ///< the boundary may be remeshed along its curves
-  meshopt::CurveOptions Curves;    ///< of triangles
-  meshopt::SurfaceOptions Surface; ///< of tetrahedra
+  bool Slide = false;               ///< the boundary may be remeshed along its curves
+  meshopt::CurveOptions Curves;     ///< of triangles
+  meshopt::SurfaceOptions Surface;  ///< of tetrahedra
   bool ToleranceIsAbsolute = false; ///< Surface.tolerance is a length, not a fraction
-  vtkPolyData* Geometry = nullptr; ///< source of the curves; nullptr: the mesh itself
+  vtkPolyData* Geometry = nullptr;  ///< source of the curves; nullptr: the mesh itself
 
   /// Whether sizes are used: in the quality, or because the boundary follows them.
   bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }
@@ -66,9 +66,9 @@ struct Outcome
   double Seconds = 0.0;
   double SurfaceDistance = 0.0;    ///< proved, between the surface of before and that of after
   bool HasSurfaceDistance = false; ///< a surface of tetrahedra took part
-  meshopt::EdgeLengths Lengths; ///< at the end; no edges if neither sizes nor a metric are given
-  std::string Sizes;            ///< information for the user about the wanted sizes, or empty
-  std::string Overlap;          ///< about cells of the input that overlap, or empty
+  meshopt::EdgeLengths Lengths;    ///< at the end; no edges if neither sizes nor a metric are given
+  std::string Sizes;               ///< information for the user about the wanted sizes, or empty
+  std::string Overlap;             ///< about cells of the input that overlap, or empty
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
   /// Adds another grid's outcome: minima, means by number of cells, sums, the strongest stop

@@ -32,8 +32,8 @@ using Riding = std::vector<std::pair<Facet<3>, vtkIdType>>;
 
 Facet<3> KeyOf(const vtkIdType* ids)
 {
-  return meshopt::sortedIds(Facet<3>{
-    static_cast<Index>(ids[0]), static_cast<Index>(ids[1]), static_cast<Index>(ids[2]) });
+  return meshopt::sortedIds(
+    Facet<3>{ static_cast<Index>(ids[0]), static_cast<Index>(ids[1]), static_cast<Index>(ids[2]) });
 }
 
 bool LessKey(const std::pair<Facet<3>, vtkIdType>& entry, const Facet<3>& key)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Triangles of the grid that are faces of its tetrahedra: where the surface slides, they ride on it.
+ * Triangles of the grid that are faces of its tetrahedra: where the surface slides, they ride on
+ * it.
  */
 #ifndef vtkMeshOptimizeRiding_h
 #define vtkMeshOptimizeRiding_h

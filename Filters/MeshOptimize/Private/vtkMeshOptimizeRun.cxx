@@ -4,7 +4,6 @@
 #include "vtkMeshBridgeCells.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeFrame.h"
-#include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeExport.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeImport.h"
@@ -12,6 +11,7 @@
 #include "vtkMeshOptimizeQuality.h"
 #include "vtkMeshOptimizeRiding.h"
 #include "vtkMeshOptimizeSizes.h"
+#include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeTangle.h"
 #include "vtkMeshOptimizeTransfer.h"
 #include "vtkMeshOptimizeZone.h"
@@ -34,14 +34,14 @@ namespace
 {
 
 template <int D>
-void Optimize(
-  const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model, Outcome& outcome)
+void Optimize(const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model,
+  Outcome& outcome)
 {
   const auto start = std::chrono::steady_clock::now();
   const double areaBefore = D == 2 ? model.Mesh.volume() : 0.0;
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
-  outcome.Report = meshopt::optimize(
-    model.Mesh, model.Metric, request.OptionsNow(), request.Control, request.Slide ? &surface : nullptr);
+  outcome.Report = meshopt::optimize(model.Mesh, model.Metric, request.OptionsNow(),
+    request.Control, request.Slide ? &surface : nullptr);
   outcome.NumberOfCells = model.Mesh.countCells();
   outcome.Sizes = Joined(DescribeSizes(outcome.Report, request),
     D == 2 ? DescribeArea(areaBefore, model.Mesh.volume(), request) : "");
@@ -62,8 +62,8 @@ void Optimize(
  * fit to the rest any more. Then its points are only moved, which always fits.
  */
 template <int D>
-void OptimizeZone(
-  const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model, Outcome& outcome)
+void OptimizeZone(const Request& request, const typename SurfaceOf<D>::type& surface,
+  Model<D>& model, Outcome& outcome)
 {
   std::vector<meshopt::Simplex<D>> others;
   const LeftOut rest = RestrictToZone(request, model, others);
@@ -135,8 +135,7 @@ Model<D> StartModel(vtkUnstructuredGrid* input, const InputArrays& arrays,
  * Completes a model that has been started, and makes what its boundary slides along.
  */
 template <int D>
-std::string MakeModel(
-  const Request& request, Model<D>& model, typename SurfaceOf<D>::type& surface)
+std::string MakeModel(const Request& request, Model<D>& model, typename SurfaceOf<D>::type& surface)
 {
   if (request.Slide)
   {

@@ -375,7 +375,8 @@ std::string BuildSurface(const Request& request, Model<3>& model, meshopt::Slidi
   }
   if (request.Geometry)
   {
-    return "The geometry on input port 1 is for triangles in a plane; tetrahedra slide on their own "
+    return "The geometry on input port 1 is for triangles in a plane; tetrahedra slide on their "
+           "own "
            "surface.";
   }
   if (!model.Metric.isTrivial() || request.Options.beta > 0.0 ||

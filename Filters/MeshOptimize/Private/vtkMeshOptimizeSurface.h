@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What the boundary slides along. Of triangles: curves, from the options, the mesh, and the geometry
- * of the second input. Of tetrahedra: patches and curves of their own surface.
+ * What the boundary slides along. Of triangles: curves, from the options, the mesh, and the
+ * geometry of the second input. Of tetrahedra: patches and curves of their own surface.
  */
 #ifndef vtkMeshOptimizeSurface_h
 #define vtkMeshOptimizeSurface_h

@@ -112,8 +112,7 @@ TEST(ReferenceSurface, ABumpIsNotCutOff)
 {
   // From after to before all is well; from before to after the tip is lost.
   const auto bump = sheet(10,
-    [](double u, double v)
-    { return std::max(0.0, 0.03 - 0.3 * std::hypot(u - 0.5, v - 0.5)); });
+    [](double u, double v) { return std::max(0.0, 0.03 - 0.3 * std::hypot(u - 0.5, v - 0.5)); });
   const auto flat = sheet(10, [](double, double) { return 0.0; });
   EXPECT_FALSE(reference(bump, 0.01).covers(bump, flat));
   EXPECT_TRUE(reference(bump, 0.04).covers(bump, flat));
@@ -150,11 +149,11 @@ TEST(ReferenceSurface, AThinWallKeepsItsThickness)
     wall.push_back(back);
   }
   const ReferenceSurface surface = reference(wall, 0.1);
-  const auto pressed = sheet(6, [&](double u, double v)
-    { return 0.02 * std::sin(6 * u) * std::sin(6 * v) - 0.9 * thickness; });
+  const auto pressed = sheet(6,
+    [&](double u, double v) { return 0.02 * std::sin(6 * u) * std::sin(6 * v) - 0.9 * thickness; });
   EXPECT_FALSE(surface.covers(front, pressed));
-  const auto little = sheet(6, [&](double u, double v)
-    { return 0.02 * std::sin(6 * u) * std::sin(6 * v) - 0.1 * thickness; });
+  const auto little = sheet(6,
+    [&](double u, double v) { return 0.02 * std::sin(6 * u) * std::sin(6 * v) - 0.1 * thickness; });
   EXPECT_TRUE(surface.covers(front, little));
 }
 

@@ -20,7 +20,8 @@ Outcome optimized(const MeshInput<3>& in, double tolerance, bool slides = true, 
   Effort effort = Effort::Default)
 {
   Outcome outcome;
-  Sliding made(in, [&]
+  Sliding made(in,
+    [&]
     {
       SurfaceOptions options;
       options.tolerance = tolerance;

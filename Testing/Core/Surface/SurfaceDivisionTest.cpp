@@ -118,8 +118,8 @@ TEST(SurfaceDivision, WhatTheCallerMarksStays)
     for (int i = 0; i < 4; ++i)
     {
       const Facet<3> f = locked.mesh.facet(c, i);
-      const bool isFloor = std::all_of(f.begin(), f.end(),
-        [&](Index p) { return locked.mesh.point(p)[2] == 0.0; });
+      const bool isFloor = std::all_of(
+        f.begin(), f.end(), [&](Index p) { return locked.mesh.point(p)[2] == 0.0; });
       if (locked.mesh.isConstrained(c, i))
       {
         EXPECT_EQ(locked.mesh.patch(c, i) == None, isFloor);
