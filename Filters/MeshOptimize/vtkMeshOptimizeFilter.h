@@ -489,9 +489,9 @@ public:
    * most the tolerance. 0 otherwise. It is also in the field data. EdgeLengthShare: the fraction of
    * edges in the output that are 1/sqrt(2) to sqrt(2) times as long as wanted at their place, in
    * the metric if there is one; 0 if neither a size nor a metric was given. It is also in the field
-   * data of the output, as is the histogram `EdgeLengthHistogram`. NumberOfOperations: of all kinds together. OptimizeSeconds:
-   * time in the optimizer, without import and export. It is in no output array: outputs are the
-   * same bit for bit.
+   * data of the output, as is the histogram `EdgeLengthHistogram`. NumberOfOperations: of all kinds
+   * together. OptimizeSeconds: time in the optimizer, without import and export. It is in no output
+   * array: outputs are the same bit for bit.
    */
   vtkGetMacro(EdgeLengthShare, double);
   vtkGetMacro(SurfaceDistance, double);

@@ -56,7 +56,7 @@ public:
   static void findAllSeeds(const Judge<D, Shape>& judge, Index t, std::vector<Seed>& seeds);
 
   /// Finds the cavity of point p (which no cell uses yet) if it starts at the seed, then moves it
-  /// to its best place, which is returned in the seed. If `needsGain` and there is no gain, a second
+  /// to its best place, which is returned in the seed. If `needsGain` and there is no gain, another
   /// round starts at the new place. Returns the worst quality of the new cells; Never if there is
   /// no cavity. Call it within a transaction.
   double find(Judge<D, Shape>& judge, Index t, Index p, Seed& seed, bool needsGain);

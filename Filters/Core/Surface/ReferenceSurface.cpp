@@ -380,6 +380,15 @@ double ReferenceSurface::height(const Piece& piece) const
   box = Box(box.min() - margin, box.max() + margin);
   std::vector<int> near;
   this->findNear(box, piece.patch, near);
+  const auto isSame = [&](int k)
+  {
+    return std::is_permutation(
+      piece.x.begin(), piece.x.end(), this->facets_[k].x.begin(), this->facets_[k].x.end());
+  };
+  if (std::any_of(near.begin(), near.end(), isSame))
+  {
+    return 0.0; // it has not changed
+  }
   double most = 0.0;
   for (int k : near)
   {

@@ -91,6 +91,8 @@ private:
     bool isCurve, isSharp;
   };
 
+  /// Half the width of the slab in which lies what is flat.
+  double slab() const { return 0.5 * this->tolerance; }
   void measure();
   void collectParts(const SurfaceOptions& options);
   void lockTwins();

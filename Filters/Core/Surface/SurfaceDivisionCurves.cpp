@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The second half of SurfaceDivision: corners, and the curves between them.
+#include "Mesh/Ids.h"
+#include "Surface/SurfaceDivision.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace meshopt
+{
+/// The patches that the edge separates.
+std::vector<Index> SurfaceDivision::signature(Index edge) const
+{
+  std::vector<Index> patches;
+  for (std::size_t i = this->edges_[edge].first; i < this->edges_[edge].last; ++i)
+  {
+    patches.push_back(this->parts[this->incidences_[i]].patch);
+  }
+  std::sort(patches.begin(), patches.end());
+  return patches;
+}
+
+/// Whether the surface touches itself at point p. `around`: its parts; `curves`: its edges on
+/// curves, none or two. There must be one fan of facets around a point of a patch, and one from
+/// curve to curve for each facet at a curve.
+bool SurfaceDivision::isPinched(
+  Index p, const std::vector<Index>& around, const std::vector<Index>& curves) const
+{
+  std::vector<char> seen(around.size(), 0);
+  std::size_t fans = 0;
+  for (std::size_t first = 0; first < around.size(); ++first)
+  {
+    if (seen[first])
+    {
+      continue;
+    }
+    ++fans;
+    std::vector<std::size_t> front{ first };
+    std::vector<Index> ends; // curves that the fan meets
+    seen[first] = 1;
+    while (!front.empty())
+    {
+      const Index part = around[front.back()];
+      front.pop_back();
+      for (Index e : this->edgesOf_[part])
+      {
+        const Edge& edge = this->edges_[e];
+        if (!hasId(edge.nodes, p))
+        {
+          continue;
+        }
+        if (edge.isCurve)
+        {
+          ends.push_back(e);
+          continue;
+        }
+        for (std::size_t i = edge.first; i < edge.last; ++i)
+        {
+          const auto k = static_cast<std::size_t>(
+            std::find(around.begin(), around.end(), this->incidences_[i]) - around.begin());
+          if (!seen[k])
+          {
+            seen[k] = 1;
+            front.push_back(k);
+          }
+        }
+      }
+    }
+    if (ends.size() != curves.size() || (ends.size() == 2 && ends[0] == ends[1]))
+    {
+      return true;
+    }
+  }
+  return curves.empty() && fans != 1;
+}
+
+void SurfaceDivision::findCorners(const SurfaceOptions& options)
+{
+  const Index n = this->mesh_.numberOfPointSlots();
+  this->freedom.assign(n, Freedom::Free);
+  this->patchOfPoint.assign(n, None);
+  // Parts and curves at each point, as one list each, sorted by point.
+  std::vector<std::array<Index, 2>> partsAt, curvesAt;
+  for (std::size_t k = 0; k < this->parts.size(); ++k)
+  {
+    for (Index p : this->parts[k].nodes)
+    {
+      partsAt.push_back({ p, static_cast<Index>(k) });
+    }
+  }
+  for (std::size_t e = 0; e < this->edges_.size(); ++e)
+  {
+    for (Index p : this->edges_[e].nodes)
+    {
+      if (this->edges_[e].isCurve)
+      {
+        curvesAt.push_back({ p, static_cast<Index>(e) });
+      }
+    }
+  }
+  std::sort(partsAt.begin(), partsAt.end());
+  std::sort(curvesAt.begin(), curvesAt.end());
+  std::size_t i = 0, j = 0;
+  std::vector<Index> around, curves;
+  while (i < partsAt.size())
+  {
+    const Index p = partsAt[i][0];
+    around.clear();
+    curves.clear();
+    for (; i < partsAt.size() && partsAt[i][0] == p; ++i)
+    {
+      around.push_back(partsAt[i][1]);
+    }
+    for (; j < curvesAt.size() && curvesAt[j][0] == p; ++j)
+    {
+      curves.push_back(curvesAt[j][1]);
+    }
+    const bool isMarked = this->isCorner_[p] ||
+      (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) ||
+      (!options.corners.empty() && options.corners[p]);
+    const bool isLocked = std::any_of(
+      around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
+    this->freedom[p] = Freedom::Fixed;
+    if (isMarked || isLocked || (curves.size() != 0 && curves.size() != 2) ||
+      this->isPinched(p, around, curves))
+    {
+      continue;
+    }
+    if (curves.empty())
+    {
+      this->freedom[p] = Freedom::Patch;
+      this->patchOfPoint[p] = this->parts[around[0]].patch;
+    }
+    else if (this->signature(curves[0]) == this->signature(curves[1]) &&
+      !this->turns(p, curves, options.cornerAngle))
+    {
+      this->freedom[p] = Freedom::Curve;
+    }
+  }
+}
+
+/// Whether the curve turns sharply at p.
+bool SurfaceDivision::turns(Index p, const std::vector<Index>& curves, double angle) const
+{
+  Vec<3> d[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    const std::array<Index, 2>& e = this->edges_[curves[k]].nodes;
+    d[k] = this->mesh_.point(e[0] == p ? e[1] : e[0]) - this->mesh_.point(p);
+  }
+  return -d[0].dot(d[1]) < cosine(std::min(angle, 90.0)) * d[0].norm() * d[1].norm();
+}
+
+/// From each corner along the curves to the next; then what is left, which is closed.
+void SurfaceDivision::findChains()
+{
+  std::vector<std::array<Index, 2>> ends; // point, edge
+  for (std::size_t e = 0; e < this->edges_.size(); ++e)
+  {
+    if (this->edges_[e].isCurve)
+    {
+      ends.push_back({ this->edges_[e].nodes[0], static_cast<Index>(e) });
+      ends.push_back({ this->edges_[e].nodes[1], static_cast<Index>(e) });
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<char> used(this->edges_.size(), 0);
+  const auto follow = [&](Index p, Index e)
+  {
+    Chain chain;
+    chain.points.push_back(p);
+    while (true)
+    {
+      used[e] = 1;
+      chain.isSharp = chain.isSharp && this->edges_[e].isSharp;
+      const std::array<Index, 2>& nodes = this->edges_[e].nodes;
+      p = nodes[0] == p ? nodes[1] : nodes[0];
+      chain.isClosed = p == chain.points[0] && this->freedom[p] == Freedom::Curve;
+      if (chain.isClosed)
+      {
+        break;
+      }
+      chain.points.push_back(p);
+      if (this->freedom[p] != Freedom::Curve)
+      {
+        break;
+      }
+      auto next = std::lower_bound(ends.begin(), ends.end(), std::array<Index, 2>{ p, 0 });
+      e = (*next)[1] == e ? (*(next + 1))[1] : (*next)[1];
+    }
+    this->chains.push_back(chain);
+  };
+  for (const bool fromCorners : { true, false })
+  {
+    for (const auto& [p, e] : ends)
+    {
+      if (!used[e] && (this->freedom[p] != Freedom::Curve) == fromCorners)
+      {
+        follow(p, e);
+      }
+    }
+  }
+  if (this->isExact)
+  {
+    this->straighten();
+  }
+}
+
+/// Divides the chains into straight ones. Where they turn, their points become corners.
+void SurfaceDivision::straighten()
+{
+  std::vector<Chain> straight;
+  const auto isStraight = [&](const std::vector<Index>& points, std::size_t from, std::size_t to)
+  {
+    const Vec<3>& a = this->mesh_.point(points[from]);
+    const Vec<3> along = this->mesh_.point(points[to]) - a;
+    const double l = along.norm();
+    double last = 0.0;
+    for (std::size_t k = from + 1; k < to; ++k)
+    {
+      const Vec<3> d = this->mesh_.point(points[k]) - a;
+      const double t = d.dot(along) / l;
+      if (!(t > last && t < l) || (d - along * (t / l)).norm() > this->slab())
+      {
+        return false;
+      }
+      last = t;
+    }
+    return l > 0.0;
+  };
+  for (Chain& chain : this->chains)
+  {
+    if (chain.isClosed)
+    {
+      // It begins where it turns: no straight chain then contains its first point.
+      const std::size_t n = chain.points.size();
+      std::size_t first = 0;
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        const std::vector<Index> three{ chain.points[(k + n - 1) % n], chain.points[k],
+          chain.points[(k + 1) % n] };
+        if (!isStraight(three, 0, 2))
+        {
+          first = k;
+          break;
+        }
+      }
+      std::rotate(chain.points.begin(), chain.points.begin() + first, chain.points.end());
+      chain.points.push_back(Index(chain.points[0]));
+    }
+    for (std::size_t from = 0; from + 1 < chain.points.size();)
+    {
+      std::size_t to = from + 1;
+      while (to + 1 < chain.points.size() && isStraight(chain.points, from, to + 1))
+      {
+        ++to;
+      }
+      Chain piece;
+      piece.isSharp = chain.isSharp;
+      piece.points.assign(chain.points.begin() + from, chain.points.begin() + to + 1);
+      this->freedom[piece.points.front()] = this->freedom[piece.points.back()] = Freedom::Fixed;
+      straight.push_back(piece);
+      from = to;
+    }
+  }
+  this->chains.swap(straight);
+}
+}
