@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The example of a surface that takes part, as a user runs it: what it reaches, and that the surface is the same set of points."""
+import os
+import runpy
+import sys
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+from paraview_case import OUTPUT, check, load_plugin
+
+load_plugin()
+source = os.environ["MESHOPTIMIZE_SOURCE"]
+path = os.path.join(OUTPUT, "slide_surface.vtu")
+example = os.path.join(source, "ParaViewPlugin", "Examples", "slide_surface.py")
+pellet = os.path.join(source, "Data", "crack40.vtu")
+sys.argv = [example, pellet, path]
+names = runpy.run_path(example)
+kept, slid = names["kept"], names["slid"]
+check(kept.WorstQualityAfter < 0.4, "with this surface nothing better is possible", kept.WorstQualityAfter)
+check(slid.WorstQualityAfter >= 0.6, "with the surface taking part", slid.WorstQualityAfter)
+check(0 < slid.SurfaceDistance < 1e-15, "the surface stays", slid.SurfaceDistance)
+
+
+def read(name):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(name)
+    reader.Update()
+    grid = reader.GetOutput()
+    tetrahedra = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    return grid, vtk_to_numpy(grid.GetPoints().GetData()).astype(float), tetrahedra
+
+
+def measures(points, tetrahedra):
+    """The volume, and the area of the facets that one tetrahedron has."""
+    faces = np.sort(np.concatenate([np.delete(tetrahedra, i, axis=1) for i in range(4)]), axis=1)
+    unique, count = np.unique(faces, axis=0, return_counts=True)
+    t, x = points[unique[count == 1]], points[tetrahedra]
+    area = 0.5 * np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum()
+    return np.einsum("ij,ij->i", np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), x[:, 3] - x[:, 0]).sum() / 6, area
+
+
+(_, before, cells_before), (after_grid, after, cells_after) = read(pellet), read(path)
+(volume, area), (new_volume, new_area) = measures(before, cells_before), measures(after, cells_after)
+check(abs(new_volume / volume - 1) < 1e-13 and abs(new_area / area - 1) < 1e-13, "volume and area", new_volume / volume, new_area / area)
+places = vtk_to_numpy(after_grid.GetPointData().GetArray("BoundaryPlace"))
+check(set(np.unique(places)) == {0, 1, 2, 3}, "places", np.bincount(places))
