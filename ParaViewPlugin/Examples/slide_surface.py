@@ -29,8 +29,8 @@ if len(sys.argv) > 3:
         body = Show(source, view)  # translucent, with the bad elements inside
         body.SetRepresentationType("Surface")
         body.Opacity = 0.15
-        ColorBy(body, None)
-        bad = Threshold(Input=source, Scalars=["CELLS", "MeshQuality"], UpperThreshold=0.59, ThresholdMethod="Below Upper Threshold")
+        body.ColorArrayName = ["POINTS", ""]
+        bad = Threshold(Input=source, Scalars=["CELLS", "MeshQuality"], LowerThreshold=0.61, ThresholdMethod="Below Lower Threshold")
         display = Show(bad, view)
         display.SetRepresentationType("Surface With Edges")
         ColorBy(display, ("CELLS", "MeshQuality"))
