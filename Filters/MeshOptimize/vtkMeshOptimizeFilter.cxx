@@ -307,6 +307,11 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
   {
     return "OptimizeBelow, the quality under which cells may change, must be a number.";
   }
+  if (!(request.Surface.tolerance >= 0.0) || !(request.Surface.featureAngle >= 0.0) ||
+    !(request.Surface.cornerAngle >= 0.0))
+  {
+    return "SurfaceTolerance, FeatureAngle and CornerAngle must be numbers.";
+  }
   if (request.Slide && request.OptimizeBelow > 0.0)
   {
     return "The boundary mode Slide works on the whole mesh; it cannot be used with OptimizeBelow.";

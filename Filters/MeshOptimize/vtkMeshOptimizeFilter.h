@@ -366,7 +366,7 @@ public:
   /**
    * For BoundaryMode Slide with tetrahedra: how far the surface and what it becomes may be from
    * each other, both ways. A fraction of the diagonal of the bounding box of all tetrahedra, unless
-   * ToleranceIsAbsolute. Range >= 0, default 1e-3.
+   * ToleranceIsAbsolute. Range >= 0, default 1e-3; a tenth of the diagonal is the most that counts.
    *
    * With 0 the surface stays the same set of points, up to rounding (8 units in the last place of
    * the greatest coordinate): nodes slide in flat parts and along straight edges only. Below 1e-6

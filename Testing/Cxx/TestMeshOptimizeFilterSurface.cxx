@@ -192,6 +192,17 @@ TEST(MeshOptimizeFilterSurface, TheToleranceIsAFractionUnlessAbsolute)
   EXPECT_GE(fraction->GetWorstQualityAfter(), strict->GetWorstQualityAfter());
 }
 
+TEST(MeshOptimizeFilterSurface, AGreatToleranceIsLimited)
+{
+  Grid grid = MakeBadBox(4, 0.3);
+  Sliding filter(std::numeric_limits<double>::infinity());
+  filter->SetInputData(grid);
+  filter->Update();
+  EXPECT_LE(filter->GetSurfaceDistance(), 0.1 * std::sqrt(3.0));
+  EXPECT_GE(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore());
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
+}
+
 TEST(MeshOptimizeFilterSurface, TrianglesRideOnIt)
 {
   Grid grid = MakeBadBox(6, 0.0);
@@ -375,6 +386,11 @@ TEST(MeshOptimizeFilterSurface, WhatItCannotDoIsAnError)
   expect(
     { "geometry", "triangles" },
     [](vtkMeshOptimizeFilter* f) { f->SetGeometryData(vtkSmartPointer<vtkPolyData>::New()); }, box);
+  expect(
+    { "SurfaceTolerance" },
+    [](vtkMeshOptimizeFilter* f)
+    { f->SetSurfaceTolerance(std::numeric_limits<double>::quiet_NaN()); },
+    box);
   expect(
     { "None here" }, [](vtkMeshOptimizeFilter* f) { f->SetPatchArray("None here"); }, box);
   Grid metric = MakeBox(2, 0.1);

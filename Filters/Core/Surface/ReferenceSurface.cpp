@@ -13,9 +13,9 @@ namespace
 {
 /// Of 75 degrees: facets turned farther cannot stand for one another.
 constexpr double LeastCosine = 0.2588;
-/// Facets that are not this high, in tolerances, have no normal worth the name. What lies on them
-/// is this near to their longest edge, which other facets have, too.
-constexpr double Needle = 0.1;
+/// Facets that are not this high, in tolerances and in their longest edge, have no normal worth the
+/// name. What lies on them is this near to that edge, which other facets have, too.
+constexpr double Needle = 0.1, NeedleShape = 0.05;
 /// What is left of the tolerance, beside needles and the sides of curves.
 constexpr double Share = 0.85;
 /// An overlay of less than this part of a facet's area is none.
@@ -258,6 +258,11 @@ void ReferenceSurface::findNear(const Box& box, Index patch, std::vector<int>& f
   }
 }
 
+bool ReferenceSurface::isNeedle(const Facet& r) const
+{
+  return r.q < Needle * this->tolerance_ && r.q < NeedleShape * r.l;
+}
+
 ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece& piece) const
 {
   Polygon polygon;
@@ -326,7 +331,7 @@ bool ReferenceSurface::covers(const std::vector<Piece>& gone, const std::vector<
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
-    if (!(r.q < Needle * this->tolerance_) && !this->covers(r, gone, come))
+    if (!this->isNeedle(r) && !this->covers(r, gone, come))
     {
       return false;
     }
@@ -393,7 +398,7 @@ double ReferenceSurface::height(const Piece& piece) const
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
-    if (r.q < Needle * this->tolerance_)
+    if (this->isNeedle(r))
     {
       continue;
     }

@@ -72,6 +72,7 @@ private:
   };
   using Box = Eigen::AlignedBox<double, 3>;
 
+  bool isNeedle(const Facet& r) const;
   Heights heights(const Facet& r, const Piece& piece) const;
   bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come) const;
   double room(const Facet& f, std::vector<int>& near) const;

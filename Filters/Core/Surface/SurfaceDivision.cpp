@@ -16,6 +16,8 @@ namespace
 {
 /// The least tolerance, in units in the last place of the greatest coordinate.
 constexpr double Ulps = 8.0;
+/// No tolerance is greater than this part of the diagonal.
+constexpr double Most = 0.1;
 /// Below this part of the diagonal, only what is flat can change at all.
 constexpr double ExactBelow = 1e-6;
 
@@ -76,7 +78,8 @@ void SurfaceDivision::measure()
     box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
   this->isExact = this->tolerance < ExactBelow * this->diagonal;
   this->rounding = Ulps * std::numeric_limits<double>::epsilon() * greatest;
-  this->tolerance = std::max(this->tolerance, this->rounding);
+  this->tolerance = std::clamp(
+    this->tolerance, this->rounding, std::max(this->rounding, Most * this->diagonal));
 }
 
 void SurfaceDivision::collectParts(const SurfaceOptions& options)

@@ -13,8 +13,8 @@ namespace meshopt
 {
 struct SurfaceOptions
 {
-  /// Length: how far the surface and what it becomes may be from each other, both ways. 0: the
-  /// surface stays the same set of points, up to rounding.
+  /// Length: how far the surface and what it becomes may be from each other, both ways; at most a
+  /// tenth of the diagonal counts. 0: the surface stays the same set of points, up to rounding.
   double tolerance = 0.0;
   /// Degrees. An edge whose two facets turn by more than this is part of a curve.
   double featureAngle = 45.0;
