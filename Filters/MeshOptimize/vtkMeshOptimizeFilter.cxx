@@ -286,16 +286,25 @@ std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
   return tasks;
 }
 
+std::vector<vtkUnstructuredGrid*> GridsOf(const std::vector<Task>& tasks)
+{
+  std::vector<vtkUnstructuredGrid*> grids;
+  for (const Task& task : tasks)
+  {
+    grids.push_back(task.Input);
+  }
+  return grids;
+}
+
 /**
  * Finds the arrays of all tasks. Returns a sentence about the first unusable part of the request.
  */
 std::string CheckRequest(const bridge::Request& request, std::vector<Task>& tasks)
 {
-  std::vector<vtkUnstructuredGrid*> grids;
+  const std::vector<vtkUnstructuredGrid*> grids = GridsOf(tasks);
   bool hasSizes = false;
   for (Task& task : tasks)
   {
-    grids.push_back(task.Input);
     const std::string error = bridge::FindInputArrays(request.Filter, task.Input, task.Arrays);
     if (!error.empty())
     {
@@ -352,12 +361,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   {
     return error;
   }
-  std::vector<vtkUnstructuredGrid*> grids;
-  for (const Task& task : tasks)
-  {
-    grids.push_back(task.Input);
-  }
-  const auto locked = bridge::PrepareSurface(request, grids);
+  const auto locked = bridge::PrepareSurface(request, GridsOf(tasks));
   bridge::StartHistory(ports.History, isComposite);
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {

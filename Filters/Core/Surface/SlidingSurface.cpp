@@ -32,7 +32,6 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   this->addCurves(editor, division);
   for (std::size_t p = 0; p < division.freedom.size(); ++p)
   {
-    this->corners_ += division.freedom[p] == Freedom::Fixed;
     if (division.freedom[p] == Freedom::Patch)
     {
       editor.setPlace(static_cast<Index>(p), { Freedom::Patch, division.patchOfPoint[p], 0.0 });

@@ -30,7 +30,6 @@ public:
 
   Index numberOfPatches() const { return static_cast<Index>(this->patches_.size()); }
   std::size_t numberOfCurves() const { return this->pieces_.size(); }
-  Index numberOfCorners() const { return this->corners_; }
   bool isExact() const { return this->isExact_; }
   double tolerance() const { return this->tolerance_; }
   /// Freedom of each point of the input; Free if it is not on the surface.
@@ -88,7 +87,6 @@ private:
   ReferenceSurface reference_;
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;
-  Index corners_ = 0;
   bool isExact_ = false;
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it
