@@ -307,7 +307,7 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
   // mesh.
   const Mark mark = this->begin();
   const bool slides = this->slides() &&
-    std::any_of(p.moves.begin(), p.moves.end(), [](const auto& m) { return m.place.part != None; });
+    std::any_of(p.moves.begin(), p.moves.end(), [](const auto& m) { return m.place.mayMove(); });
   if (slides)
   {
     this->changes_.beforeMoves(this->mesh(), p);
@@ -315,7 +315,7 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
   for (const auto& m : p.moves)
   {
     this->editor_->movePoint(m.point, m.x);
-    if (m.place.part != None)
+    if (m.place.mayMove())
     {
       this->editor_->setPlace(m.point, m.place);
     }

@@ -166,7 +166,7 @@ private:
   static bool slides(const Proposal<D>& p, Index q)
   {
     return std::any_of(p.moves.begin(), p.moves.end(),
-      [&](const auto& m) { return m.point == q && m.place.part != None; });
+      [&](const auto& m) { return m.point == q && m.place.mayMove(); });
   }
 
   /// Adds a facet, but only once: an interface has cells on both sides.

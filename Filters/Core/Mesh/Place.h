@@ -11,18 +11,22 @@ namespace meshopt
 /// What a point may do.
 enum class Freedom : std::uint8_t
 {
-  Free,  ///< anything: it is on no kept facet and no kept edge
-  Patch, ///< slide on a part of the surface, and vanish into a neighbour there (D = 3)
-  Curve, ///< slide along a curve of the surface, and vanish into a neighbour there
-  Fixed  ///< nothing: it neither moves nor vanishes
+  Free,   ///< anything: it is on no kept facet and no kept edge
+  Patch,  ///< slide on a part of the surface, and vanish into a neighbour there (D = 3)
+  Curve,  ///< slide along a curve of the surface, and vanish into a neighbour there
+  Corner, ///< stay near the corner that it was, as the tolerance allows (D = 3)
+  Fixed   ///< nothing: it neither moves nor vanishes
 };
 
 /// The place on the surface of a point that may slide. Surface points without a place are fixed.
 struct Place
 {
   Freedom freedom = Freedom::Fixed;
-  Index part = None;      ///< number of the curve or of the patch
-  double parameter = 0.0; ///< along the curve
+  /// Number of the curve or of the patch; of a corner, the point that was there.
+  Index part = None;
+  double parameter = 0.0; ///< along the curve; on a patch: the distance from it
+
+  bool mayMove() const { return this->freedom != Freedom::Fixed; }
 };
 }
 

@@ -23,6 +23,15 @@ public:
 
   bool improve(Judge<D, Shape>& judge, Index t, int)
   {
+    const bool done = this->move(judge, t, false) || (judge.slides() && this->move(judge, t, true));
+    judge.count(Operation::NodeMotion, done);
+    return done;
+  }
+
+private:
+  /// `leaves`: nodes of the surface may leave it, as far as the tolerance allows.
+  bool move(Judge<D, Shape>& judge, Index t, bool leaves)
+  {
     const SimplexMesh<D>& mesh = judge.mesh();
     const double old = mesh.quality(t);
     const auto mayMove = [&](Index p)
@@ -37,7 +46,11 @@ public:
       return false;
     }
     this->readMetrics(judge);
-    const bool slides = this->findDirections(judge);
+    const bool slides = this->findDirections(judge, leaves);
+    if (leaves && !slides)
+    {
+      return false; // tried already
+    }
     const double now = this->problem_.maximize(this->cluster_, judge.model().quality,
       this->metrics_, judge.enough(old), 0.5 * judge.gain(old));
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
@@ -51,8 +64,13 @@ public:
       {
         const Index p = this->cluster_.points[k];
         Vec<D> x = this->cluster_.x[k];
-        const Place place = mesh.isFree(p) ? Place()
-                                           : judge.surface()->project(mesh.place(p), x, x);
+        Place place;
+        if (!mesh.isFree(p))
+        {
+          place = leaves || mesh.freedom(p) == Freedom::Corner
+            ? judge.surface()->placeNear(mesh.place(p), x, x)
+            : judge.surface()->project(mesh.place(p), x, x);
+        }
         this->proposal_.moves.push_back({ p, x, place });
       }
       this->proposal_.oldWorst = old;
@@ -61,13 +79,11 @@ public:
       this->proposal_.newWorst = now;
       better = judge.accept(this->proposal_);
     }
-    judge.count(Operation::NodeMotion, better);
     return better;
   }
 
-private:
   /// The directions of the nodes that slide. False if there is none.
-  bool findDirections(Judge<D, Shape>& judge)
+  bool findDirections(Judge<D, Shape>& judge, bool leaves)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
     this->directions_.clear();
@@ -80,8 +96,9 @@ private:
       {
         judge.editor().star(p, this->star_);
         directions.basis[0].setZero(); // without a tangent it stays
-        directions.count = std::max(
-          1, judge.surface()->tangents(mesh, this->star_, p, directions.basis));
+        directions.count = leaves
+          ? 0 // anywhere
+          : std::max(1, judge.surface()->tangents(mesh, this->star_, p, directions.basis));
         slides = true;
       }
       this->directions_.push_back(directions);

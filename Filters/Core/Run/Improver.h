@@ -15,6 +15,7 @@
 #include "Operations/NodeRemoval.h"
 #include "Operations/Reconnect.h"
 #include "Operations/Retriangulation.h"
+#include "Operations/SurfaceMotion.h"
 
 #include <tuple>
 
@@ -29,7 +30,7 @@ namespace meshopt
 template <int D, class Shape>
 using OperationList = std::tuple<Reconnect<D, Shape>, NodeMotion<D, Shape>, NodeRemoval<D, Shape>,
   BoundaryChange<D, Shape>, ClusterMotion<D, Shape>, Retriangulation<D, Shape>,
-  NodeInsertion<D, Shape>, LookAhead<D, Shape>>;
+  NodeInsertion<D, Shape>, SurfaceMotion<D, Shape>, LookAhead<D, Shape>>;
 
 template <int D, class Shape>
 class Improver

@@ -386,7 +386,7 @@ bool BoundaryCurves::mayJoin(
   {
     return false;
   }
-  if (mesh.place(u).part == None && mesh.place(w).part == None)
+  if (mesh.freedom(u) != Freedom::Curve && mesh.freedom(w) != Freedom::Curve)
   {
     const auto between = this->span(mesh, u, w);
     return between && between->part == joined.part; // several pieces may join two corners

@@ -36,7 +36,8 @@ void CurvePieces::join()
 
 std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const Place& pb) const
 {
-  if (pa.part == None && pb.part == None)
+  const auto isOnCurve = [](const Place& place) { return place.freedom == Freedom::Curve; };
+  if (!isOnCurve(pa) && !isOnCurve(pb))
   {
     const auto found = this->betweenCorners_.find({ std::min(a, b), std::max(a, b) });
     if (found == this->betweenCorners_.end() || found->second == None)
@@ -47,17 +48,17 @@ std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const P
     const bool forward = piece.ends[0] == a;
     return Span{ found->second, piece.range[forward ? 0 : 1], piece.range[forward ? 1 : 0] };
   }
-  const Index k = pa.part != None ? pa.part : pb.part;
+  const Index k = isOnCurve(pa) ? pa.part : pb.part;
   const CurvePiece& piece = this->pieces_[k];
   // Parameter of p, as seen from the neighbour at s. A corner at both ends of the piece has two.
   const auto parameter = [&](Index p, const Place& place, double s) -> std::optional<double>
   {
-    if (place.part == k)
+    if (isOnCurve(place) && place.part == k)
     {
       return place.parameter;
     }
     const bool isFirst = piece.ends[0] == p, isLast = piece.ends[1] == p;
-    if (place.part != None || (!isFirst && !isLast))
+    if (isOnCurve(place) || (!isFirst && !isLast))
     {
       return std::nullopt;
     }

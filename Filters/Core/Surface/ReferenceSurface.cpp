@@ -17,7 +17,7 @@ constexpr double LeastCosine = 0.2588;
 /// name. What lies on them is this near to that edge, which other facets have, too.
 constexpr double Needle = 0.1, NeedleShape = 0.05;
 /// What is left of the tolerance, beside needles and the sides of curves.
-constexpr double Share = 0.85;
+constexpr double Share = 0.75;
 /// An overlay of less than this part of a facet's area is none.
 constexpr double Touch = 1e-10;
 /// How far to look for the reference, in tolerances.
@@ -229,6 +229,11 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
   }
   there = search.best;
   return search.facet;
+}
+
+double ReferenceSurface::tolerance(int facet) const
+{
+  return Share * this->facets_[facet].tolerance;
 }
 
 void ReferenceSurface::findNear(const Box& box, Index patch, std::vector<int>& found) const

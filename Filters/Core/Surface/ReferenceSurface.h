@@ -19,12 +19,12 @@ namespace meshopt
 /// The proof of distance. The normals of a facet R of the reference sweep out its prism, and the
 /// height of a point in the prism is its distance to R. Suppose that
 ///  - above each point of R there is a point of the mesh, of a height of at most the tolerance;
-///  - the nodes of the mesh lie on the reference;
+///  - the nodes of the mesh are within the tolerance of the reference;
 ///  - what the mesh has in any prism, nearer than twice the tolerance, is within the tolerance.
 /// Then every point of R is within the tolerance of the mesh; and every point of the mesh within
 /// that of the reference: those in prisms by their heights; those in the wedges between prisms,
 /// above edges and points of the reference, since a facet's part in a wedge is convex, its corners
-/// lie in the walls of prisms, and the distance to an edge or a point is a convex function.
+/// are nodes or lie in the walls of prisms, and the distance to an edge or a point is a convex function.
 ///
 /// A change replaces facets G by facets N with the same border. As seen along the normal of R, both
 /// cover the same points, if none of them is turned away. So it keeps the first condition if the
@@ -46,6 +46,9 @@ public:
   /// The point of the patch nearest to x. Returns the number of its facet, in the order of add();
   /// -1 if the patch has none.
   int project(Index patch, const Vec<3>& x, Vec<3>& there) const;
+
+  /// The tolerance that facets near to this facet of the reference may use.
+  double tolerance(int facet) const;
 
   /// Whether facets of one patch may be replaced. Corners are ordered like those of the reference.
   /// `gone` was within the tolerance. Facets that turn by more than 75 degrees from the reference

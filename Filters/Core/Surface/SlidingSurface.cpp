@@ -16,7 +16,7 @@ namespace
 {
 /// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
 /// sideways, and above the reference besides.
-constexpr double CurveShare = 0.4;
+constexpr double CurveShare = 0.6;
 }
 
 void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
@@ -30,11 +30,18 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
   this->addPatches(editor, division);
   this->addCurves(editor, division);
+  this->corners_.resize(division.freedom.size());
   for (std::size_t p = 0; p < division.freedom.size(); ++p)
   {
+    const auto id = static_cast<Index>(p);
     if (division.freedom[p] == Freedom::Patch)
     {
-      editor.setPlace(static_cast<Index>(p), { Freedom::Patch, division.patchOfPoint[p], 0.0 });
+      editor.setPlace(id, { Freedom::Patch, division.patchOfPoint[p], 0.0 });
+    }
+    else if (division.freedom[p] == Freedom::Corner)
+    {
+      this->corners_[p] = editor.mesh().point(id);
+      editor.setPlace(id, { Freedom::Corner, id, 0.0 });
     }
   }
 }
@@ -162,10 +169,44 @@ Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there
   return result;
 }
 
+Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& there) const
+{
+  if (this->isExact_)
+  {
+    return this->project(place, x, there);
+  }
+  Place result = place;
+  Vec<3> foot;
+  double room = CurveShare * this->tolerance_;
+  if (place.freedom == Freedom::Patch)
+  {
+    room = this->reference_.tolerance(this->reference_.project(place.part, x, foot));
+  }
+  else if (place.freedom == Freedom::Curve)
+  {
+    result = this->project(place, x, foot);
+  }
+  else
+  {
+    foot = this->corners_[place.part];
+  }
+  const double off = (x - foot).norm();
+  there = off > room ? Vec<3>(foot + (room / off) * (x - foot)) : x;
+  if (place.freedom == Freedom::Patch)
+  {
+    result.parameter = std::min(off, room);
+  }
+  return result;
+}
+
 int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v,
   std::array<Vec<3>, 3>& basis) const
 {
   const Place place = mesh.place(v);
+  if (place.freedom == Freedom::Corner)
+  {
+    return 0;
+  }
   if (place.freedom == Freedom::Curve)
   {
     basis[0] = this->curves_[place.part].direction(place.parameter);
@@ -217,7 +258,14 @@ std::optional<Span> SlidingSurface::span(const SimplexMesh<3>& mesh, Index a, In
   {
     return std::nullopt;
   }
-  return this->pieces_.span(a, pa, b, pb);
+  std::optional<Span> span = this->pieces_.span(a, pa, b, pb);
+  if (span)
+  {
+    const SpaceCurve& curve = this->curves_[span->part];
+    span->off = std::sqrt(std::max((mesh.point(a) - curve.at(span->from)).squaredNorm(),
+      (mesh.point(b) - curve.at(span->to)).squaredNorm()));
+  }
+  return span;
 }
 
 std::optional<SlidingRange> SlidingSurface::range(
@@ -255,7 +303,8 @@ std::optional<SlidingRange> SlidingSurface::range(
 bool SlidingSurface::follows(const Span& span) const
 {
   return this->pieces_.mayBeNeighbours(span) &&
-    this->curves_[span.part].deviation(span.from, span.to) <= CurveShare * this->tolerance_;
+    this->curves_[span.part].deviation(span.from, span.to) + span.off <=
+    CurveShare * this->tolerance_;
 }
 
 bool SlidingSurface::mayDivide(
@@ -329,7 +378,7 @@ bool SlidingSurface::mayJoin(
   {
     return false;
   }
-  if (mesh.place(u).part == None && mesh.place(w).part == None)
+  if (mesh.freedom(u) != Freedom::Curve && mesh.freedom(w) != Freedom::Curve)
   {
     const auto between = this->span(mesh, u, w);
     return between && between->part == place.part; // several curves may join two corners
@@ -422,7 +471,7 @@ bool SlidingSurface::allowsAngle(
 
 double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
 {
-  double most = 0.0;
+  double most = 0.0, mostOfCurves = 0.0;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
@@ -446,6 +495,11 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
       else
       {
         most = std::max(most, this->reference_.height(piece));
+        for (Index p : f)
+        {
+          const Place& place = mesh.place(p);
+          most = std::max(most, place.freedom == Freedom::Patch ? place.parameter : 0.0);
+        }
       }
     }
     for (int e = 0; e < 6 && mesh.isAlive(c); ++e)
@@ -456,10 +510,12 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
         : std::nullopt;
       if (span)
       {
-        most = std::max(most, this->curves_[span->part].deviation(span->from, span->to));
+        mostOfCurves = std::max(mostOfCurves,
+          this->curves_[span->part].deviation(span->from, span->to) + span->off);
       }
     }
   }
-  return most;
+  // Beside a curve, facets can be off by both.
+  return std::hypot(most, mostOfCurves);
 }
 }

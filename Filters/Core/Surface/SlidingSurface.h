@@ -20,7 +20,7 @@ namespace meshopt
 /// except its corners, Freedom::Curve, its number and their parameter. Patches and curves are those
 /// of SurfaceDivision. Edges on curves become kept edges of the mesh.
 ///
-/// Nodes always lie on the surface as it was. Facets and edges between them are accepted if the
+/// Nodes lie on the surface as it was, but where placeNear() has been asked for more. Facets and edges between them are accepted if the
 /// surface of before and that of after stay within the tolerance of each other (ReferenceSurface,
 /// SpaceCurve::deviation()); if exact, if they lie in the plane of their patch and do not fold.
 class SlidingSurface final : public Surface<3>
@@ -48,6 +48,7 @@ public:
     return this->curves_[curve].at(parameter);
   }
   Place project(const Place& place, const Vec<3>& x, Vec<3>& there) const override;
+  Place placeNear(const Place& place, const Vec<3>& x, Vec<3>& there) const override;
   int tangents(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v,
     std::array<Vec<3>, 3>& basis) const override;
   std::optional<Span> span(const SimplexMesh<3>& mesh, Index a, Index b) const override;
@@ -87,6 +88,7 @@ private:
   ReferenceSurface reference_;
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;
+  std::vector<Vec<3>> corners_; ///< where the points of the input were
   bool isExact_ = false;
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it

@@ -35,6 +35,13 @@ public:
   /// The place nearest to x on the part of `place`, and the point there.
   virtual Place project(const Place& place, const Vec<D>& x, Vec<D>& there) const = 0;
 
+  /// The same, but not farther from x than it must be for a point that keeps the tolerance. Corners
+  /// have such places, too.
+  virtual Place placeNear(const Place& place, const Vec<D>& x, Vec<D>& there) const
+  {
+    return this->project(place, x, there);
+  }
+
   /// The orthonormal directions in which point v of the surface may move, in `basis`; `star`: its
   /// cells. Returns their number: one on a curve, two on a patch; of these, the surface bends less
   /// along the first.

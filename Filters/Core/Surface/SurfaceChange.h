@@ -16,6 +16,7 @@ struct Span
 {
   Index part;      ///< number of the curve
   double from, to; ///< parameters; for a closed curve they may be out of its range
+  double off = 0.0; ///< distance of the points from these places: the greater of the two
 };
 
 /// A facet of the surface.

@@ -121,8 +121,9 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
       (!options.corners.empty() && options.corners[p]);
     const bool isLocked = std::any_of(
       around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
-    this->freedom[p] = Freedom::Fixed;
-    if (isMarked || isLocked || (curves.size() != 0 && curves.size() != 2) ||
+    const bool isFixed = isMarked || isLocked;
+    this->freedom[p] = isFixed || this->isExact ? Freedom::Fixed : Freedom::Corner;
+    if (isFixed || (curves.size() != 0 && curves.size() != 2) ||
       this->isPinched(p, around, curves))
     {
       continue;

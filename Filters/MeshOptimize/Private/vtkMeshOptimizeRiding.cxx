@@ -296,9 +296,11 @@ void AddBoundaryPlace(const Model<3>& model, const OutputMap& map, vtkUnstructur
   for (std::size_t id = 0; id < map.PointToSlot.size(); ++id)
   {
     const Index p = map.PointToSlot[id];
-    const bool isUsed = model.Mesh.isPointAlive(p);
+    using meshopt::Freedom;
+    const Freedom freedom = model.Mesh.isPointAlive(p) ? model.Mesh.freedom(p) : Freedom::Fixed;
+    // Users need not know which corners have some room.
     places->SetValue(static_cast<vtkIdType>(id),
-      isUsed ? static_cast<int>(model.Mesh.freedom(p)) : static_cast<int>(meshopt::Freedom::Fixed));
+      static_cast<int>(freedom == Freedom::Fixed ? Freedom::Corner : freedom));
   }
   output->GetPointData()->AddArray(places);
 }

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file SurfaceMotion.h
+/// Moves the nodes of a cell that are on the surface away from it, as far as the tolerance allows.
+#ifndef meshopt_Operations_SurfaceMotion_h
+#define meshopt_Operations_SurfaceMotion_h
+
+#include "Operations/NodeMotion.h"
+
+namespace meshopt
+{
+/// For cells that nodes sliding on the surface, curves and corners could not help: flat ones between
+/// two ridges, or with an edge between two corners.
+template <int D, class Shape>
+class SurfaceMotion
+{
+public:
+  static constexpr int level = Level::LookAhead;
+  static constexpr bool addsCells = false;
+  static bool isOn(const Switches& switches) { return switches.moveNodes; }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int)
+  {
+    bool moved = false;
+    const Simplex<D> nodes = judge.mesh().nodes(t);
+    for (Index v : nodes)
+    {
+      const Freedom freedom = judge.mesh().freedom(v);
+      const bool mayMove = freedom != Freedom::Free && freedom != Freedom::Fixed;
+      moved |= judge.slides() && mayMove && this->move(judge, v);
+    }
+    return moved;
+  }
+
+private:
+  /// To the best place; if that goes too far for the surface, half of the way, or a quarter.
+  bool move(Judge<D, Shape>& judge, Index v)
+  {
+    constexpr int tries = 3;
+    const SimplexMesh<D>& mesh = judge.mesh();
+    this->proposal_.clear();
+    std::vector<Index>& star = this->proposal_.cavity;
+    if (!judge.editor().star(v, star))
+    {
+      return false;
+    }
+    const double old = mesh.worstQuality(star), required = judge.required(old);
+    loadStar(judge, star, v, this->problem_);
+    const Vec<D> from = mesh.point(v);
+    Vec<D> to = from;
+    const bool mayGain = this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) >
+      required;
+    bool done = false;
+    double part = 1.0;
+    for (int k = 0; k < tries && mayGain && !done; ++k, part *= 0.5)
+    {
+      Vec<D> x = from + part * (to - from);
+      const Place place = judge.surface()->placeNear(mesh.place(v), x, x);
+      const double now = this->problem_.evaluate(x);
+      this->proposal_.moves.assign(1, { v, x, place });
+      this->proposal_.oldWorst = this->proposal_.least = old;
+      this->proposal_.newWorst = now;
+      done = now > required && judge.accept(this->proposal_);
+    }
+    judge.count(Operation::NodeMotion, done);
+    return done;
+  }
+
+  Proposal<D> proposal_;
+  StarProblem<D, Shape> problem_;
+};
+}
+
+#endif
