@@ -2,10 +2,12 @@
 /// @file LookAhead.h
 /// Several changes that gain only together: a node is inserted even without gain, then the cells
 /// that became worse are improved, worst first. The whole is kept if all cells concerned end up
-/// better than the cell that started it. Otherwise it is undone, bit for bit.
+/// better than the cell that started it. Otherwise it is undone, bit for bit. Where the surface takes
+/// part, a node of it may also vanish first.
 #ifndef meshopt_Operations_LookAhead_h
 #define meshopt_Operations_LookAhead_h
 
+#include "Operations/EdgeContraction.h"
 #include "Operations/NodeInsertion.h"
 
 #include <functional>
@@ -36,6 +38,7 @@ public:
     {
       done = this->tryFrom(judge, t, seeds[k], old, isLong);
     }
+    done = done || (judge.slides() && judge.mayRemoveNodes() && this->tryWithout(judge, t, isLong));
     judge.count(Operation::LookAhead, done);
     return done;
   }
@@ -50,23 +53,70 @@ private:
   {
     const auto mark = judge.begin();
     const Index p = judge.editor().addPoint(seed.x);
-    std::vector<Index> affected;
     judge.start();
     if (p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&
-      this->insertion_.fill(judge, p, seed))
+      this->insertion_.fill(judge, p, seed) &&
+      this->finish(judge, mark, old, isLong))
     {
-      affected = judge.changed(); // a copy: every further operation overwrites changed()
-      // keepsGuard() asks only here: in between, single changes may make cells bad.
-      if (this->settle(judge, affected, judge.required(old), isLong) && judge.keepsGuard(mark))
-      {
-        judge.commit(mark);
-        judge.changed() = affected;
-        return true;
-      }
+      return true;
     }
     judge.rollback(mark);
     judge.start();
     return false;
+  }
+
+  /// Contracts the edges of the cell that lie on the surface, the shortest first, even without gain.
+  bool tryWithout(Judge<D, Shape>& judge, Index t, bool isLong)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    const double old = mesh.quality(t);
+    std::vector<std::pair<double, std::array<Index, 2>>> edges;
+    for (const auto& e : Local<D>::edges)
+    {
+      const Index a = mesh.nodes(t)[e[0]], b = mesh.nodes(t)[e[1]];
+      if (mesh.isBoundary(a) && mesh.isBoundary(b))
+      {
+        const double l = (mesh.point(a) - mesh.point(b)).squaredNorm();
+        edges.push_back({ l, { a, b } });
+        edges.push_back({ l, { b, a } });
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    bool done = false;
+    for (std::size_t k = 0; k < edges.size() && !done; ++k)
+    {
+      const auto [v, u] = edges[k].second;
+      const auto mark = judge.begin();
+      judge.start();
+      if (mesh.freedom(v) != Freedom::Fixed &&
+        proposeContraction(judge.editor(), judge.surface(), v, u, this->proposal_))
+      {
+        this->proposal_.least = Promising * old;
+        done = judge.measure(this->proposal_) && judge.accept(this->proposal_) &&
+          this->finish(judge, mark, old, isLong);
+      }
+      if (!done)
+      {
+        judge.rollback(mark);
+        judge.start();
+      }
+    }
+    return done;
+  }
+
+  /// Improves what the first change affected. Keeps all if that reaches the goal.
+  bool finish(
+    Judge<D, Shape>& judge, const typename Judge<D, Shape>::Mark& mark, double old, bool isLong)
+  {
+    std::vector<Index> affected = judge.changed(); // a copy: operations overwrite changed()
+    // keepsGuard() asks only here: in between, single changes may make cells bad.
+    if (!this->settle(judge, affected, judge.required(old), isLong) || !judge.keepsGuard(mark))
+    {
+      return false;
+    }
+    judge.commit(mark);
+    judge.changed() = affected;
+    return true;
   }
 
   /// Improves the affected cells, worst first, until all are above the goal. False if one of them
@@ -105,6 +155,7 @@ private:
   }
 
   NodeInsertion<D, Shape> insertion_;
+  Proposal<D> proposal_;
   Improve improve_;
 };
 }

@@ -49,7 +49,10 @@ public:
         {
           return this->improve(t, level) ||
             (level >= Level::Insertion && this->judge_.switches().moveNodes &&
-              std::get<ClusterMotion<D, Shape>>(this->operations_).improve(this->judge_, t, level));
+              (std::get<SurfaceMotion<D, Shape>>(this->operations_)
+                  .improve(this->judge_, t, level) ||
+                std::get<ClusterMotion<D, Shape>>(this->operations_)
+                  .improve(this->judge_, t, level)));
         });
   }
   Improver(const Improver&) = delete;

@@ -356,7 +356,7 @@ bool ReferenceSurface::covers(
     if (h.most >= 0.0 && (h.most > allowed || h.cosine < LeastCosine))
     {
       // Another sheet of the patch, such as the far side of a thin wall, looks the other way.
-      if (h.least <= Reach * this->tolerance_ && h.cosine > 0.0)
+      if (h.least <= Reach * r.tolerance && h.cosine > 0.0)
       {
         return false;
       }
@@ -375,7 +375,7 @@ bool ReferenceSurface::covers(
       [&](const Piece& piece)
       {
         const Heights h = this->heights(r, piece);
-        return h.least <= this->tolerance_ && h.cosine > 0.0;
+        return h.least <= r.tolerance && h.cosine > 0.0;
       });
 }
 
@@ -408,7 +408,7 @@ double ReferenceSurface::height(const Piece& piece) const
       continue;
     }
     const Heights h = this->heights(r, piece);
-    if (h.least <= Reach * this->tolerance_ && h.cosine > 0.0)
+    if (h.least <= Reach * r.tolerance && h.cosine > 0.0)
     {
       most = std::max(most, h.most);
     }
