@@ -147,45 +147,30 @@ void ReferenceSurface::finish(double tolerance, double least)
   }
 }
 
-/// A quarter of the thickness behind the facet, or a third of the gap in front of it. Found by rays
-/// from its centre and from the middles of its edges, pulled inwards.
+/// A quarter of the distance to the next sheet of the surface, behind the facet or in front of it.
 double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
 {
-  constexpr double inside = 0.25, outside = 1.0 / 3.0, pull = 0.1;
-  const double reach = this->tolerance_ / inside;
-  const Vec<3> centre = (f.x[0] + f.x[1] + f.x[2]) / 3.0;
-  std::vector<Vec<3>> starts{ centre };
+  constexpr double part = 0.25;
+  const Vec<3> reach = f.normal * (this->tolerance_ / part);
   Box box;
-  for (int i = 0; i < 3; ++i)
+  for (const Vec<3>& x : f.x)
   {
-    const Vec<3> middle = 0.5 * (f.x[i] + f.x[(i + 1) % 3]);
-    starts.push_back(middle + pull * (centre - middle));
-    box.extend(Eigen::Vector3d(f.x[i] + reach * f.normal));
-    box.extend(Eigen::Vector3d(f.x[i] - reach * f.normal));
+    box.extend(Eigen::Vector3d(x + reach));
+    box.extend(Eigen::Vector3d(x - reach));
   }
   this->findNear(box, None, near);
   double room = this->tolerance_;
   for (int k : near)
   {
     const Facet& o = this->facets_[k];
-    const double slope = o.normal.dot(f.normal);
     const auto isShared = [&](const Vec<3>& x)
     { return std::find(f.x.begin(), f.x.end(), x) != f.x.end(); };
-    if (std::any_of(o.x.begin(), o.x.end(), isShared)) // at a sharp edge there is no room at all
+    const bool looksAway = o.normal.dot(f.normal) < 0.0 || !o.isSigned || !f.isSigned;
+    // At a sharp edge there is no room at all, and none is needed.
+    if (looksAway && std::none_of(o.x.begin(), o.x.end(), isShared))
     {
-      continue;
-    }
-    for (const Vec<3>& start : starts)
-    {
-      const double t = slope != 0.0 ? o.normal.dot(o.origin - start) / slope : reach;
-      const Vec<3> d = start + t * f.normal - o.origin;
-      const double u = o.along.dot(d), v = o.across.dot(d);
-      const bool isHit = v >= 0.0 && o.q * u - o.p * v >= 0.0 &&
-        o.q * o.l - o.q * u + (o.p - o.l) * v >= 0.0;
-      if (isHit)
-      {
-        room = std::min(room, t > 0.0 ? outside * t : -inside * t);
-      }
+      const Heights h = this->heights(f, { o.x, o.patch, None });
+      room = h.most >= 0.0 ? std::min(room, part * h.least) : room;
     }
   }
   return room;
@@ -276,7 +261,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
     const Vec<3> d = x - r.origin;
     polygon.x[polygon.size++] = Vec<3>(r.along.dot(d), r.across.dot(d), r.normal.dot(d));
   }
-  Heights result{ std::numeric_limits<double>::infinity(), -1.0, 1.0 };
+  Heights result{ std::numeric_limits<double>::infinity(), -1.0, 1.0, 0.0 };
   const std::array<Vec<3>, 3> sides{ Vec<3>(0.0, 1.0, 0.0), Vec<3>(r.q, -r.p, 0.0),
     Vec<3>(-r.q, r.p - r.l, r.q * r.l) };
   for (const Vec<3>& s : sides) // most are out of the prism: this is cheaper than to clip them
@@ -304,6 +289,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
   }
   // Neighbours that only touch have their heights in common with those that lie between them.
   polygon.size = std::fabs(area) > Touch * r.l * r.q ? polygon.size : 0;
+  result.area = std::fabs(area);
   for (int k = 0; k < polygon.size; ++k)
   {
     const double h = polygon.x[k][2];
@@ -316,7 +302,8 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
   return result;
 }
 
-bool ReferenceSurface::covers(const std::vector<Piece>& gone, const std::vector<Piece>& come) const
+bool ReferenceSurface::covers(
+  const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const
 {
   Box box;
   for (const auto* pieces : { &gone, &come })
@@ -332,11 +319,21 @@ bool ReferenceSurface::covers(const std::vector<Piece>& gone, const std::vector<
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(Reach * this->tolerance_);
   box = Box(box.min() - margin, box.max() + margin);
   thread_local std::vector<int> near;
-  this->findNear(box, gone[0].patch, near);
+  thread_local std::vector<std::uint8_t> unclear;
+  this->findNear(box, None, near);
+  unclear.assign(come.size(), 0);
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
-    if (!this->isNeedle(r) && !this->covers(r, gone, come))
+    if (r.patch == gone[0].patch && !this->isNeedle(r) &&
+      !this->covers(r, gone, come, sideways, unclear))
+    {
+      return false;
+    }
+  }
+  for (std::size_t k = 0; k < come.size(); ++k)
+  {
+    if ((unclear[k] && !this->isNear(come[k], near)) || this->isInsideOut(come[k], near))
     {
       return false;
     }
@@ -344,39 +341,112 @@ bool ReferenceSurface::covers(const std::vector<Piece>& gone, const std::vector<
   return true;
 }
 
-/// The same for one facet of the reference.
-bool ReferenceSurface::covers(
-  const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come) const
+/// The same for one facet of the reference. Notes in `unclear` which of `come` are turned away from
+/// it, or too high, so that other facets of the reference must say that they are near.
+bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
+  const std::vector<Piece>& come, double sideways, std::vector<std::uint8_t>& unclear) const
 {
   const double allowed = Share * r.tolerance;
-  bool isFar = false;
-  for (const Piece& piece : come)
+  bool isClear = true;
+  double after = 0.0;
+  for (std::size_t k = 0; k < come.size(); ++k)
   {
-    const Heights h = this->heights(r, piece);
-    if (h.most >= 0.0 && (h.most > allowed || h.cosine < LeastCosine))
+    const Heights h = this->heights(r, come[k]);
+    if (h.most < 0.0)
     {
-      // Another sheet of the patch, such as the far side of a thin wall, looks the other way.
-      if (h.least <= Reach * r.tolerance && h.cosine > 0.0)
-      {
-        return false;
-      }
-      isFar = true;
+      continue;
     }
+    if (h.most <= allowed && h.cosine >= LeastCosine)
+    {
+      after += h.area;
+      continue;
+    }
+    isClear = false;
+    // Another sheet of the patch, such as the far side of a thin wall, looks the other way.
+    unclear[k] |= h.least <= Reach * r.tolerance && h.cosine > 0.0;
   }
-  // What is far does not matter, unless the facets that go stood for this one.
-  bool isTurned = false;
+  for (std::size_t k = 0; k < gone.size() && isClear; ++k)
+  {
+    isClear = !r.isSigned || r.normal.dot(normalOf(gone[k])) > 0.0 ||
+      this->heights(r, gone[k]).most < 0.0;
+  }
+  if (isClear)
+  {
+    return true;
+  }
+  double before = 0.0;
   for (const Piece& piece : gone)
   {
-    isTurned |= r.isSigned && r.normal.dot(normalOf(piece)) <= 0.0 &&
-      this->heights(r, piece).most >= 0.0;
+    const Heights h = this->heights(r, piece);
+    const bool stood = h.most >= 0.0 && h.most <= r.tolerance && h.cosine >= LeastCosine;
+    before += stood ? h.area : 0.0;
   }
-  return (!isFar && !isTurned) ||
-    std::none_of(gone.begin(), gone.end(),
-      [&](const Piece& piece)
+  constexpr double rounding = 1e-9;
+  return after >= before - (rounding * r.q + 2.0 * sideways) * r.l;
+}
+
+/// Whether all of a facet is within the tolerance of the reference, on its side. The distance from one facet of
+/// the reference is convex: where it is kept at three corners, it is kept between them. What has no
+/// such facet is halved.
+bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near) const
+{
+  constexpr int most = 64;
+  const Vec<3> normal = normalOf(piece);
+  std::vector<std::array<Vec<3>, 3>> open{ piece.x };
+  for (int n = 0; !open.empty(); ++n)
+  {
+    const std::array<Vec<3>, 3> t = open.back();
+    open.pop_back();
+    const auto isNearTo = [&](int k)
+    {
+      const Facet& r = this->facets_[k];
+      const double allowed = Share * r.tolerance;
+      return r.patch == piece.patch && (!r.isSigned || r.normal.dot(normal) > 0.0) &&
+        std::all_of(t.begin(), t.end(),
+          [&](const Vec<3>& x)
+          { return (nearestInTriangle(r.x, x) - x).squaredNorm() <= allowed * allowed; });
+    };
+    if (std::any_of(near.begin(), near.end(), isNearTo))
+    {
+      continue;
+    }
+    if (n >= most)
+    {
+      return false;
+    }
+    int longest = 0;
+    const auto length = [&](int i) { return (t[(i + 1) % 3] - t[i]).squaredNorm(); };
+    longest = length(1) > length(longest) ? 1 : longest;
+    longest = length(2) > length(longest) ? 2 : longest;
+    const Vec<3>&a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+    const Vec<3> middle = 0.5 * (a + b);
+    open.push_back({ a, middle, c });
+    open.push_back({ middle, b, c });
+  }
+  return true;
+}
+
+/// Whether the reference nearest to the centre of a facet looks the other way, as beyond the tip of
+/// a sharp edge.
+bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& near) const
+{
+  const Vec<3> normal = normalOf(piece), centre = (piece.x[0] + piece.x[1] + piece.x[2]) / 3.0;
+  const auto distance = [&](bool looksAway)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (int k : near)
+    {
+      const Facet& r = this->facets_[k];
+      if (!r.isSigned || (r.normal.dot(normal) < 0.0) == looksAway)
       {
-        const Heights h = this->heights(r, piece);
-        return h.least <= r.tolerance && h.cosine > 0.0;
-      });
+        least = std::min(least, (nearestInTriangle(r.x, centre) - centre).squaredNorm());
+      }
+    }
+    return least;
+  };
+  constexpr double same = 1.0 - 1e-9; // at a sharp edge, both sides are as near
+  const double away = distance(true);
+  return away < this->tolerance_ * this->tolerance_ && same * away <= distance(false);
 }
 
 double ReferenceSurface::height(const Piece& piece) const

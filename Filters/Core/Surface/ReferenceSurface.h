@@ -30,6 +30,11 @@ namespace meshopt
 /// cover the same points, if none of them is turned away. So it keeps the first condition if the
 /// heights of N over each R that G covered are small: covers() computes them at the corners of the
 /// overlay of N and R, between which they are linear.
+///
+/// Beside a sharp edge inside a patch, what stands for one side reaches into the prisms of the
+/// other, and is turned away there or too high. Such a facet must be within the tolerance of the
+/// reference as a whole (isNear()); and R must be covered by others as far as it was before, by
+/// area.
 class ReferenceSurface
 {
 public:
@@ -40,7 +45,7 @@ public:
   void add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned);
   /// To be called once, after the last facet. `tolerance`: a length; `least`: that of rounding. No
   /// facet may use more of the tolerance than a quarter of the thickness of the wall that it is a
-  /// side of, and a third of the gap in front of it: no wall is pressed flat, and no gap closed.
+  /// side of, and of the gap in front of it: no wall is pressed flat, and no gap closed.
   void finish(double tolerance, double least);
 
   /// The point of the patch nearest to x. Returns the number of its facet, in the order of add();
@@ -51,9 +56,10 @@ public:
   double tolerance(int facet) const;
 
   /// Whether facets of one patch may be replaced. Corners are ordered like those of the reference.
-  /// `gone` was within the tolerance. Facets that turn by more than 75 degrees from the reference
-  /// that they stand for are refused.
-  bool covers(const std::vector<Piece>& gone, const std::vector<Piece>& come) const;
+  /// `gone` was within the tolerance. A facet cannot stand for one of the reference from which it
+  /// turns by more than 75 degrees. `sideways`: how far the border of the facets may have moved.
+  bool covers(
+    const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const;
 
   /// The greatest height of the facet over the reference of its patch, counted as in covers().
   double height(const Piece& piece) const;
@@ -72,12 +78,16 @@ private:
   {
     double least, most; ///< in absolute value; least > most: the facet is not in the prism
     double cosine;      ///< between the normals
+    double area;        ///< of the overlay, twice
   };
   using Box = Eigen::AlignedBox<double, 3>;
 
   bool isNeedle(const Facet& r) const;
   Heights heights(const Facet& r, const Piece& piece) const;
-  bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come) const;
+  bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come,
+    double sideways, std::vector<std::uint8_t>& unclear) const;
+  bool isNear(const Piece& piece, const std::vector<int>& near) const;
+  bool isInsideOut(const Piece& piece, const std::vector<int>& near) const;
   double room(const Facet& f, std::vector<int>& near) const;
   /// `patch`: None for all.
   void findNear(const Box& box, Index patch, std::vector<int>& found) const;

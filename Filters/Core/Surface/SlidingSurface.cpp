@@ -422,6 +422,7 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
     return std::all_of(change.come.begin(), change.come.end(),
       [&](const SurfacePiece<3>& piece) { return this->isFlat(this->oriented(piece)); });
   }
+  const double sideways = change.spans.empty() ? 0.0 : CurveShare * this->tolerance_;
   std::vector<SurfacePiece<3>> gone, come;
   std::set<Index> patches;
   for (const SurfacePiece<3>& piece : change.come)
@@ -446,7 +447,7 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
         come.push_back(this->oriented(piece));
       }
     }
-    if (gone.empty() || !this->reference_.covers(gone, come))
+    if (gone.empty() || !this->reference_.covers(gone, come, sideways))
     {
       return false;
     }
