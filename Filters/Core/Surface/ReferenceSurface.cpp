@@ -22,6 +22,8 @@ constexpr double Share = 0.75;
 constexpr double Touch = 1e-10;
 /// How far to look for the reference, in tolerances.
 constexpr double Reach = 2.0;
+/// The part of walls and gaps that is left to a facet.
+constexpr double Room = 0.25;
 
 /// The point of the triangle nearest to x (Ericson, Real-time collision detection, 5.1.5).
 Vec<3> nearestInTriangle(const std::array<Vec<3>, 3>& t, const Vec<3>& x)
@@ -147,11 +149,10 @@ void ReferenceSurface::finish(double tolerance, double least)
   }
 }
 
-/// A quarter of the distance to the next sheet of the surface, behind the facet or in front of it.
+/// Room times the distance to the next sheet of the surface, behind the facet or in front of it.
 double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
 {
-  constexpr double part = 0.25;
-  const Vec<3> reach = f.normal * (this->tolerance_ / part);
+  const Vec<3> reach = f.normal * (this->tolerance_ / Room);
   Box box;
   for (const Vec<3>& x : f.x)
   {
@@ -170,7 +171,7 @@ double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
     if (looksAway && std::none_of(o.x.begin(), o.x.end(), isShared))
     {
       const Heights h = this->heights(f, { o.x, o.patch, None });
-      room = h.most >= 0.0 ? std::min(room, part * h.least) : room;
+      room = h.most >= 0.0 ? std::min(room, Room * h.least) : room;
     }
   }
   return room;
@@ -256,12 +257,12 @@ bool ReferenceSurface::isNeedle(const Facet& r) const
 ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece& piece) const
 {
   Polygon polygon;
+  Heights result{ std::numeric_limits<double>::infinity(), -1.0, 1.0, 0.0 };
   for (const Vec<3>& x : piece.x)
   {
     const Vec<3> d = x - r.origin;
     polygon.x[polygon.size++] = Vec<3>(r.along.dot(d), r.across.dot(d), r.normal.dot(d));
   }
-  Heights result{ std::numeric_limits<double>::infinity(), -1.0, 1.0, 0.0 };
   const std::array<Vec<3>, 3> sides{ Vec<3>(0.0, 1.0, 0.0), Vec<3>(r.q, -r.p, 0.0),
     Vec<3>(-r.q, r.p - r.l, r.q * r.l) };
   for (const Vec<3>& s : sides) // most are out of the prism: this is cheaper than to clip them
@@ -347,23 +348,22 @@ bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
   const std::vector<Piece>& come, double sideways, std::vector<std::uint8_t>& unclear) const
 {
   const double allowed = Share * r.tolerance;
+  const auto stands = [](const Heights& h, double most)
+  { return h.most >= 0.0 && h.most <= most && h.cosine >= LeastCosine; };
   bool isClear = true;
-  double after = 0.0;
   for (std::size_t k = 0; k < come.size(); ++k)
   {
+    if (this->isFlatOn(r, come[k], allowed))
+    {
+      continue;
+    }
     const Heights h = this->heights(r, come[k]);
-    if (h.most < 0.0)
+    if (h.most >= 0.0 && !stands(h, allowed))
     {
-      continue;
+      isClear = false;
+      // Another sheet of the patch, such as the far side of a thin wall, looks the other way.
+      unclear[k] |= h.least <= Reach * r.tolerance && h.cosine > 0.0;
     }
-    if (h.most <= allowed && h.cosine >= LeastCosine)
-    {
-      after += h.area;
-      continue;
-    }
-    isClear = false;
-    // Another sheet of the patch, such as the far side of a thin wall, looks the other way.
-    unclear[k] |= h.least <= Reach * r.tolerance && h.cosine > 0.0;
   }
   for (std::size_t k = 0; k < gone.size() && isClear; ++k)
   {
@@ -372,17 +372,32 @@ bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
   }
   if (isClear)
   {
-    return true;
+    return true; // those with the same border then cover the same points
   }
-  double before = 0.0;
+  double after = 0.0, before = 0.0;
+  for (const Piece& piece : come)
+  {
+    const Heights h = this->heights(r, piece);
+    after += stands(h, allowed) ? h.area : 0.0;
+  }
   for (const Piece& piece : gone)
   {
     const Heights h = this->heights(r, piece);
-    const bool stood = h.most >= 0.0 && h.most <= r.tolerance && h.cosine >= LeastCosine;
-    before += stood ? h.area : 0.0;
+    before += stands(h, r.tolerance) ? h.area : 0.0;
   }
   constexpr double rounding = 1e-9;
   return after >= before - (rounding * r.q + 2.0 * sideways) * r.l;
+}
+
+/// Whether the facet would stand for all of a reference facet of any size: the usual case, and
+/// cheap to find out.
+bool ReferenceSurface::isFlatOn(const Facet& r, const Piece& piece, double allowed) const
+{
+  const Vec<3> n = normalOf(piece);
+  const double slope = r.normal.dot(n);
+  return std::all_of(piece.x.begin(), piece.x.end(),
+           [&](const Vec<3>& x) { return std::fabs(r.normal.dot(x - r.origin)) <= allowed; }) &&
+    (slope > 0.0 || !r.isSigned) && slope * slope >= LeastCosine * LeastCosine * n.squaredNorm();
 }
 
 /// Whether all of a facet is within the tolerance of the reference, on its side. The distance from one facet of

@@ -32,9 +32,8 @@ namespace meshopt
 /// overlay of N and R, between which they are linear.
 ///
 /// Beside a sharp edge inside a patch, what stands for one side reaches into the prisms of the
-/// other, and is turned away there or too high. Such a facet must be within the tolerance of the
-/// reference as a whole (isNear()); and R must be covered by others as far as it was before, by
-/// area.
+/// other, and is turned away there, or too high. Such a facet must be within the tolerance of other
+/// facets of the reference (isNear()); and R must be covered as far as before, by area.
 class ReferenceSurface
 {
 public:
@@ -86,6 +85,7 @@ private:
   Heights heights(const Facet& r, const Piece& piece) const;
   bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come,
     double sideways, std::vector<std::uint8_t>& unclear) const;
+  bool isFlatOn(const Facet& r, const Piece& piece, double allowed) const;
   bool isNear(const Piece& piece, const std::vector<int>& near) const;
   bool isInsideOut(const Piece& piece, const std::vector<int>& near) const;
   double room(const Facet& f, std::vector<int>& near) const;
