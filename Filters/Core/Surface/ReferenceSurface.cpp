@@ -217,6 +217,26 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
   return search.facet;
 }
 
+double ReferenceSurface::clearance(const Vec<3>& x) const
+{
+  constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
+  const double reach = this->tolerance_ / Room;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
+  std::vector<int> near;
+  this->findNear(Box(Eigen::Vector3d(x) - margin, Eigen::Vector3d(x) + margin), None, near);
+  double least = reach;
+  for (int k : near)
+  {
+    const Facet& f = this->facets_[k];
+    const Vec<3> way = nearestInTriangle(f.x, x) - x;
+    const double length = way.norm();
+    const bool isApart = length > Touch * f.l; // the others have x
+    least = isApart && std::fabs(f.normal.dot(way)) > faces * length ? std::min(least, length)
+                                                                     : least;
+  }
+  return Room * least;
+}
+
 double ReferenceSurface::tolerance(int facet) const
 {
   return Share * this->facets_[facet].tolerance;

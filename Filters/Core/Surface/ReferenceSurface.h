@@ -51,6 +51,10 @@ public:
   /// -1 if the patch has none.
   int project(Index patch, const Vec<3>& x, Vec<3>& there) const;
 
+  /// How far a point of the surface may move: a quarter of the distance to other sheets that face
+  /// it, within walls and across gaps. At most the tolerance.
+  double clearance(const Vec<3>& x) const;
+
   /// The tolerance that facets near to this facet of the reference may use.
   double tolerance(int facet) const;
 

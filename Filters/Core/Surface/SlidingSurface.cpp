@@ -30,6 +30,11 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
   this->addPatches(editor, division);
   this->addCurves(editor, division);
+  for (const auto& [a, b] : division.bentEdges)
+  {
+    this->bent_.add(editor.mesh().point(a), editor.mesh().point(b));
+  }
+  this->bent_.finish();
   this->corners_.resize(division.freedom.size());
   for (std::size_t p = 0; p < division.freedom.size(); ++p)
   {
@@ -90,7 +95,13 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     {
       points.push_back(mesh.point(p));
     }
-    const SpaceCurve curve(std::move(points), chain.isClosed);
+    std::vector<double> rooms;
+    for (std::size_t k = 0; k < points.size() && !this->isExact_; ++k)
+    {
+      rooms.push_back(this->reference_.clearance(points[k]));
+    }
+    SpaceCurve curve(std::move(points), chain.isClosed);
+    curve.setRooms(std::move(rooms));
     const auto number = static_cast<Index>(this->curves_.size());
     CurvePiece piece;
     piece.curve = number;
@@ -190,6 +201,7 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   {
     foot = this->corners_[place.part];
   }
+  room = std::min(room, this->reference_.clearance(foot));
   const double off = (x - foot).norm();
   there = off > room ? Vec<3>(foot + (room / off) * (x - foot)) : x;
   if (place.freedom == Freedom::Patch)
@@ -304,7 +316,7 @@ bool SlidingSurface::follows(const Span& span) const
 {
   return this->pieces_.mayBeNeighbours(span) &&
     this->curves_[span.part].deviation(span.from, span.to) + span.off <=
-    CurveShare * this->tolerance_;
+    std::min(CurveShare * this->tolerance_, this->curves_[span.part].room(span.from, span.to));
 }
 
 bool SlidingSurface::mayDivide(
@@ -464,7 +476,8 @@ bool SlidingSurface::allowsAngle(
   }
   if (!isKept)
   {
-    return cosine >= this->featureCosine_;
+    return cosine >= this->featureCosine_ ||
+      this->bent_.isNear(mesh.point(a), mesh.point(b), CurveShare * this->tolerance_);
   }
   const std::optional<Span> span = this->span(mesh, a, b);
   return !span || !this->isSharp_[span->part] || cosine <= this->halfCosine_;
@@ -511,8 +524,8 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
         : std::nullopt;
       if (span)
       {
-        mostOfCurves = std::max(mostOfCurves,
-          this->curves_[span->part].deviation(span->from, span->to) + span->off);
+        mostOfCurves = std::max(
+          mostOfCurves, this->curves_[span->part].deviation(span->from, span->to) + span->off);
       }
     }
   }

@@ -8,6 +8,7 @@
 #include "Mesh/MeshEditor.h"
 #include "Surface/CurvePieces.h"
 #include "Surface/ReferenceSurface.h"
+#include "Surface/SharpEdges.h"
 #include "Surface/SpaceCurve.h"
 #include "Surface/Surface.h"
 #include "Surface/SurfaceDivision.h"
@@ -61,7 +62,8 @@ public:
     const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const override;
   bool judgesChanges() const override { return true; }
   bool allows(const SurfaceChange<3>& change) const override;
-  /// Inside a patch, up to the feature angle. At a curve that is sharp, from half of it on.
+  /// Inside a patch, up to the feature angle; beyond, only along edges that were as sharp as half of
+  /// it. At a curve that is sharp, from half of it on.
   bool allowsAngle(
     const SimplexMesh<3>& mesh, Index a, Index b, bool isKept, double cosine) const override;
 
@@ -86,6 +88,7 @@ private:
   std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
   CurvePieces pieces_;
   ReferenceSurface reference_;
+  SharpEdges bent_;                   ///< by more than half of the feature angle
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;
   std::vector<Vec<3>> corners_; ///< where the points of the input were

@@ -103,6 +103,35 @@ double SpaceCurve::closest(const Vec<3>& x, double s) const
   return (this->isClosed_ ? s : r) + nearest;
 }
 
+void SpaceCurve::setRooms(std::vector<double> rooms)
+{
+  this->rooms_ = std::move(rooms);
+  if (this->isClosed_ && !this->rooms_.empty())
+  {
+    this->rooms_.push_back(double(this->rooms_.front()));
+  }
+}
+
+double SpaceCurve::room(double from, double to) const
+{
+  const std::size_t n = this->points_.size() - 1;
+  const double low = this->inRange(std::min(from, to));
+  double left = low + std::fabs(to - from);
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t k = this->segmentAt(low);
+  for (std::size_t done = 0; done < n && !this->rooms_.empty(); ++done)
+  {
+    least = std::min({ least, this->rooms_[k], this->rooms_[k + 1] });
+    if (!(this->knots_[k + 1] < left))
+    {
+      break;
+    }
+    left -= k + 1 == n ? this->length() : 0.0; // only a closed one goes on
+    k = k + 1 == n ? 0 : k + 1;
+  }
+  return least;
+}
+
 double SpaceCurve::deviation(double from, double to) const
 {
   const double low = std::min(from, to), high = std::max(from, to);

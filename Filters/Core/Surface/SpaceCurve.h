@@ -35,12 +35,18 @@ public:
   /// ways. Infinite where the curve turns back, as seen along the chord.
   double deviation(double from, double to) const;
 
+  /// How far other parts of the surface leave room at each point of the constructor.
+  void setRooms(std::vector<double> rooms);
+  /// The least room at the points between two parameters, and at the next ones beyond them.
+  double room(double from, double to) const;
+
 private:
   double inRange(double s) const;
   std::size_t segmentAt(double s) const;
 
   std::vector<Vec<3>> points_; ///< of a closed curve: the first one again at the end
   std::vector<double> knots_;  ///< parameter of each point
+  std::vector<double> rooms_;  ///< like the points; empty: no limits
   bool isClosed_;
 };
 }

@@ -14,8 +14,8 @@ namespace meshopt
 /// The part of a curve between two points that are neighbours on it.
 struct Span
 {
-  Index part;      ///< number of the curve
-  double from, to; ///< parameters; for a closed curve they may be out of its range
+  Index part;       ///< number of the curve
+  double from, to;  ///< parameters; for a closed curve they may be out of its range
   double off = 0.0; ///< distance of the points from these places: the greater of the two
 };
 

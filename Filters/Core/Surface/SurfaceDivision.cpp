@@ -244,7 +244,12 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
   for (Edge& edge : this->edges_)
   {
     edge.isCurve = this->isCurve(edge, options);
-    edge.isSharp = edge.last - edge.first == 2 && this->isSharp(edge, options.featureAngle);
+    const bool hasAngle = edge.last - edge.first == 2;
+    edge.isSharp = hasAngle && this->isSharp(edge, options.featureAngle);
+    if (!hasAngle || this->isSharp(edge, 0.5 * options.featureAngle))
+    {
+      this->bentEdges.push_back(edge.nodes);
+    }
   }
   this->isCorner_.assign(this->mesh_.numberOfPointSlots(), 0);
   for (Index c = 0; this->mesh_.hasConstrainedEdges() && c < this->mesh_.numberOfCellSlots(); ++c)

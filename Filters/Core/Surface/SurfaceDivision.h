@@ -75,8 +75,10 @@ struct SurfaceDivision
   std::vector<Plane> planes; ///< of each patch, only if exact
   std::vector<Chain> chains;
   std::vector<std::array<Index, 2>> curveEdges; ///< sorted ids, in ascending order
-  std::vector<Freedom> freedom;                 ///< of each point slot; Free: not on the surface
-  std::vector<Index> patchOfPoint;              ///< of those that slide on a patch
+  /// Sorted ids of the edges whose facets turn by more than half of the feature angle.
+  std::vector<std::array<Index, 2>> bentEdges;
+  std::vector<Freedom> freedom;    ///< of each point slot; Free: not on the surface
+  std::vector<Index> patchOfPoint; ///< of those that slide on a patch
   double diagonal = 0.0;
   double tolerance = 0.0; ///< that of the options, but not less than rounding
   double rounding = 0.0;  ///< of coordinates: the least tolerance
