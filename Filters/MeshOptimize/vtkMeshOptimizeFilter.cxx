@@ -9,6 +9,7 @@
 #include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeWarnings.h"
 
+#include "vtkCellType.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
@@ -69,6 +70,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "BoundaryCurve: " << this->BoundaryCurve << "\n";
   os << indent << "CornerAngle: " << this->CornerAngle << "\n";
   os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
+  os << indent << "KeepFeatures: " << this->KeepFeatures << "\n";
   os << indent << "SurfaceTolerance: " << this->SurfaceTolerance << "\n";
   os << indent << "ToleranceIsAbsolute: " << this->ToleranceIsAbsolute << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
@@ -82,6 +84,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfInvertedCellsAfter: " << this->NumberOfInvertedCellsAfter << "\n";
   os << indent << "EdgeLengthShare: " << this->EdgeLengthShare << "\n";
   os << indent << "SurfaceDistance: " << this->SurfaceDistance << "\n";
+  os << indent << "VolumeChange: " << this->VolumeChange << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
   os << indent << "NumberOfOperations: " << this->NumberOfOperations << "\n";
   os << indent << "OptimizeSeconds: " << this->OptimizeSeconds << "\n";
@@ -128,10 +131,7 @@ void vtkMeshOptimizeFilter::SetGeometryData(vtkPolyData* geometry)
   this->SetInputData(1, geometry);
 }
 
-const char* vtkMeshOptimizeFilter::GetStopReasonAsString()
-{
-  return meshopt::toString(static_cast<meshopt::StopReason>(this->StopReason));
-}
+const char* vtkMeshOptimizeFilter::GetStopReasonAsString() { return this->StopReasonText.c_str(); }
 
 //------------------------------------------------------------------------------
 vtkTypeBool vtkMeshOptimizeFilter::ProcessRequest(
@@ -245,7 +245,10 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   request.Curves.splines = filter->GetBoundaryCurve() == vtkMeshOptimizeFilter::BSpline;
   request.Curves.cornerAngle = filter->GetCornerAngle();
   request.Surface.cornerAngle = filter->GetCornerAngle();
-  request.Surface.featureAngle = filter->GetFeatureAngle();
+  constexpr double right = 90.0; // a facet cannot stand for both sides of an edge that turns more
+  request.Surface.featureAngle = filter->GetKeepFeatures()
+    ? filter->GetFeatureAngle()
+    : std::max(filter->GetFeatureAngle(), right);
   request.Surface.tolerance = filter->GetSurfaceTolerance();
   request.ToleranceIsAbsolute = filter->GetToleranceIsAbsolute();
   request.Geometry = geometry;
@@ -348,6 +351,16 @@ std::string CheckPieces(vtkMeshOptimizeFilter* filter, vtkInformation* info)
     : "";
 }
 
+bool HasTetrahedra(vtkUnstructuredGrid* grid)
+{
+  vtkIdType c = 0;
+  while (c < grid->GetNumberOfCells() && grid->GetCellType(c) != VTK_TETRA)
+  {
+    ++c;
+  }
+  return c < grid->GetNumberOfCells();
+}
+
 /**
  * Optimizes all grids. Returns an empty string, or a sentence about the first unusable thing.
  */
@@ -362,7 +375,9 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
     return error;
   }
   const auto locked = bridge::PrepareSurface(request, GridsOf(tasks));
-  bridge::StartHistory(ports.History, isComposite);
+  const bool slides = request.Slide &&
+    std::any_of(tasks.begin(), tasks.end(), [](const Task& t) { return HasTetrahedra(t.Input); });
+  bridge::StartHistory(ports.History, isComposite, slides);
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
@@ -409,9 +424,11 @@ void vtkMeshOptimizeFilter::StoreResults(const Results& results)
   this->NumberOfInvertedCellsBefore = report.invertedBefore;
   this->NumberOfInvertedCellsAfter = report.invertedAfter;
   this->StopReason = static_cast<int>(report.stopReason);
+  this->StopReasonText = meshopt::describeStop(report);
   this->NumberOfOperations = outcome.NumberOfOperations;
   this->EdgeLengthShare = outcome.Lengths.share;
   this->SurfaceDistance = outcome.SurfaceDistance;
+  this->VolumeChange = outcome.VolumeChange();
   this->OptimizeSeconds = outcome.Seconds;
 }
 

@@ -82,6 +82,8 @@
 #include "vtkFiltersMeshOptimizeModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
+#include <string> // for the stop reason
+
 class vtkAlgorithmOutput;
 class vtkPolyData;
 
@@ -314,8 +316,9 @@ public:
    * of lines and other cells that pass through, are corners.
    *
    * Slide, tetrahedra: nodes slide on patches of the surface and along the curves between them;
-   * facets and edges there are swapped, split and contracted. Nodes stay on the surface as it was,
-   * and the surface stays within SurfaceTolerance of it, both ways. FeatureAngle, regions, and
+   * facets and edges there are swapped, split and contracted. The surface stays within
+   * SurfaceTolerance of what it was, both ways; where nothing else helps, its nodes leave it, and
+   * corners move, by less than that. FeatureAngle, regions, and
    * lines that are cells divide the surface by curves; CornerAngle, CornerArray and
    * FixedPointArray, and points of cells that pass through, are corners. Facets with three fixed
    * points stay as they are, and so do those that lie on one another, like the lips of a closed
@@ -360,6 +363,18 @@ public:
    */
   vtkSetClampMacro(FeatureAngle, double, 0.0, 180.0);
   vtkGetMacro(FeatureAngle, double);
+  ///@}
+
+  ///@{
+  /**
+   * For BoundaryMode Slide with tetrahedra: whether ridges stay. If off, FeatureAngle counts as 90
+   * at least: for scans, whose noise has angles. Ridges that turn by less are surface like any
+   * other, and may be cut off as far as the tolerance allows. Regions, patches, lines, marked and
+   * fixed points stay. It does not matter if the tolerance is 0. Default: on.
+   */
+  vtkSetMacro(KeepFeatures, bool);
+  vtkGetMacro(KeepFeatures, bool);
+  vtkBooleanMacro(KeepFeatures, bool);
   ///@}
 
   ///@{
@@ -476,7 +491,8 @@ public:
   ///@{
   /**
    * Why the last run stopped, as StopReasonType and as a sentence. For several blocks it is the
-   * reason that says most (aborted, a limit, no further gain, capped, target reached).
+   * reason that says most (aborted, a limit, no further gain, capped, target reached). Where the
+   * surface of tetrahedra slides, the sentence says how the nodes of the worst cell are held.
    */
   vtkGetMacro(StopReason, int);
   const char* GetStopReasonAsString();
@@ -486,7 +502,8 @@ public:
   /**
    * More about the last run. SurfaceDistance: with BoundaryMode Slide and tetrahedra, the distance
    * that is proved between the surface of the input and that of the output, both ways; a length, at
-   * most the tolerance. 0 otherwise. It is also in the field data. EdgeLengthShare: the fraction of
+   * most the tolerance. 0 otherwise. VolumeChange: that of the volume, relative to the volume
+   * before. Both are also in the field data, as is `RegionVolumes`. EdgeLengthShare: the fraction of
    * edges in the output that are 1/sqrt(2) to sqrt(2) times as long as wanted at their place, in
    * the metric if there is one; 0 if neither a size nor a metric was given. It is also in the field
    * data of the output, as is the histogram `EdgeLengthHistogram`. NumberOfOperations: of all kinds
@@ -495,6 +512,7 @@ public:
    */
   vtkGetMacro(EdgeLengthShare, double);
   vtkGetMacro(SurfaceDistance, double);
+  vtkGetMacro(VolumeChange, double);
   vtkGetMacro(NumberOfOperations, vtkIdType);
   vtkGetMacro(OptimizeSeconds, double);
   ///@}
@@ -536,6 +554,7 @@ private:
   double TimeLimit = 0.0;
   int BoundaryMode = Fixed, BoundaryCurve = BSpline;
   double CornerAngle = 45.0, FeatureAngle = 45.0;
+  bool KeepFeatures = true;
   double SurfaceTolerance = 1e-3;
   bool ToleranceIsAbsolute = false;
 
@@ -545,8 +564,10 @@ private:
   vtkIdType NumberOfCappedCells = 0;
   vtkIdType NumberOfInvertedCellsBefore = 0, NumberOfInvertedCellsAfter = 0;
   int StopReason = NotRun;
+  std::string StopReasonText = "not run";
   vtkIdType NumberOfOperations = 0;
-  double EdgeLengthShare = 0.0, SurfaceDistance = 0.0, OptimizeSeconds = 0.0;
+  double EdgeLengthShare = 0.0, SurfaceDistance = 0.0, VolumeChange = 0.0;
+  double OptimizeSeconds = 0.0;
 };
 
 #endif

@@ -166,6 +166,8 @@ public:
     this->done[static_cast<int>(op)] += success;
   }
   std::array<long, NumberOfOperations> tried{}, done{};
+  /// Changes that the surface was asked about, and those of them that it allowed.
+  std::array<long, 2> surfaceChanges{};
 
   /// Whether a try that failed at time `failed` would fail again, because nothing has changed since
   /// `stamp`. Do not remember failures within a transaction: after a rollback the star is another
@@ -180,6 +182,7 @@ private:
   /// new cells meet others: a notch could be closed.
   bool keepsSurface(const Proposal<D>& p)
   {
+    ++this->surfaceChanges[0];
     return p.newWorst > 0.0 && fillsCavity<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) &&
       !meetsOthers<D>(this->mesh(), p.cavity, p.cells, this->pinched()) &&
       this->changes_.allowsReplacement(*this->surface_, this->mesh(), p);
@@ -200,6 +203,7 @@ private:
     const bool good = this->change(p, qualities) &&
       this->changes_.allowsAngles(*this->surface_, this->mesh(), this->editor_->created());
     good ? this->commit(mark) : this->rollback(mark);
+    this->surfaceChanges[1] += good;
     return good;
   }
   bool replace(const Proposal<D>& p);
@@ -310,6 +314,7 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
     std::any_of(p.moves.begin(), p.moves.end(), [](const auto& m) { return m.place.mayMove(); });
   if (slides)
   {
+    ++this->surfaceChanges[0];
     this->changes_.beforeMoves(this->mesh(), p);
   }
   for (const auto& m : p.moves)
@@ -341,6 +346,7 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
     this->rollback(mark);
     return false;
   }
+  this->surfaceChanges[1] += slides;
   this->bad_ += bad;
   if (this->stampsStars_)
   {

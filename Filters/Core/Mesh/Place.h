@@ -18,6 +18,8 @@ enum class Freedom : std::uint8_t
   Fixed   ///< nothing: it neither moves nor vanishes
 };
 
+inline constexpr int NumberOfFreedoms = static_cast<int>(Freedom::Fixed) + 1;
+
 /// The place on the surface of a point that may slide. Surface points without a place are fixed.
 struct Place
 {

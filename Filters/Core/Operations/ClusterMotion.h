@@ -95,7 +95,7 @@ private:
       if (!mesh.isFree(p))
       {
         judge.editor().star(p, this->star_);
-        directions.basis[0].setZero(); // without a tangent it stays
+        directions.basis.fill(Vec<D>::Zero()); // without a tangent it stays
         directions.count = leaves
           ? 0 // anywhere
           : std::max(1, judge.surface()->tangents(mesh, this->star_, p, directions.basis));

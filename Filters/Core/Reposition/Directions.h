@@ -12,7 +12,9 @@ namespace meshopt
 template <int D>
 struct Directions
 {
-  std::array<Vec<D>, D> basis; ///< orthonormal
+  Directions() { this->basis.fill(Vec<D>::Zero()); }
+
+  std::array<Vec<D>, D> basis; ///< of those that count: orthonormal
   int count = 0;               ///< how many of the basis count; 0: the node may move anywhere
 
   Vec<D> along(const Vec<D>& v) const

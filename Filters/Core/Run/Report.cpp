@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/Report.h"
 
+#include <utility>
+
 namespace meshopt
+{
+namespace
 {
 const char* toString(StopReason reason)
 {
@@ -27,5 +31,24 @@ const char* toString(StopReason reason)
       break;
   }
   return "not run";
+}
+}
+
+std::string describeStop(const Report& report)
+{
+  std::string text = toString(report.stopReason);
+  const auto count = [&](Freedom freedom) { return report.worstNodes[static_cast<int>(freedom)]; };
+  const std::pair<int, const char*> places[] = { { count(Freedom::Corner) + count(Freedom::Fixed),
+                                                   "at corners" },
+    { count(Freedom::Curve), "on curves" }, { count(Freedom::Patch), "on patches" },
+    { count(Freedom::Free), "inside" } };
+  std::string list;
+  for (const auto& [number, place] : places)
+  {
+    list += number == 0 ? "" : (list.empty() ? "" : ", ") + std::to_string(number) + " " + place;
+  }
+  return list.empty() || report.stopReason == StopReason::TargetReached
+    ? text
+    : text + "; nodes of the worst one: " + list;
 }
 }

@@ -5,6 +5,7 @@
 #define meshopt_Run_Report_h
 
 #include "Edit/Operation.h"
+#include "Mesh/Place.h"
 
 #include <array>
 #include <string>
@@ -25,19 +26,17 @@ enum class StopReason
   GrowthLimit  ///< changes that would help need more cells than growthBudget allows
 };
 
-/// The reason as a sentence for the user.
-const char* toString(StopReason reason);
-
 /// One row of the history.
 struct PassRecord
 {
   int pass = 0;
   std::string stage; ///< the name of the step: "input", "untangling", "reconnection", ...
   std::array<long, NumberOfOperations> tried{}, done{};
-  double worst = 0.0, mean = 0.0; ///< after the pass
-  long belowTarget = 0;           ///< cells under targetQuality after the pass
-  long cells = 0, points = 0;     ///< live ones after the pass
-  double seconds = 0.0;           ///< of the pass; not part of any output array
+  long surfaceTried = 0, surfaceDone = 0; ///< changes of a surface that takes part in space
+  double worst = 0.0, mean = 0.0;         ///< after the pass
+  long belowTarget = 0;                   ///< cells under targetQuality after the pass
+  long cells = 0, points = 0;             ///< live ones after the pass
+  double seconds = 0.0;                   ///< of the pass; not part of any output array
 
   /// Adds the work of another row; for rows that are merged.
   void addWork(const PassRecord& other)
@@ -47,6 +46,8 @@ struct PassRecord
       this->tried[op] += other.tried[op];
       this->done[op] += other.done[op];
     }
+    this->surfaceTried += other.surfaceTried;
+    this->surfaceDone += other.surfaceDone;
     this->seconds += other.seconds;
   }
 };
@@ -74,10 +75,16 @@ struct Report
   double bound = 1.0;
   long cappedCells = 0; ///< cells under the target at the end that are held there by their own cap
   long invertedBefore = 0, invertedAfter = 0;
+  /// Nodes of the worst cell at the end, by Freedom; only if the surface takes part in space.
+  std::array<int, NumberOfFreedoms> worstNodes{};
   SizeReport sizes;
   std::vector<PassRecord> history; ///< first row: the input
   double seconds = 0.0;
 };
+
+/// Why the run stopped, as a sentence for the user; if the surface takes part in space, also where
+/// the worst cell is.
+std::string describeStop(const Report& report);
 }
 
 #endif

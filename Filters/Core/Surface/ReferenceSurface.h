@@ -62,7 +62,7 @@ public:
   /// `gone` was within the tolerance. A facet cannot stand for one of the reference from which it
   /// turns by more than 75 degrees. `sideways`: how far the border of the facets may have moved.
   bool covers(
-    const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const;
+    const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways = 0.0) const;
 
   /// The greatest height of the facet over the reference of its patch, counted as in covers().
   double height(const Piece& piece) const;

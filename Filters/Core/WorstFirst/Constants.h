@@ -16,6 +16,8 @@ namespace worstfirst
 /// Targets of the stages. Steps get smaller where gains cost more.
 inline constexpr double Stages[] = { 0.30, 0.45, 0.55, 0.60, 0.64, 0.67, 0.69, 0.705, 0.72, 0.73,
   0.74, 0.75, 0.76 };
+/// More of them for the best effort where the surface of tetrahedra takes part.
+inline constexpr double StagesOfSliding[] = { 0.77, 0.78, 0.79, 0.80 };
 inline constexpr double SameTarget = 1e-9;    // targets that differ by less are the same
 inline constexpr int MaximumPasses = 10;      // of one stage
 inline constexpr int MostIdle = 2;            // stages in a row, past the target, without gain

@@ -23,6 +23,7 @@ void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
   this->kept_ = 0;
   this->tried_.fill(0);
   this->done_.fill(0);
+  this->surface_.fill(0);
   this->drain(task, bad, MaximumChunks);
   // Cells that are long compared with a chunk lie across some border in every pass and must not
   // wait for better borders. Past the target they may wait: there are many stages, and a pass
@@ -114,6 +115,10 @@ void Schedule<D, Shape>::gather()
     left += judge.growth.left;
     this->isShort_ |= judge.growth.isShort;
     this->kept_ += w.kept;
+    for (int i : { 0, 1 })
+    {
+      this->surface_[i] += std::exchange(judge.surfaceChanges[i], 0);
+    }
     for (int op = 0; op < NumberOfOperations; ++op)
     {
       this->tried_[op] += std::exchange(judge.tried[op], 0);

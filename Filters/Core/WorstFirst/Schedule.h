@@ -87,6 +87,8 @@ private:
   StopReason reason();
 
   const SimplexMesh<D>& mesh() const { return this->run_.mesh(); }
+  bool slides() const { return this->run_.surface && this->run_.surface->judgesChanges(); }
+  void noteWorst();
   bool isPast(double target) const { return target > this->options_.targetQuality + SameTarget; }
   double worst() const { return this->run_.report.history.back().worst; }
 
@@ -111,6 +113,7 @@ private:
   bool isShort_ = false;              ///< a change was left out for lack of growth budget
   long kept_ = 0;                     ///< accepted changes of the pass
   std::array<long, NumberOfOperations> tried_{}, done_{};
+  std::array<long, 2> surface_{}; ///< the same for changes of the surface
   double stageDone_ = 0.0;
   double passBegin_; ///< by the clock
 };
@@ -175,6 +178,13 @@ std::vector<double> Schedule<D, Shape>::stages() const
     if (this->options_.effort == Effort::Best && this->isPast(s) && result.back() < bound)
     {
       result.push_back(std::min(s, bound));
+    }
+  }
+  for (double s : StagesOfSliding)
+  {
+    if (this->options_.effort == Effort::Best && this->isPast(s) && this->slides())
+    {
+      result.push_back(s);
     }
   }
   return result;
@@ -372,6 +382,8 @@ void Schedule<D, Shape>::record(double target, int pass)
   row.stage = name;
   row.tried = this->tried_;
   row.done = this->done_;
+  row.surfaceTried = this->surface_[0];
+  row.surfaceDone = this->surface_[1];
   const double now = this->run_.clock.seconds();
   row.seconds = now - std::exchange(this->passBegin_, now);
   std::vector<PassRecord>& history = this->run_.report.history;
@@ -384,9 +396,34 @@ void Schedule<D, Shape>::record(double target, int pass)
   history.push_back(row);
 }
 
+/// Counts the nodes of the worst cell by their freedom.
+template <int D, class Shape>
+void Schedule<D, Shape>::noteWorst()
+{
+  Index worst = None;
+  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    if (this->mesh().isAlive(c) &&
+      (worst == None || this->mesh().quality(c) < this->mesh().quality(worst)))
+    {
+      worst = c;
+    }
+  }
+  this->run_.report.worstNodes.fill(0);
+  for (int i = 0; worst != None && i <= D; ++i)
+  {
+    const Freedom freedom = this->mesh().freedom(this->mesh().nodes(worst)[i]);
+    ++this->run_.report.worstNodes[static_cast<int>(freedom)];
+  }
+}
+
 template <int D, class Shape>
 StopReason Schedule<D, Shape>::reason()
 {
+  if (this->slides())
+  {
+    this->noteWorst();
+  }
   long below = 0;
   long& capped = this->run_.report.cappedCells;
   capped = 0; // an earlier run may have set it

@@ -38,9 +38,24 @@ void AddFigure(vtkFieldData* fields, const char* name, Value value)
   fields->AddArray(figure);
 }
 
+void AddVolumes(const Outcome& outcome, vtkFieldData* fields)
+{
+  vtkNew<vtkDoubleArray> volumes;
+  volumes->SetName("RegionVolumes");
+  volumes->SetNumberOfComponents(3);
+  volumes->SetComponentName(0, "Region");
+  volumes->SetComponentName(1, "Before");
+  volumes->SetComponentName(2, "After");
+  for (const auto& [region, volume] : outcome.Volumes)
+  {
+    volumes->InsertNextTuple3(region, volume[0], volume[1]);
+  }
+  fields->AddArray(volumes);
+}
+
 } // namespace
 
-void StartHistory(vtkTable* table, bool isComposite)
+void StartHistory(vtkTable* table, bool isComposite, bool slides)
 {
   if (isComposite)
   {
@@ -52,6 +67,11 @@ void StartHistory(vtkTable* table, bool isComposite)
   {
     AddColumn<vtkIdTypeArray>(table, name + "Tried");
     AddColumn<vtkIdTypeArray>(table, name + "Done");
+  }
+  if (slides)
+  {
+    AddColumn<vtkIdTypeArray>(table, "SurfaceChangeTried");
+    AddColumn<vtkIdTypeArray>(table, "SurfaceChangeDone");
   }
   AddColumn<vtkDoubleArray>(table, "Worst");
   AddColumn<vtkDoubleArray>(table, "Mean");
@@ -75,6 +95,11 @@ void AppendHistory(const meshopt::Report& report, int block, vtkTable* table)
       const std::string name = meshopt::OperationNames[i];
       Append<vtkIdTypeArray>(table, name + "Tried", row.tried[i]);
       Append<vtkIdTypeArray>(table, name + "Done", row.done[i]);
+    }
+    if (table->GetColumnByName("SurfaceChangeTried"))
+    {
+      Append<vtkIdTypeArray>(table, "SurfaceChangeTried", row.surfaceTried);
+      Append<vtkIdTypeArray>(table, "SurfaceChangeDone", row.surfaceDone);
     }
     Append<vtkDoubleArray>(table, "Worst", row.worst);
     Append<vtkDoubleArray>(table, "Mean", row.mean);
@@ -101,6 +126,8 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   if (outcome.HasSurfaceDistance)
   {
     AddFigure<vtkDoubleArray>(fields, "SurfaceDistance", outcome.SurfaceDistance);
+    AddFigure<vtkDoubleArray>(fields, "VolumeChange", outcome.VolumeChange());
+    AddVolumes(outcome, fields);
   }
   const meshopt::EdgeLengths& lengths = outcome.Lengths;
   if (lengths.edges > 0)
@@ -118,8 +145,7 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
     }
     fields->AddArray(histogram);
   }
-  AddFigure<vtkStringArray>(
-    fields, "StopReason", std::string(meshopt::toString(report.stopReason)));
+  AddFigure<vtkStringArray>(fields, "StopReason", meshopt::describeStop(report));
 }
 
 } // namespace vtkMeshOptimizeBridge

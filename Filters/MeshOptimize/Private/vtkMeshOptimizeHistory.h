@@ -14,9 +14,10 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Adds the columns to an empty table; the first one is Block if `isComposite`.
+ * Adds the columns to an empty table; the first one is Block if `isComposite`. `slides`: the
+ * surface of tetrahedra takes part, and its changes are counted.
  */
-void StartHistory(vtkTable* table, bool isComposite);
+void StartHistory(vtkTable* table, bool isComposite, bool slides);
 
 /**
  * Adds the rows of one grid. `block` is its flat index; it is ignored without a Block column.

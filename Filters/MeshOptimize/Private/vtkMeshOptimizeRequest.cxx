@@ -82,6 +82,7 @@ void Outcome::Add(const Outcome& other)
   if (Strength(its.stopReason) > Strength(mine.stopReason))
   {
     mine.stopReason = its.stopReason;
+    mine.worstNodes = its.worstNodes;
   }
   this->NumberOfCells += other.NumberOfCells;
   this->NumberOfCellsBefore += other.NumberOfCellsBefore;
@@ -93,10 +94,28 @@ void Outcome::Add(const Outcome& other)
   this->NumberOfOperations += other.NumberOfOperations;
   this->Seconds += other.Seconds;
   this->SurfaceDistance = std::max(this->SurfaceDistance, other.SurfaceDistance);
+  this->HasSurfaceDistance |= other.HasSurfaceDistance;
+  for (const auto& [region, volume] : other.Volumes)
+  {
+    this->Volumes[region][0] += volume[0];
+    this->Volumes[region][1] += volume[1];
+  }
   this->Lengths.add(other.Lengths);
   this->Overlap = Joined(this->Overlap, other.Overlap);
   this->Tangle = Joined(this->Tangle, other.Tangle);
   this->Sizes = Joined(this->Sizes, other.Sizes);
+}
+
+//------------------------------------------------------------------------------
+double Outcome::VolumeChange() const
+{
+  double before = 0.0, after = 0.0;
+  for (const auto& [region, volume] : this->Volumes)
+  {
+    before += volume[0];
+    after += volume[1];
+  }
+  return before > 0.0 ? (after - before) / before : 0.0;
 }
 
 std::string Joined(const std::string& a, const std::string& b)

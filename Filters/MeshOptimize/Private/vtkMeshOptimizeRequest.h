@@ -14,7 +14,9 @@
 
 #include "vtkType.h"
 
+#include <array>
 #include <chrono>
+#include <map>
 #include <string>
 
 class vtkAlgorithm;
@@ -66,14 +68,19 @@ struct Outcome
   double Seconds = 0.0;
   double SurfaceDistance = 0.0;    ///< proved, between the surface of before and that of after
   bool HasSurfaceDistance = false; ///< a surface of tetrahedra took part
-  meshopt::EdgeLengths Lengths;    ///< at the end; no edges if neither sizes nor a metric are given
-  std::string Sizes;               ///< information for the user about the wanted sizes, or empty
-  std::string Overlap;             ///< about cells of the input that overlap, or empty
+  /// By region: before and after; only if a surface of tetrahedra took part.
+  std::map<int, std::array<double, 2>> Volumes;
+  meshopt::EdgeLengths Lengths; ///< at the end; no edges if neither sizes nor a metric are given
+  std::string Sizes;            ///< information for the user about the wanted sizes, or empty
+  std::string Overlap;          ///< about cells of the input that overlap, or empty
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
   /// Adds another grid's outcome: minima, means by number of cells, sums, the strongest stop
   /// reason, sentences. Histories are not joined.
   void Add(const Outcome& other);
+
+  /// Of all regions together, relative to the volume before.
+  double VolumeChange() const;
 };
 
 /**

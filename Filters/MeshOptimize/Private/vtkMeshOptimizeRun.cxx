@@ -33,15 +33,33 @@ namespace vtkMeshOptimizeBridge
 namespace
 {
 
+/**
+ * Books the volume of each region: before (0) or after (1).
+ */
+template <int D>
+void AddVolumes(const Request& request, const Model<D>& model, int when, Outcome& outcome)
+{
+  const meshopt::SimplexMesh<D>& mesh = model.Mesh;
+  for (meshopt::Index c = 0; D == 3 && request.Slide && c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      outcome.Volumes[mesh.region(c)][when] += meshopt::signedVolume(mesh.corners(c));
+    }
+  }
+}
+
 template <int D>
 void Optimize(const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model,
   Outcome& outcome)
 {
   const auto start = std::chrono::steady_clock::now();
   const double areaBefore = D == 2 ? model.Mesh.volume() : 0.0;
+  AddVolumes<D>(request, model, 0, outcome);
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(model.Mesh, model.Metric, request.OptionsNow(),
     request.Control, request.Slide ? &surface : nullptr);
+  AddVolumes<D>(request, model, 1, outcome);
   outcome.NumberOfCells = model.Mesh.countCells();
   outcome.Sizes = Joined(DescribeSizes(outcome.Report, request),
     D == 2 ? DescribeArea(areaBefore, model.Mesh.volume(), request) : "");

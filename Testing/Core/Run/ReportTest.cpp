@@ -12,7 +12,7 @@ TEST(Report, SaysThatNothingHasRun)
 {
   const Report report;
   EXPECT_EQ(report.stopReason, StopReason::NotRun);
-  EXPECT_STREQ(toString(report.stopReason), "not run");
+  EXPECT_EQ(describeStop(report), "not run");
   EXPECT_TRUE(report.history.empty());
   EXPECT_EQ(report.bound, 1.0);
 }
@@ -22,8 +22,24 @@ TEST(Report, EachReasonHasASentenceOfItsOwn)
   std::set<std::string> sentences;
   for (int k = 0; k <= static_cast<int>(StopReason::GrowthLimit); ++k)
   {
-    sentences.insert(toString(static_cast<StopReason>(k)));
+    Report report;
+    report.stopReason = static_cast<StopReason>(k);
+    sentences.insert(describeStop(report));
   }
   EXPECT_EQ(sentences.size(), static_cast<std::size_t>(StopReason::GrowthLimit) + 1);
   EXPECT_EQ(sentences.count(""), 0u);
+}
+
+TEST(Report, SaysWhereTheWorstCellIsIfTheSurfaceTookPart)
+{
+  Report report;
+  report.stopReason = StopReason::NoFurtherGain;
+  report.worstNodes[static_cast<int>(Freedom::Corner)] = 1;
+  report.worstNodes[static_cast<int>(Freedom::Fixed)] = 1;
+  report.worstNodes[static_cast<int>(Freedom::Free)] = 2;
+  EXPECT_EQ(describeStop(report),
+    "no operation improves the worst cells any more; nodes of the worst one: 2 at corners, 2 "
+    "inside");
+  report.stopReason = StopReason::TargetReached;
+  EXPECT_EQ(describeStop(report), "target quality reached");
 }

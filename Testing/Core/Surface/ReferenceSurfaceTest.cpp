@@ -115,7 +115,7 @@ TEST(ReferenceSurface, ABumpIsNotCutOff)
     [](double u, double v) { return std::max(0.0, 0.03 - 0.3 * std::hypot(u - 0.5, v - 0.5)); });
   const auto flat = sheet(10, [](double, double) { return 0.0; });
   EXPECT_FALSE(reference(bump, 0.01).covers(bump, flat));
-  EXPECT_TRUE(reference(bump, 0.04).covers(bump, flat));
+  EXPECT_TRUE(reference(bump, 0.05).covers(bump, flat));
 }
 
 TEST(ReferenceSurface, AFoldIsRefused)
@@ -169,5 +169,58 @@ TEST(ReferenceSurface, HeightsBoundTheDistance)
   }
   EXPECT_GE(proved, sampledDistance(facetsOf(coarse), facetsOf(fine), 10) - 1e-12);
   EXPECT_LT(proved, 0.05);
+}
+
+/// A sheet that turns by 80 degrees at u = 1/2, and goes up from there.
+double stepUp(double u, double)
+{
+  return std::max(0.0, u - 0.5) * std::tan(80.0 * std::acos(-1.0) / 180.0);
+}
+
+TEST(ReferenceSurface, FacetsBesideASharpEdgeMayChange)
+{
+  const auto before = sheet(6, stepUp);
+  const ReferenceSurface surface = reference(before, 0.01);
+  const auto moved = [&](const Vec<3>& node, const Vec<3>& to)
+  {
+    auto after = before;
+    for (Piece& piece : after)
+    {
+      for (Vec<3>& x : piece.x)
+      {
+        x = (x - node).norm() < 1e-9 ? to : x;
+      }
+    }
+    return after;
+  };
+  const double third = 2.0 / 6.0;
+  // In the flat part, and along the edge: the same points.
+  const Vec<3> flat(third, 0.5, 0.0), edge(0.5, 0.5, 0.0);
+  EXPECT_TRUE(surface.covers(before, moved(flat, flat + Vec<3>(0.05, 0.03, 0.0))));
+  EXPECT_TRUE(surface.covers(before, moved(edge, edge + Vec<3>(0.0, 0.05, 0.0))));
+  EXPECT_TRUE(surface.covers(before, moved(flat, flat + Vec<3>(0.05, 0.03, 0.004))));
+  // Away from the edge, over one of its sides: cuts the other off.
+  EXPECT_FALSE(surface.covers(before, moved(edge, edge + Vec<3>(-0.1, 0.0, 0.0))));
+  EXPECT_FALSE(surface.covers(before, moved(edge, Vec<3>(0.52, 0.5, stepUp(0.52, 0.5)))));
+  // Another number of boxes: the edge is cut off.
+  EXPECT_FALSE(surface.covers(before, sheet(5, stepUp)));
+}
+
+TEST(ReferenceSurface, ClearanceIsToSheetsThatFaceThePoint)
+{
+  const auto flat = [](double, double) { return 0.0; };
+  auto two = sheet(6, flat);
+  const auto alone = reference(two, 0.1);
+  EXPECT_DOUBLE_EQ(alone.clearance(Vec<3>(0.5, 0.5, 0.0)), 0.1); // neighbours do not count
+  for (Piece piece : sheet(6, flat))
+  {
+    std::swap(piece.x[1], piece.x[2]);
+    for (Vec<3>& x : piece.x)
+    {
+      x[2] -= 0.04;
+    }
+    two.push_back(piece);
+  }
+  EXPECT_DOUBLE_EQ(reference(two, 0.1).clearance(Vec<3>(0.5, 0.5, 0.0)), 0.01);
 }
 }

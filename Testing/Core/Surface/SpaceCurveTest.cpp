@@ -94,4 +94,21 @@ TEST(SpaceCurve, WhereItTurnsBackNothingIsProved)
   const SpaceCurve loop = zigzag(true);
   EXPECT_TRUE(std::isinf(loop.deviation(0.0, loop.length()))); // its chord has no length
 }
+
+TEST(SpaceCurve, RoomIsTheLeastAroundASpan)
+{
+  SpaceCurve open = zigzag(false), closed = zigzag(true);
+  EXPECT_EQ(open.room(0.0, 1.0), std::numeric_limits<double>::infinity());
+  for (SpaceCurve* curve : { &open, &closed })
+  {
+    curve->setRooms({ 4.0, 3.0, 2.0, 1.0 });
+    EXPECT_EQ(curve->room(0.2, 0.8), 3.0);
+    EXPECT_EQ(curve->room(2.0, 0.5), 2.0); // either way round
+    EXPECT_EQ(curve->room(0.5, 3.5), 1.0);
+  }
+  // Across the first point, from the last segment on.
+  const double length = closed.length();
+  EXPECT_EQ(closed.room(length - 0.1, length + 0.1), 1.0);
+  EXPECT_EQ(closed.room(-0.1, 0.1), 1.0);
+}
 }
