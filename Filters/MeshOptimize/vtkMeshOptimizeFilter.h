@@ -503,8 +503,8 @@ public:
    * More about the last run. SurfaceDistance: with BoundaryMode Slide and tetrahedra, the distance
    * that is proved between the surface of the input and that of the output, both ways; a length, at
    * most the tolerance. 0 otherwise. VolumeChange: that of the volume, relative to the volume
-   * before. Both are also in the field data, as is `RegionVolumes`. EdgeLengthShare: the fraction of
-   * edges in the output that are 1/sqrt(2) to sqrt(2) times as long as wanted at their place, in
+   * before. Both are also in the field data, as is `RegionVolumes`. EdgeLengthShare: the fraction
+   * of edges in the output that are 1/sqrt(2) to sqrt(2) times as long as wanted at their place, in
    * the metric if there is one; 0 if neither a size nor a metric was given. It is also in the field
    * data of the output, as is the histogram `EdgeLengthHistogram`. NumberOfOperations: of all kinds
    * together. OptimizeSeconds: time in the optimizer, without import and export. It is in no output

@@ -23,9 +23,7 @@ public:
 
   bool improve(Judge<D, Shape>& judge, Index t, int)
   {
-    const bool done = this->move(judge, t, false) || (judge.slides() && this->move(judge, t, true));
-    judge.count(Operation::NodeMotion, done);
-    return done;
+    return this->move(judge, t, false) || (judge.slides() && this->move(judge, t, true));
   }
 
 private:
@@ -79,6 +77,7 @@ private:
       this->proposal_.newWorst = now;
       better = judge.accept(this->proposal_);
     }
+    judge.count(Operation::NodeMotion, better);
     return better;
   }
 

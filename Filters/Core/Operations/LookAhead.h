@@ -2,8 +2,8 @@
 /// @file LookAhead.h
 /// Several changes that gain only together: a node is inserted even without gain, then the cells
 /// that became worse are improved, worst first. The whole is kept if all cells concerned end up
-/// better than the cell that started it. Otherwise it is undone, bit for bit. Where the surface takes
-/// part, a node of it may also vanish first.
+/// better than the cell that started it. Otherwise it is undone, bit for bit. Where the surface
+/// takes part, a node of it may also vanish first.
 #ifndef meshopt_Operations_LookAhead_h
 #define meshopt_Operations_LookAhead_h
 
@@ -55,8 +55,7 @@ private:
     const Index p = judge.editor().addPoint(seed.x);
     judge.start();
     if (p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&
-      this->insertion_.fill(judge, p, seed) &&
-      this->finish(judge, mark, old, isLong))
+      this->insertion_.fill(judge, p, seed) && this->finish(judge, mark, old, isLong))
     {
       return true;
     }
@@ -65,7 +64,8 @@ private:
     return false;
   }
 
-  /// Contracts the edges of the cell that lie on the surface, the shortest first, even without gain.
+  /// Contracts the edges of the cell that lie on the surface, the shortest first, even without
+  /// gain.
   bool tryWithout(Judge<D, Shape>& judge, Index t, bool isLong)
   {
     const SimplexMesh<D>& mesh = judge.mesh();

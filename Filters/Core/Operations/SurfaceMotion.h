@@ -8,8 +8,8 @@
 
 namespace meshopt
 {
-/// For cells that nodes sliding on the surface, curves and corners could not help: flat ones between
-/// two ridges, or with an edge between two corners.
+/// For cells that nodes sliding on the surface could not help: flat ones between two ridges, or
+/// with a short edge between two corners.
 template <int D, class Shape>
 class SurfaceMotion
 {

@@ -420,10 +420,10 @@ bool ReferenceSurface::isFlatOn(const Facet& r, const Piece& piece, double allow
     (slope > 0.0 || !r.isSigned) && slope * slope >= LeastCosine * LeastCosine * n.squaredNorm();
 }
 
-/// Whether all of a facet is within the tolerance of the reference, on its side. The distance from one facet of
-/// the reference is convex: where it is kept at three corners, it is kept between them. What has no
-/// such facet is halved.
-bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near) const
+/// Whether all of a facet is within a part of the tolerance of the reference, on its side. The
+/// distance from one facet of the reference is convex: where it is kept at three corners, it is
+/// kept between them. What has no such facet is halved.
+bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near, double part) const
 {
   constexpr int most = 64;
   const Vec<3> normal = normalOf(piece);
@@ -435,7 +435,7 @@ bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near) 
     const auto isNearTo = [&](int k)
     {
       const Facet& r = this->facets_[k];
-      const double allowed = Share * r.tolerance;
+      const double allowed = part * Share * r.tolerance;
       return r.patch == piece.patch && (!r.isSigned || r.normal.dot(normal) > 0.0) &&
         std::all_of(t.begin(), t.end(),
           [&](const Vec<3>& x)
@@ -505,19 +505,22 @@ double ReferenceSurface::height(const Piece& piece) const
     return 0.0; // it has not changed
   }
   double most = 0.0;
+  bool isClear = true;
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
-    if (this->isNeedle(r))
-    {
-      continue;
-    }
-    const Heights h = this->heights(r, piece);
-    if (h.least <= Reach * r.tolerance && h.cosine > 0.0)
-    {
-      most = std::max(most, h.most);
-    }
+    const Heights h = this->isNeedle(r) ? Heights{ 0.0, -1.0, 1.0, 0.0 } : this->heights(r, piece);
+    const bool stands = h.most <= r.tolerance && h.cosine >= LeastCosine;
+    most = stands ? std::max(most, h.most) : most;
+    isClear = isClear &&
+      (stands || h.most < 0.0 || h.least > Reach * r.tolerance || !(h.cosine > 0.0));
   }
-  return most;
+  constexpr double first = 1.0 / 64.0;
+  double part = isClear ? 0.0 : first;
+  while (part > 0.0 && part < 1.0 && !this->isNear(piece, near, part))
+  {
+    part *= 2.0;
+  }
+  return std::max(most, part * Share * this->tolerance_);
 }
 }

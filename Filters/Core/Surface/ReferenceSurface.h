@@ -24,7 +24,8 @@ namespace meshopt
 /// Then every point of R is within the tolerance of the mesh; and every point of the mesh within
 /// that of the reference: those in prisms by their heights; those in the wedges between prisms,
 /// above edges and points of the reference, since a facet's part in a wedge is convex, its corners
-/// are nodes or lie in the walls of prisms, and the distance to an edge or a point is a convex function.
+/// are nodes or lie in the walls of prisms, and the distance to an edge or a point is a convex
+/// function.
 ///
 /// A change replaces facets G by facets N with the same border. As seen along the normal of R, both
 /// cover the same points, if none of them is turned away. So it keeps the first condition if the
@@ -90,7 +91,7 @@ private:
   bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come,
     double sideways, std::vector<std::uint8_t>& unclear) const;
   bool isFlatOn(const Facet& r, const Piece& piece, double allowed) const;
-  bool isNear(const Piece& piece, const std::vector<int>& near) const;
+  bool isNear(const Piece& piece, const std::vector<int>& near, double part = 1.0) const;
   bool isInsideOut(const Piece& piece, const std::vector<int>& near) const;
   double room(const Facet& f, std::vector<int>& near) const;
   /// `patch`: None for all.

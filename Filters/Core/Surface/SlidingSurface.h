@@ -21,9 +21,10 @@ namespace meshopt
 /// except its corners, Freedom::Curve, its number and their parameter. Patches and curves are those
 /// of SurfaceDivision. Edges on curves become kept edges of the mesh.
 ///
-/// Nodes lie on the surface as it was, but where placeNear() has been asked for more. Facets and edges between them are accepted if the
-/// surface of before and that of after stay within the tolerance of each other (ReferenceSurface,
-/// SpaceCurve::deviation()); if exact, if they lie in the plane of their patch and do not fold.
+/// Nodes lie on the surface as it was, but where placeNear() has been asked for more. Facets and
+/// edges between them are accepted if the surface of before and that of after stay within the
+/// tolerance of each other (ReferenceSurface, SpaceCurve::deviation()); if exact, if they lie in
+/// the plane of their patch and do not fold.
 class SlidingSurface final : public Surface<3>
 {
 public:
@@ -62,8 +63,8 @@ public:
     const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const override;
   bool judgesChanges() const override { return true; }
   bool allows(const SurfaceChange<3>& change) const override;
-  /// Inside a patch, up to the feature angle; beyond, only along edges that were as sharp as half of
-  /// it. At a curve that is sharp, from half of it on.
+  /// Inside a patch, up to the feature angle; beyond, only along edges that were as sharp as half
+  /// of it. At a curve that is sharp, from half of it on.
   bool allowsAngle(
     const SimplexMesh<3>& mesh, Index a, Index b, bool isKept, double cosine) const override;
 
