@@ -510,7 +510,7 @@ double ReferenceSurface::height(const Piece& piece) const
   {
     const Facet& r = this->facets_[k];
     const Heights h = this->isNeedle(r) ? Heights{ 0.0, -1.0, 1.0, 0.0 } : this->heights(r, piece);
-    const bool stands = h.most <= r.tolerance && h.cosine >= LeastCosine;
+    const bool stands = h.most <= Share * r.tolerance && h.cosine >= LeastCosine;
     most = stands ? std::max(most, h.most) : most;
     isClear = isClear &&
       (stands || h.most < 0.0 || h.least > Reach * r.tolerance || !(h.cosine > 0.0));

@@ -90,6 +90,10 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
   const SimplexMesh<3>& mesh = editor.mesh();
   for (const SurfaceDivision::Chain& chain : division.chains)
   {
+    if (chain.isFixed)
+    {
+      continue; // its edge is kept like the others, but belongs to no curve that may change
+    }
     std::vector<Vec<3>> points;
     for (Index p : chain.points)
     {

@@ -36,7 +36,8 @@ struct SurfaceOptions
 /// than the feature angle, or if they separate other regions or have other numbers; and so is each
 /// kept edge in the surface. A corner is a point where not exactly two such edges meet, where these
 /// separate other patches, where the surface touches itself, where a curve turns by more than the
-/// corner angle, or that is fixed. Patches are facets that hang together without crossing a curve.
+/// corner angle, or that is fixed. Where the surface touches itself in a point or along an edge,
+/// these stay. Patches are facets that hang together without crossing a curve.
 ///
 /// With almost no tolerance (isExact()), patches are flat, and curves are straight: any edge that
 /// is not flat belongs to a curve, and any point where a curve turns is a corner.
@@ -60,7 +61,8 @@ struct SurfaceDivision
   {
     std::vector<Index> points;
     bool isClosed = false;
-    bool isSharp = true; ///< all its edges have two facets that exceed the feature angle
+    bool isSharp = true;  ///< all its edges have two facets that exceed the feature angle
+    bool isFixed = false; ///< an edge where the surface touches itself
   };
   /// The plane of a flat patch.
   struct Plane
@@ -108,6 +110,7 @@ private:
   void fill(Index seed, const Plane* plane);
   bool fits(const std::vector<Index>& parts, Plane& plane) const;
   void findCorners(const SurfaceOptions& options);
+  bool isTouching(const Edge& edge) const;
   bool isPinched(Index p, const std::vector<Index>& parts, const std::vector<Index>& edges) const;
   bool turns(Index p, const std::vector<Index>& curves, double angle) const;
   std::vector<Index> signature(Index edge) const;

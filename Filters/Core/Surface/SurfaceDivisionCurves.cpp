@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The second half of SurfaceDivision: corners, and the curves between them.
 #include "Mesh/Ids.h"
+#include "Mesh/PinchedPoints.h"
 #include "Surface/SurfaceDivision.h"
 
 #include <Eigen/Geometry>
@@ -19,6 +20,17 @@ std::vector<Index> SurfaceDivision::signature(Index edge) const
   }
   std::sort(patches.begin(), patches.end());
   return patches;
+}
+
+/// Whether the outer surface touches itself along the edge: the cells there are not connected.
+bool SurfaceDivision::isTouching(const Edge& edge) const
+{
+  int outer = 0;
+  for (std::size_t i = edge.first; i < edge.last; ++i)
+  {
+    outer += this->parts[this->incidences_[i]].other == None;
+  }
+  return outer > 2;
 }
 
 /// Whether the surface touches itself at point p. `around`: its parts; `curves`: its edges on
@@ -80,6 +92,8 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
   const Index n = this->mesh_.numberOfPointSlots();
   this->freedom.assign(n, Freedom::Free);
   this->patchOfPoint.assign(n, None);
+  std::vector<std::uint8_t> touching = pinchedPoints<3>(this->mesh_);
+  touching.resize(n, 0);
   // Parts and curves at each point, as one list each, sorted by point.
   std::vector<std::array<Index, 2>> partsAt, curvesAt;
   for (std::size_t k = 0; k < this->parts.size(); ++k)
@@ -93,6 +107,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
   {
     for (Index p : this->edges_[e].nodes)
     {
+      touching[p] |= this->isTouching(this->edges_[e]);
       if (this->edges_[e].isCurve)
       {
         curvesAt.push_back({ p, static_cast<Index>(e) });
@@ -121,7 +136,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
       (!options.corners.empty() && options.corners[p]);
     const bool isLocked = std::any_of(
       around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
-    const bool isFixed = isMarked || isLocked;
+    const bool isFixed = isMarked || isLocked || touching[p];
     this->freedom[p] = isFixed || this->isExact ? Freedom::Fixed : Freedom::Corner;
     if (isFixed || (curves.size() != 0 && curves.size() != 2) || this->isPinched(p, around, curves))
     {
@@ -174,6 +189,7 @@ void SurfaceDivision::findChains()
     {
       used[e] = 1;
       chain.isSharp = chain.isSharp && this->edges_[e].isSharp;
+      chain.isFixed = chain.isFixed || this->isTouching(this->edges_[e]);
       const std::array<Index, 2>& nodes = this->edges_[e].nodes;
       p = nodes[0] == p ? nodes[1] : nodes[0];
       chain.isClosed = p == chain.points[0] && this->freedom[p] == Freedom::Curve;
@@ -258,6 +274,7 @@ void SurfaceDivision::straighten()
       }
       Chain piece;
       piece.isSharp = chain.isSharp;
+      piece.isFixed = chain.isFixed;
       piece.points.assign(chain.points.begin() + from, chain.points.begin() + to + 1);
       this->freedom[piece.points.front()] = this->freedom[piece.points.back()] = Freedom::Fixed;
       straight.push_back(piece);

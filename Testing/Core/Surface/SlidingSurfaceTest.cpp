@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole runs with a surface that takes part: what they reach, and what must stay.
+#include "Mesh/Ids.h"
 #include "Metric/NodalMetric.h"
 #include "Optimize/Optimizer.h"
+#include "Quality/Shape.h"
 #include "SlidingBoxes.h"
 #include "TestThreads.h"
+
+#include <map>
 
 using namespace meshopt;
 
@@ -150,5 +154,67 @@ TEST(SlidingSurface, ARidgeStaysWhereItWas)
   const Outcome slid = optimized(in, 0.0);
   EXPECT_LE(sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 4), 1e-15);
   EXPECT_LE(sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 4), 1e-15);
+}
+
+/// The number of edges with more than two outer facets.
+long touchingEdges(const SimplexMesh<3>& mesh)
+{
+  std::map<std::array<Index, 2>, int> facets;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
+    {
+      const Facet<3> f = mesh.facet(c, i);
+      for (int k = 0; k < 3 && mesh.adjacent(c, i) == None; ++k)
+      {
+        ++facets[sortedIds(f[k], f[(k + 1) % 3])];
+      }
+    }
+  }
+  return std::count_if(facets.begin(), facets.end(), [](const auto& f) { return f.second > 2; });
+}
+
+TEST(SlidingSurface, WhereItTouchesItselfItStays)
+{
+  // Two columns that share an edge, with bad cells.
+  MeshInput<3> in = slidingBox(6, 0.35, 17);
+  const MeshInput<3> regular = jitteredGrid<3>(6, 0.0);
+  std::vector<Simplex<3>> cells;
+  for (const Simplex<3>& cell : in.cells)
+  {
+    Vec<3> centre = Vec<3>::Zero();
+    for (Index p : cell)
+    {
+      centre += 0.25 * regular.points[p];
+    }
+    if ((centre[0] < 0.5) == (centre[1] < 0.5))
+    {
+      cells.push_back(cell);
+    }
+  }
+  in.cells = cells;
+  ASSERT_EQ(touchingEdges(buildMesh(in)), 6);
+  for (double tolerance : { 0.0, 1e-3, 0.05 })
+  {
+    const Outcome slid = optimized(in, tolerance);
+    EXPECT_EQ(touchingEdges(slid.mesh), 6) << tolerance;
+    EXPECT_GT(slid.report.worstAfter, slid.report.worstBefore);
+    for (std::size_t p = 0; p < in.points.size(); ++p)
+    {
+      const Vec<3>& x = regular.points[p];
+      if (x[0] == 0.5 && x[1] == 0.5)
+      {
+        EXPECT_EQ(slid.mesh.point(static_cast<Index>(p)), in.points[p]);
+      }
+    }
+    // The qualities are those of the cells as they are.
+    for (Index c = 0; c < slid.mesh.numberOfCellSlots(); ++c)
+    {
+      if (slid.mesh.isAlive(c))
+      {
+        ASSERT_GE(MeanEdgeShape<3>::value(slid.mesh.corners(c)), slid.report.worstAfter - 1e-12);
+      }
+    }
+  }
 }
 }
