@@ -22,8 +22,11 @@ constexpr double Share = 0.75;
 constexpr double Touch = 1e-10;
 /// How far to look for the reference, in tolerances.
 constexpr double Reach = 2.0;
-/// The part of walls and gaps that is left to a facet.
-constexpr double Room = 0.25;
+/// The part of a wall that is left to a facet. Both sides may use it: the volume of the wall
+/// changes by less than a quarter.
+constexpr double RoomOfWalls = 1.0 / 7.0;
+/// The same for a gap, outside.
+constexpr double RoomOfGaps = 0.25;
 
 /// The point of the triangle nearest to x (Ericson, Real-time collision detection, 5.1.5).
 Vec<3> nearestInTriangle(const std::array<Vec<3>, 3>& t, const Vec<3>& x)
@@ -99,7 +102,7 @@ struct Polygon
 };
 }
 
-void ReferenceSurface::add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned)
+void ReferenceSurface::add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter)
 {
   Facet f;
   // The longest edge first: the frame is then as exact as it can be.
@@ -122,6 +125,7 @@ void ReferenceSurface::add(const std::array<Vec<3>, 3>& x, Index patch, bool isS
   f.q = f.across.dot(c - a);
   f.patch = patch;
   f.isSigned = isSigned;
+  f.isOuter = isOuter;
   f.x = x;
   this->facets_.push_back(f);
 }
@@ -149,10 +153,10 @@ void ReferenceSurface::finish(double tolerance, double least)
   }
 }
 
-/// Room times the distance to the next sheet of the surface, behind the facet or in front of it.
+/// What the next sheet of the surface leaves, behind the facet or in front of it.
 double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
 {
-  const Vec<3> reach = f.normal * (this->tolerance_ / Room);
+  const Vec<3> reach = f.normal * (this->tolerance_ / RoomOfWalls);
   Box box;
   for (const Vec<3>& x : f.x)
   {
@@ -171,7 +175,8 @@ double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
     if (looksAway && std::none_of(o.x.begin(), o.x.end(), isShared))
     {
       const Heights h = this->heights(f, { o.x, o.patch, None });
-      room = h.most >= 0.0 ? std::min(room, Room * h.least) : room;
+      const bool isGap = f.isOuter && f.normal.dot(o.x[0] + o.x[1] + o.x[2] - 3.0 * f.origin) > 0.0;
+      room = h.most >= 0.0 ? std::min(room, (isGap ? RoomOfGaps : RoomOfWalls) * h.least) : room;
     }
   }
   return room;
@@ -220,21 +225,23 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
 double ReferenceSurface::clearance(const Vec<3>& x) const
 {
   constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
-  const double reach = this->tolerance_ / Room;
+  const double reach = this->tolerance_ / RoomOfWalls;
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
   std::vector<int> near;
   this->findNear(Box(Eigen::Vector3d(x) - margin, Eigen::Vector3d(x) + margin), None, near);
-  double least = reach;
+  double room = this->tolerance_;
   for (int k : near)
   {
     const Facet& f = this->facets_[k];
     const Vec<3> way = nearestInTriangle(f.x, x) - x;
-    const double length = way.norm();
+    const double length = way.norm(), along = f.normal.dot(way);
     const bool isApart = length > Touch * f.l; // the others have x
-    least = isApart && std::fabs(f.normal.dot(way)) > faces * length ? std::min(least, length)
-                                                                     : least;
+    if (isApart && std::fabs(along) > faces * length)
+    {
+      room = std::min(room, (f.isOuter && along < 0.0 ? RoomOfGaps : RoomOfWalls) * length);
+    }
   }
-  return Room * least;
+  return room;
 }
 
 double ReferenceSurface::tolerance(int facet) const

@@ -41,19 +41,20 @@ public:
   using Piece = SurfacePiece<3>;
 
   /// Adds a facet: corners in order, seen from outside counter-clockwise. `isSigned` is false if
-  /// outside cannot be told from inside, as with a facet within one region.
-  void add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned);
+  /// outside cannot be told from inside, as with a facet within one region; `isOuter` is true if
+  /// there is nothing outside.
+  void add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter);
   /// To be called once, after the last facet. `tolerance`: a length; `least`: that of rounding. No
-  /// facet may use more of the tolerance than a quarter of the thickness of the wall that it is a
-  /// side of, and of the gap in front of it: no wall is pressed flat, and no gap closed.
+  /// facet may use more of the tolerance than a seventh of the thickness of the wall that it is a
+  /// side of, and a quarter of the gap in front of it: no wall is pressed flat, and no gap closed.
   void finish(double tolerance, double least);
 
   /// The point of the patch nearest to x. Returns the number of its facet, in the order of add();
   /// -1 if the patch has none.
   int project(Index patch, const Vec<3>& x, Vec<3>& there) const;
 
-  /// How far a point of the surface may move: a quarter of the distance to other sheets that face
-  /// it, within walls and across gaps. At most the tolerance.
+  /// How far a point of the surface may move: the same parts of the distance to other sheets that
+  /// face it. At most the tolerance.
   double clearance(const Vec<3>& x) const;
 
   /// The tolerance that facets near to this facet of the reference may use.
@@ -74,7 +75,7 @@ private:
     Vec<3> origin, along, across, normal; ///< a frame: the corners are (0, 0), (l, 0), (p, q)
     double l, p, q;
     Index patch;
-    bool isSigned;
+    bool isSigned, isOuter;
     std::array<Vec<3>, 3> x;
     double tolerance = 0.0; ///< its own
   };

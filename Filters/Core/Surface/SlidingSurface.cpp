@@ -79,7 +79,7 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
     patch.label = part.label;
     this->reference_.add(
       { mesh.point(part.nodes[0]), mesh.point(part.nodes[1]), mesh.point(part.nodes[2]) },
-      part.patch, patch.isSigned);
+      part.patch, patch.isSigned, part.other == None);
     this->inputFacets_.push_back(sortedIds(part.nodes));
   }
   this->reference_.finish(this->tolerance_, division.rounding);

@@ -34,7 +34,7 @@ ReferenceSurface reference(const std::vector<Piece>& pieces, double tolerance)
   ReferenceSurface surface;
   for (const Piece& piece : pieces)
   {
-    surface.add(piece.x, piece.patch, true);
+    surface.add(piece.x, piece.patch, true, true);
   }
   surface.finish(tolerance, 1e-15);
   return surface;
@@ -221,6 +221,6 @@ TEST(ReferenceSurface, ClearanceIsToSheetsThatFaceThePoint)
     }
     two.push_back(piece);
   }
-  EXPECT_DOUBLE_EQ(reference(two, 0.1).clearance(Vec<3>(0.5, 0.5, 0.0)), 0.01);
+  EXPECT_DOUBLE_EQ(reference(two, 0.1).clearance(Vec<3>(0.5, 0.5, 0.0)), 0.04 / 7.0);
 }
 }

@@ -217,4 +217,75 @@ TEST(SlidingSurface, WhereItTouchesItselfItStays)
     }
   }
 }
+
+/// Volumes of the regions 0, 1, 2.
+std::array<double, 3> volumesOf(const SimplexMesh<3>& mesh)
+{
+  std::array<double, 3> volumes{};
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      volumes[mesh.region(c)] += signedVolume(mesh.corners(c));
+    }
+  }
+  return volumes;
+}
+
+TEST(SlidingSurface, ThreeRegionsThatMeetInACurve)
+{
+  MeshInput<3> in = slidingBox(6, 0.0);
+  for (const Simplex<3>& cell : in.cells)
+  {
+    Vec<3> centre = Vec<3>::Zero();
+    for (Index p : cell)
+    {
+      centre += 0.25 * in.points[p];
+    }
+    in.regions.push_back(centre[0] < 0.5 ? 0 : centre[1] < 0.5 ? 1 : 2);
+  }
+  // All is displaced, but what is on a plane stays in it; then the body is bent.
+  TestRandom random(29);
+  for (Vec<3>& x : in.points)
+  {
+    const Vec<3> at = x;
+    for (int d = 0; d < 3; ++d)
+    {
+      const double move = 0.3 / 6 * random();
+      const bool isOnPlane = at[d] == 0.0 || at[d] == 1.0 || (d < 2 && at[d] == 0.5);
+      x[d] += isOnPlane ? 0.0 : move;
+    }
+  }
+  bend(in);
+  const SimplexMesh<3> before = buildMesh(in);
+  constexpr double tolerance = 2e-3;
+  const Outcome kept = optimized(in, tolerance, false), slid = optimized(in, tolerance);
+  EXPECT_GT(slid.report.worstAfter, kept.report.worstAfter);
+  EXPECT_LE(slid.distance, tolerance);
+  EXPECT_LE(sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 4), tolerance);
+  EXPECT_LE(sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 4), tolerance);
+  const auto was = volumesOf(before), is = volumesOf(slid.mesh);
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_NEAR(is[k], was[k], 0.5 * tolerance * areaOf(before)) << k;
+  }
+}
+
+TEST(SlidingSurface, AThinPlateIsNotPressedFlat)
+{
+  // Thinner than the tolerance.
+  constexpr double thickness = 8e-4, tolerance = 2e-3;
+  MeshInput<3> in = slidingBox(8, 0.3, 31);
+  for (Vec<3>& x : in.points)
+  {
+    x[2] *= thickness;
+  }
+  const SimplexMesh<3> before = buildMesh(in);
+  const Outcome slid = optimized(in, tolerance);
+  EXPECT_GT(slid.report.worstAfter, slid.report.worstBefore);
+  EXPECT_LE(slid.distance, tolerance);
+  // A seventh of the thickness from each side, at most.
+  EXPECT_NEAR(slid.mesh.volume(), thickness, 0.22 * thickness);
+  EXPECT_LE(sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 3), thickness / 7.0);
+}
 }
