@@ -245,10 +245,11 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   request.Curves.splines = filter->GetBoundaryCurve() == vtkMeshOptimizeFilter::BSpline;
   request.Curves.cornerAngle = filter->GetCornerAngle();
   request.Surface.cornerAngle = filter->GetCornerAngle();
-  constexpr double right = 90.0; // a facet cannot stand for both sides of an edge that turns more
+  // A facet cannot stand for both sides of an edge that turns by much more. Right angles stay.
+  constexpr double least = 80.0;
   request.Surface.featureAngle = filter->GetKeepFeatures()
     ? filter->GetFeatureAngle()
-    : std::max(filter->GetFeatureAngle(), right);
+    : std::max(filter->GetFeatureAngle(), least);
   request.Surface.tolerance = filter->GetSurfaceTolerance();
   request.ToleranceIsAbsolute = filter->GetToleranceIsAbsolute();
   request.Geometry = geometry;

@@ -165,6 +165,114 @@ TEST(MeshOptimizeFilterSurface, ABadSurfaceGetsBetterAndStaysTheSameSet)
   EXPECT_EQ(corners, 8);
 }
 
+/**
+ * The top of a box becomes a roof whose sides turn by 60 degrees at x = 1/2.
+ */
+void AddRoof(vtkUnstructuredGrid* grid)
+{
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    Point x = GetPoint(grid, p);
+    x[2] *= 1.0 + std::tan(vtkMath::RadiansFromDegrees(30.0)) * (0.5 - std::fabs(x[0] - 0.5));
+    grid->GetPoints()->SetPoint(p, x.data());
+  }
+}
+
+vtkIdType CountPlaces(vtkUnstructuredGrid* grid, int place)
+{
+  vtkDataArray* places = grid->GetPointData()->GetArray("BoundaryPlace");
+  vtkIdType count = 0;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    count += places->GetComponent(p, 0) == place;
+  }
+  return count;
+}
+
+TEST(MeshOptimizeFilterSurface, RidgesThatAnglesTellNeedNotBeKept)
+{
+  Grid grid = MakeBox(4, 0.0);
+  AddRoof(grid);
+  vtkIdType onCurves[2];
+  for (bool keeps : { false, true })
+  {
+    Sliding slid(1e-3);
+    slid->SetInputData(grid);
+    slid->SetTargetQuality(0.01); // nothing to do
+    slid->SetKeepFeatures(keeps);
+    slid->Update();
+    onCurves[keeps] = CountPlaces(slid->GetOutput(), 2);
+  }
+  // The box has 12 edges with 3 nodes each inside. The roof has a ridge, and so two more corners;
+  // its sides turn by 60 degrees from the walls, too.
+  EXPECT_EQ(onCurves[0], 12 * 3 - 2 - 2 * 3);
+  EXPECT_EQ(onCurves[1], 12 * 3 - 2 + 3);
+}
+
+TEST(MeshOptimizeFilterSurface, WhatHasChangedIsReported)
+{
+  Grid grid = MakeBadBox(6, 0.3);
+  AddRoof(grid);
+  vtkNew<vtkIntArray> side;
+  side->SetName("Side");
+  std::map<int, double> before;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    double x = 0.0;
+    for (vtkIdType p : CellPoints(grid, c))
+    {
+      x += GetPoint(grid, p)[0] / 4.0;
+    }
+    side->InsertNextValue(x < 0.5 ? 7 : -9);
+    before[x < 0.5 ? 7 : -9] += SignedVolume(grid, c);
+  }
+  grid->GetCellData()->AddArray(side);
+  Sliding slid(0.01);
+  slid->SetInputData(grid);
+  slid->SetRegionArray("Side");
+  slid->SetTargetQuality(0.95);
+  slid->Update();
+  std::map<int, double> after;
+  for (vtkIdType c = 0; c < slid->GetOutput()->GetNumberOfCells(); ++c)
+  {
+    const double region = slid->GetOutput()->GetCellData()->GetArray("Side")->GetComponent(c, 0);
+    after[static_cast<int>(region)] += SignedVolume(slid->GetOutput(), c);
+  }
+  vtkDataArray* volumes = slid->GetOutput()->GetFieldData()->GetArray("RegionVolumes");
+  ASSERT_NE(volumes, nullptr);
+  ASSERT_EQ(volumes->GetNumberOfTuples(), 2);
+  for (vtkIdType k = 0; k < 2; ++k)
+  {
+    const int region = static_cast<int>(volumes->GetComponent(k, 0));
+    EXPECT_NEAR(volumes->GetComponent(k, 1), before[region], 1e-12);
+    EXPECT_NEAR(volumes->GetComponent(k, 2), after[region], 1e-12);
+  }
+  const double was = before[7] + before[-9], is = after[7] + after[-9];
+  EXPECT_NE(slid->GetVolumeChange(), 0.0);
+  EXPECT_NEAR(slid->GetVolumeChange(), is / was - 1.0, 1e-12);
+  EXPECT_EQ(Figure(slid->GetOutput(), "VolumeChange"), slid->GetVolumeChange());
+  // The stop reason says where the worst cell is, and the history counts changes of the surface.
+  EXPECT_TRUE(Says(slid->GetStopReasonAsString(), "nodes of the worst one"));
+  auto history = vtkTable::SafeDownCast(slid->GetOutputDataObject(1));
+  double tried = 0.0, done = 0.0;
+  for (vtkIdType row = 0; row < history->GetNumberOfRows(); ++row)
+  {
+    tried += history->GetValueByName(row, "SurfaceChangeTried").ToDouble();
+    done += history->GetValueByName(row, "SurfaceChangeDone").ToDouble();
+  }
+  EXPECT_GT(done, 0.0);
+  EXPECT_GT(tried, done);
+  // None of that if the surface is kept.
+  OptimizeFilter kept(vtkMeshOptimizeFilter::WorstFirst);
+  kept->SetInputData(grid);
+  kept->Update();
+  EXPECT_EQ(kept->GetVolumeChange(), 0.0);
+  EXPECT_EQ(kept->GetOutput()->GetFieldData()->GetArray("RegionVolumes"), nullptr);
+  EXPECT_EQ(
+    vtkTable::SafeDownCast(kept->GetOutputDataObject(1))->GetColumnByName("SurfaceChangeTried"),
+    nullptr);
+}
+
 TEST(MeshOptimizeFilterSurface, TheToleranceIsAFractionUnlessAbsolute)
 {
   Grid grid = MakeBadBox(5, 0.3);
