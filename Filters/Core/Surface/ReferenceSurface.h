@@ -34,7 +34,9 @@ namespace meshopt
 ///
 /// Beside a sharp edge inside a patch, what stands for one side reaches into the prisms of the
 /// other, and is turned away there, or too high. Such a facet must be within the tolerance of other
-/// facets of the reference (isNear()); and R must be covered as far as before, by area.
+/// facets of the reference (isNear()); and R must be covered as far as before, by area. Areas prove
+/// less than heights: they do not see facets that overlap, and where the border moves with a curve,
+/// a strip of the width that the curve may move is allowed for.
 class ReferenceSurface
 {
 public:

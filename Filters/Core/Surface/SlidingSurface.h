@@ -92,7 +92,7 @@ private:
   SharpEdges bent_;                   ///< by more than half of the feature angle
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;
-  std::vector<Vec<3>> corners_; ///< where the points of the input were
+  std::vector<Vec<3>> corners_; ///< by point of the input: where those that are corners were
   bool isExact_ = false;
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it
