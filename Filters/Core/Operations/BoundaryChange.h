@@ -34,7 +34,7 @@ public:
     for (Index v : nodes)
     {
       const Freedom freedom = mesh.freedom(v);
-      const bool mayRemove = level >= Level::Insertion && judge.switches().removeNodes;
+      const bool mayRemove = level >= Level::Removal && judge.switches().removeNodes;
       // Nodes of patches slide by NodeMotion.
       if ((freedom == Freedom::Curve && judge.switches().moveNodes && this->slide(judge, v)) ||
         ((freedom == Freedom::Curve || freedom == Freedom::Patch) && mayRemove &&

@@ -68,6 +68,10 @@ public:
   const std::vector<Opened>& opened() const { return this->opened_; }
 
 private:
+  /// Growth ends after a detour: that many cells, and as many as the best prefix has, without a
+  /// better one.
+  static constexpr std::size_t Detour = 12;
+
   struct Front
   {
     double q;
@@ -91,7 +95,9 @@ private:
   bool opens(const SimplexMesh<D>& mesh, Index c, int i);
   bool isWall(const MeshEditor<D>& editor, Index c, int i) const;
   bool take(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, int limit);
-  double quality(const QualityModel<D, Shape>& model, const Facet<D>& f, const int* numbers);
+  double quality(const QualityModel<D, Shape>& model, const SimplexMesh<D>& mesh, Index c, int i,
+    const int* numbers) const;
+  double plainQuality(const int* numbers) const;
   void finish(MeshEditor<D>& editor);
 
   LocalNumbers numbers_;
@@ -109,38 +115,48 @@ private:
   double oldWorst_ = 0.0;
 };
 
+/// The quality of the element that joins facet i of cell c to the new node; `numbers` are those of
+/// the facet's points in points_.
 template <int D, class Shape>
-double Cavity<D, Shape>::quality(
-  const QualityModel<D, Shape>& model, const Facet<D>& f, [[maybe_unused]] const int* numbers)
+double Cavity<D, Shape>::quality(const QualityModel<D, Shape>& model, const SimplexMesh<D>& mesh,
+  Index c, int i, [[maybe_unused]] const int* numbers) const
 {
+  const Facet<D> f = mesh.facet(c, i);
   if constexpr (QualityModel<D, Shape>::HasSum)
   {
-    // The same quality as below, but each edge to the new node is measured only once.
-    if (model.fast())
+    // The same quality as below, but each edge to the new node is measured only once. And only the
+    // facet, if it is kept, can have a weight: the others have the new node.
+    if (model.plain)
     {
-      const PointData &a = this->points_[numbers[0]], &b = this->points_[numbers[1]];
-      const Vec<D> u = b.x - a.x;
-      if constexpr (D == 3)
-      {
-        const PointData& c = this->points_[numbers[2]];
-        const Vec<D> v = c.x - a.x;
-        return EdgeSum<Shape>::quality(u.cross(v).dot(this->x_ - a.x),
-          a.weight + b.weight + c.weight + EdgeSum<Shape>::weight(u.squaredNorm()) +
-            EdgeSum<Shape>::weight(v.squaredNorm()) +
-            EdgeSum<Shape>::weight((u - v).squaredNorm()));
-      }
-      else
-      {
-        const Vec<D> w = this->x_ - a.x;
-        return EdgeSum<Shape>::quality(
-          u[0] * w[1] - u[1] * w[0], a.weight + b.weight + EdgeSum<Shape>::weight(u.squaredNorm()));
-      }
+      const double q = this->plainQuality(numbers);
+      return model.weights && mesh.isConstrained(c, i) && !(q < model.floor) ? q * model.weight(f)
+                                                                             : q;
     }
   }
   Simplex<D> cell;
   std::copy(f.begin(), f.end(), cell.begin());
   cell[D] = this->p_;
   return model(cell);
+}
+
+template <int D, class Shape>
+double Cavity<D, Shape>::plainQuality(const int* numbers) const
+{
+  const PointData &a = this->points_[numbers[0]], &b = this->points_[numbers[1]];
+  const Vec<D> u = b.x - a.x, w = this->x_ - a.x;
+  const double sum = a.weight + b.weight + EdgeSum<Shape>::weight(u.squaredNorm());
+  if constexpr (D == 3)
+  {
+    const PointData& c = this->points_[numbers[2]];
+    const Vec<D> v = c.x - a.x;
+    return EdgeSum<Shape>::quality(u.cross(v).dot(w),
+      sum + c.weight + EdgeSum<Shape>::weight(v.squaredNorm()) +
+        EdgeSum<Shape>::weight((u - v).squaredNorm()));
+  }
+  else
+  {
+    return EdgeSum<Shape>::quality(u[0] * w[1] - u[1] * w[0], sum);
+  }
 }
 
 template <int D, class Shape>
@@ -259,7 +275,7 @@ bool Cavity<D, Shape>::take(
     {
       ++this->points_[k].facets;
     }
-    this->heap_.push_back({ this->quality(model, mesh.facet(c, i), numbers), c, i });
+    this->heap_.push_back({ this->quality(model, mesh, c, i, numbers), c, i });
     std::push_heap(this->heap_.begin(), this->heap_.end());
   }
   if (enclosesKeptEdge(mesh, c,
@@ -323,7 +339,8 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
     }
     // If the worst facet cannot be opened, no larger cavity can be better than the best so far.
     if (this->isWall(editor, top.cell, top.facet) ||
-      static_cast<int>(this->cells_.size()) >= limits.cells)
+      static_cast<int>(this->cells_.size()) >= limits.cells ||
+      this->cells_.size() > 2 * bestSize + Detour)
     {
       break;
     }

@@ -12,12 +12,13 @@ struct Level
   enum : int
   {
     Topology = 0,  ///< edge and face removal, node motion
-    Insertion = 1, ///< also removal and insertion of nodes
-    LookAhead = 2, ///< also several changes that gain only together
+    Removal = 1,   ///< also removal of nodes
+    Insertion = 2, ///< also insertion of nodes
+    LookAhead = 3, ///< also several changes that gain only together
     /// More look-ahead, cluster motion, retriangulation.
-    LongLookAhead = 3
+    LongLookAhead = 4
   };
-  static constexpr int Count = 4;
+  static constexpr int Count = 5;
 };
 }
 

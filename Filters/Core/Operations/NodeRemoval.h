@@ -13,7 +13,7 @@ template <int D, class Shape>
 class NodeRemoval
 {
 public:
-  static constexpr int level = Level::Insertion;
+  static constexpr int level = Level::Removal;
   static constexpr bool addsCells = false;
   static bool isOn(const Switches& switches) { return switches.removeNodes; }
 

@@ -33,6 +33,14 @@ inline constexpr long HeldUpPart = 3;
 inline constexpr long HardlyAny = 2000;
 /// How many of the worst cells are polished together: at first, and at most.
 inline constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
+/// Where the worst cell is below this part of the certified bound, so many are polished together
+/// also up to the target.
+inline constexpr double NearBound = 0.97;
+inline constexpr std::size_t MostBelowBound = 40;
+/// What that must gain to be repeated, relative to the worst quality; and how often polishing and
+/// repair follow each other if it does, by effort.
+inline constexpr double WideGain = 0.05;
+inline constexpr int PolishCycles[] = { 1, 4, 4 };
 inline constexpr int PolishRounds = 50;
 inline constexpr double RoundGain =
   10.0; // what a round must gain to be repeated, in least gains of a change
@@ -49,10 +57,9 @@ inline constexpr double TinyReached = 0.5;
 /// The least gain if the metric or a wanted size varies. Qualities then cost many times more, and
 /// most cells can be under the target.
 inline constexpr double CoarseGain = 1e-2;
-/// By level: insertion and look-ahead are given up for a pass if fewer than 1 in Patience tries
-/// helps.
-inline constexpr long Patience[] = { std::numeric_limits<int>::max(), 50, 20, 20 };
-inline constexpr long PatientTries = 200; // tries before patience is checked
+/// Insertion and look-ahead are given up for a pass if fewer than 1 in Patience of their tries
+/// helps, after so many of them.
+inline constexpr long Patience = 20, PatientInsertions = 200, PatientLooks = 40;
 /// For insertion, patience is checked only after 1 in PatientPart of the bad cells has been tried:
 /// the worst cells come first, and these are the most stuck.
 inline constexpr long PatientPart = 5;
@@ -67,9 +74,11 @@ inline constexpr long OneNode = 10;
 /// Up to the target, look-ahead is for the worst few cells of a pass. "Few" is 1 in FewOfMany of
 /// all cells, but at least FewCells; in small meshes 1 in FewCellsPart, but at least FewestCells.
 inline constexpr long FewCells = 200, FewestCells = 20, FewCellsPart = 20, FewOfMany = 100;
-/// After this many tries per initially bad cell, nodes only creep. From then on the pass requires
-/// CoarseGain.
-inline constexpr long Creeping = 5;
+/// A pass creeps if, of half as many tries as it was given cells (1 in CreepingPart, at least
+/// CreepingTries), fewer than 1 in CreepingLift lift a cell above the target. Healthy meshes: 1 in
+/// 2 or more. It then requires CoarseGain, and ends after so many rounds, by effort.
+inline constexpr long CreepingPart = 2, CreepingTries = 100, CreepingLift = 10;
+inline constexpr int CreepingRounds[] = { 0, 3, 20 };
 /// A stage ends if many cells are bad, and a pass leaves more than this fraction of them and does
 /// not lift the worst one.
 inline constexpr double HardlyFewer = 0.99;
@@ -77,7 +86,7 @@ inline constexpr double HardlyFewer = 0.99;
 /// times.
 inline constexpr long Hurry = 5;
 /// By level: the most tries of one chunk between two looks at progress (some tenths of a second).
-inline constexpr long Tries[] = { 20000, 4000, 400, 100 };
+inline constexpr long Tries[] = { 20000, 10000, 4000, 400, 100 };
 }
 }
 

@@ -21,6 +21,7 @@ template <int D, class Shape>
 void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
 {
   this->kept_ = 0;
+  this->creeps_ = false;
   this->tried_.fill(0);
   this->done_.fill(0);
   this->surface_.fill(0);
@@ -97,7 +98,10 @@ void Schedule<D, Shape>::instruct(const Task& task)
     judge.setGain(this->gain_);
     judge.setTarget(task.target);
     judge.setGuard(guard, this->model_.weights || many);
-    w.kept = w.tries = 0;
+    w.kept = w.tries = w.lifted = 0;
+    w.creeps = false;
+    w.round = 0;
+    w.changed.clear();
     w.limit = limit;
     w.isPatient = true;
   }
@@ -115,6 +119,7 @@ void Schedule<D, Shape>::gather()
     left += judge.growth.left;
     this->isShort_ |= judge.growth.isShort;
     this->kept_ += w.kept;
+    this->creeps_ |= w.creeps;
     for (int i : { 0, 1 })
     {
       this->surface_[i] += std::exchange(judge.surfaceChanges[i], 0);
@@ -129,17 +134,58 @@ void Schedule<D, Shape>::gather()
 }
 
 /// The level of a worker's next try. Insertion and look-ahead are given up for a pass if they
-/// hardly ever help. The remaining cells are still tried at the lowest level: a border may have
-/// kept them from it until now.
+/// hardly ever help. The remaining cells are still tried at a cheap level: a border may have kept
+/// them from it until now.
 template <int D, class Shape>
-int Schedule<D, Shape>::patientLevel(Worker& w, int level) const
+int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) const
 {
-  const long tries = w.tries * (this->model_.plain ? 1 : Hurry);
-  const long patient = level == Level::Insertion ? std::max(PatientTries, w.given / PatientPart)
-                                                 : PatientTries;
+  const bool inserts = level == Level::Insertion;
+  const auto op = static_cast<int>(inserts ? Operation::NodeInsertion : Operation::LookAhead);
+  const Judge<D, Shape>& judge = w.improver.judge();
+  const long tries = judge.tried[op] * (this->model_.plain ? 1 : Hurry);
+  const bool isFirst = !(task.target > Stages[0]) && !w.creeps;
+  const long patient = inserts ? std::max(PatientInsertions, w.given / (isFirst ? 1 : PatientPart))
+                               : PatientLooks;
   w.isPatient = w.isPatient && w.tries < w.limit &&
-    (tries < patient || w.kept * Patience[level] >= tries);
-  return w.isPatient ? level : Level::Topology;
+    (tries < patient || judge.done[op] * Patience >= tries);
+  return w.isPatient ? level : std::min<int>(level, Level::Removal);
+}
+
+/// Nodes creep if many tries lift few cells above the target: the same ones move again and again
+/// by little. From then on a change must gain more, and each cell gets one try in a round.
+template <int D, class Shape>
+void Schedule<D, Shape>::watch(Worker& w)
+{
+  const long window = std::max(CreepingTries, w.given / CreepingPart);
+  if (++w.tries % window == 0 && this->guard_)
+  {
+    w.creeps = w.creeps || w.lifted * CreepingLift < window;
+    w.lifted = 0;
+    if (w.creeps)
+    {
+      w.improver.judge().setGain(std::max(this->gain_, CoarseGain));
+    }
+  }
+}
+
+/// Whether the queue has a cell left. If not, the next round of a pass that creeps begins with the
+/// cells that the last one has changed.
+template <int D, class Shape>
+bool Schedule<D, Shape>::hasNext(Worker& w) const
+{
+  if (w.queue.empty() && w.round < CreepingRounds[static_cast<int>(this->options_.effort)])
+  {
+    ++w.round;
+    for (Index c : w.changed)
+    {
+      if (this->mesh().isAlive(c))
+      {
+        w.queue.emplace(this->mesh().quality(c), c);
+      }
+    }
+    w.changed.clear();
+  }
+  return !w.queue.empty();
 }
 
 /// Drains the queue of one chunk, up to a number of tries. What remains waits for the next round.
@@ -147,12 +193,12 @@ template <int D, class Shape>
 void Schedule<D, Shape>::work(Worker& w, const Task& task)
 {
   const SimplexMesh<D>& mesh = this->mesh();
-  int level = task.level; // once patience has ended it stays Topology
-  for (long tries = Tries[level]; tries > 0 && !w.queue.empty() && !this->run_.clock.isOutOfTime();)
+  int level = task.level; // once patience has ended it stays low
+  for (long tries = Tries[level]; tries > 0 && this->hasNext(w) && !this->run_.clock.isOutOfTime();)
   {
     const auto [q, c] = w.queue.top();
     w.queue.pop();
-    level = this->patientLevel(w, level);
+    level = this->patientLevel(w, task, level);
     // The queue is not updated when a quality changes: an entry with another quality is out of
     // date. Cells without hope are skipped before they count as a try.
     if (!mesh.isAlive(c) || mesh.quality(c) != q || !this->worthTrying(c, level) ||
@@ -161,22 +207,24 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
       continue;
     }
     --tries;
-    // Many tries per cell mean that the same nodes move again and again by little: ask for more
-    // then.
-    if (++w.tries > Creeping * w.given && this->guard_)
-    {
-      w.improver.judge().setGain(std::max(this->gain_, CoarseGain));
-    }
+    this->watch(w);
     w.editor.resetBlocked();
     if (w.improver.improve(c, level))
     {
+      const auto isBad = [&](Index o) { return mesh.isAlive(o) && mesh.quality(o) < task.target; };
+      const std::vector<Index>& changed = w.improver.judge().changed();
       ++w.kept;
+      w.lifted += mesh.isAlive(c) ? !isBad(c) : std::none_of(changed.begin(), changed.end(), isBad);
       // What the change has made and is still bad is tried again in this pass.
-      for (Index changed : w.improver.judge().changed())
+      for (Index o : changed)
       {
-        if (mesh.isAlive(changed) && mesh.quality(changed) < task.target)
+        if (isBad(o) && w.creeps)
         {
-          w.queue.emplace(mesh.quality(changed), changed);
+          w.changed.push_back(o);
+        }
+        else if (isBad(o))
+        {
+          w.queue.emplace(mesh.quality(o), o);
         }
       }
     }

@@ -24,8 +24,9 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
   bool more = true;
   std::vector<Entry> worst;
   // With tiny caps on facets the next worst cells and their surroundings are spared on purpose:
-  // there the search does not widen.
+  // there the search does not widen without need.
   const bool widens = past && !this->caps_.hasTiny();
+  const std::size_t most = widens ? MostPolishedCells : MostBelowBound;
   std::size_t wanted = PolishedCells;
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
   {
@@ -37,6 +38,8 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
       break;
     }
     const double before = this->worst();
+    const bool isHopeful = !past && this->mayWiden_ && !(target < this->options_.targetQuality) &&
+      before < NearBound * this->caps_.bound();
     this->gain_ = worst[0].first > worstOfAll ? CoarseGain : leastGain;
     // Whether the worst cell is near its cap, by the usual fraction also when polishing finely:
     // such a cell is not worth the work around it.
@@ -45,14 +48,16 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     this->caps_.setReached(reached);
     // The target lies just above the last of these cells, so that the stage takes them and no
     // others.
+    const bool isWide = !past && wanted > PolishedCells;
     more = this->stage(std::nextafter(worst.back().first, 1.0));
     // The worst cell gained enough: start again with the smallest neighbourhood.
-    if (this->worst() > before + RoundGain * this->gain_ * std::fabs(before))
+    const double least = isWide ? WideGain : RoundGain * this->gain_;
+    if (this->worst() > before + least * std::fabs(before))
     {
       layers = 0;
-      wanted = PolishedCells;
+      wanted = isWide ? wanted : PolishedCells;
     }
-    else if (widens && !nearCap && worst.size() == wanted && wanted < MostPolishedCells)
+    else if ((widens || isHopeful) && !nearCap && worst.size() == wanted && wanted < most)
     {
       // First more cells; only then wider surroundings.
       wanted *= 2;
@@ -66,6 +71,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     }
     else
     {
+      this->mayWiden_ = this->mayWiden_ && wanted < most; // once in vain is enough
       break;
     }
   }
@@ -140,9 +146,10 @@ bool Schedule<D, Shape>::liftAround(const std::vector<Entry>& cells, int layers)
   const double gain = std::exchange(this->gain_, Gain);
   const double target = cells[0].first + layers * LiftStep;
   bool more = true;
-  // All levels up to insertion, since these cells are not stuck yet: the cheap changes come first.
-  for (int level = 0; level <= Level::Insertion && more; ++level)
+  // Both levels up to insertion, since these cells are not stuck yet: the cheap changes come first.
+  for (int pass = 0; pass < 2 && more; ++pass)
   {
+    const int level = pass == 0 ? Level::Topology : Level::Insertion;
     std::vector<Index> bad;
     std::copy_if(zone.begin(), zone.end(), std::back_inserter(bad),
       [&](Index c)

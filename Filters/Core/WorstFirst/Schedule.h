@@ -40,6 +40,10 @@ private:
     long kept = 0, tries = 0; // in this pass
     long limit = 0;           // of the tries above the lowest level
     bool isPatient = true;    // insertion and look-ahead are still tried
+    long lifted = 0;          // cells, since watch() looked last
+    bool creeps = false;
+    int round = 0;              // of a pass that creeps
+    std::vector<Index> changed; // cells for the next round
 
     Worker(const Run<D>& run, const QualityModel<D, Shape>& model, const Caps<D>& caps)
       : ChunkWorker<D>(run.editor)
@@ -58,8 +62,10 @@ private:
 
   void findTangle();
   std::vector<double> stages() const;
-  int highestLevel() const;
+  int levelOf(int pass) const;
+  int passesThatRise() const { return this->options_.effort == Effort::Quick ? 1 : 2; }
   bool stage(double target);
+  bool polishAndRepair(double target, bool isLast);
   bool weighedStage(double target);
   bool polish(double target, bool finely);
   double findWorst(double target, std::size_t wanted, std::vector<Entry>& worst) const;
@@ -72,7 +78,9 @@ private:
   void instruct(const Task& task);
   void gather();
   void work(Worker& worker, const Task& task);
-  int patientLevel(Worker& worker, int level) const;
+  int patientLevel(Worker& worker, const Task& task, int level) const;
+  void watch(Worker& worker);
+  bool hasNext(Worker& worker) const;
   long fewCells() const;
   bool hardlyAny(const std::vector<Index>& bad) const
   {
@@ -112,6 +120,8 @@ private:
   long reserve_;                      ///< part of the growth reserved for polish()
   bool isShort_ = false;              ///< a change was left out for lack of growth budget
   long kept_ = 0;                     ///< accepted changes of the pass
+  bool creeps_ = false;               ///< the pass: see watch()
+  bool mayWiden_ = true;              ///< polish() takes more cells on the way to the bound
   std::array<long, NumberOfOperations> tried_{}, done_{};
   std::array<long, 2> surface_{}; ///< the same for changes of the surface
   double stageDone_ = 0.0;
@@ -190,15 +200,13 @@ std::vector<double> Schedule<D, Shape>::stages() const
   return result;
 }
 
+/// The level of a stage's passes: it rises.
 template <int D, class Shape>
-int Schedule<D, Shape>::highestLevel() const
+int Schedule<D, Shape>::levelOf(int pass) const
 {
+  constexpr int levels[] = { Level::Topology, Level::Insertion, Level::LookAhead };
   // Polishing is for a few cells that all cheaper levels have failed on.
-  if (!this->guard_)
-  {
-    return Level::LongLookAhead;
-  }
-  return this->options_.effort == Effort::Quick ? Level::Insertion : Level::LookAhead;
+  return this->guard_ ? levels[std::min(pass, this->passesThatRise())] : Level::LongLookAhead;
 }
 
 template <int D, class Shape>
@@ -225,14 +233,8 @@ void Schedule<D, Shape>::optimize()
     more = this->weighedStage(stages[k]);
     if (more && (k == 0 || past || stages[k] == this->options_.targetQuality))
     {
-      more = this->polish(stages[k], false);
-      if (more && !past)
-      {
-        // Polishing may have made other cells worse: repair these.
-        // Nothing comes after the last stage: it may use the reserve.
-        this->reserve_ = k + 1 < stages.size() ? this->reserve_ : 0;
-        more = this->weighedStage(stages[k]);
-      }
+      // Nothing comes after the last stage: it may use the reserve.
+      more = this->polishAndRepair(stages[k], k + 1 == stages.size());
     }
     // Past the target the run ends after MostIdle stages that did not lift the worst cell.
     const bool stuck = this->worst() < before + Gain;
@@ -245,6 +247,33 @@ void Schedule<D, Shape>::optimize()
     this->weighedStage(this->options_.targetQuality);
   }
   this->run_.report.stopReason = this->reason();
+}
+
+/// Polishes the worst cells. That makes other cells worse, up to the target: repairs these. As long
+/// as the worst one is far below the certified bound and gains, both are repeated. `isLast`: there
+/// is no further stage.
+template <int D, class Shape>
+bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
+{
+  const int most = PolishCycles[static_cast<int>(this->options_.effort)];
+  bool more = true, again = true;
+  for (int cycle = 0; more && again; ++cycle)
+  {
+    const double before = this->worst();
+    this->mayWiden_ = true;
+    more = this->polish(target, false);
+    if (!more || this->isPast(target))
+    {
+      return more;
+    }
+    const double now = this->worst();
+    again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
+      now > before * (1.0 + WideGain) && now < NearBound * this->caps_.bound();
+    this->reserve_ = isLast && !again ? 0 : this->reserve_;
+    const bool isQuick = this->options_.effort == Effort::Quick;
+    more = this->weighedStage((isQuick && this->creeps_) || again ? Stages[0] : target);
+  }
+  return more;
 }
 
 /// A stage with weighted qualities (Weights.h). Without tiny caps it is a plain stage.
@@ -263,20 +292,20 @@ template <int D, class Shape>
 bool Schedule<D, Shape>::stage(double target)
 {
   std::vector<Index> bad;
-  const int highest = this->highestLevel();
-  long below = 0;
-  bool raised = false;
   // Without guard (polishing) the first pass is at the highest level: it includes all cheaper
   // operations, and those have just failed on these cells.
-  for (int pass = this->guard_ ? 0 : highest; pass < MaximumPasses; ++pass)
+  const int last = this->guard_ ? this->passesThatRise() : 0;
+  long below = 0;
+  bool raised = false;
+  for (int pass = 0; pass < MaximumPasses; ++pass)
   {
-    const int level = std::min(pass, highest);
+    const int level = this->levelOf(pass);
     const long belowBefore = std::exchange(below, this->collect(target, level, bad));
-    // Most cells of a large mesh can be stuck. A pass that neither lifts the worst nor makes them
-    // clearly fewer then ends the stage.
-    const bool idle = this->guard_ && pass > highest && !raised && below > this->fewCells() &&
-      below > HardlyFewer * belowBefore;
-    if ((bad.empty() && level == highest) || idle)
+    // Most cells of a large mesh can be stuck. A pass that does not lift the worst and creeps, or
+    // does not make them clearly fewer, then ends the stage.
+    const bool idle = this->guard_ && pass > last && !raised && below > this->fewCells() &&
+      (this->creeps_ || below > HardlyFewer * belowBefore);
+    if ((bad.empty() && pass >= last) || idle)
     {
       break;
     }
@@ -292,7 +321,13 @@ bool Schedule<D, Shape>::stage(double target)
       return false;
     }
     raised = this->worst() > before + this->gain_;
-    if (level == highest && !raised && (this->hardlyAny(bad) || this->gain_ < Gain))
+    if (pass >= last && !raised && (this->hardlyAny(bad) || this->gain_ < Gain))
+    {
+      break;
+    }
+    // Where a quick run creeps, only the worst cells, those of the first stage, get more effort.
+    if (this->guard_ && this->creeps_ && this->options_.effort == Effort::Quick &&
+      target > Stages[0])
     {
       break;
     }
