@@ -95,7 +95,11 @@ def test_stuck_cells_spoil_no_others():
         f.Update()
         before, after = (np.count_nonzero(shape(g) < f.GetTargetQuality()) for g in (f.GetInput(), f.GetOutput()))
         assert f.GetWorstQualityAfter() > 0.99 * f.GetQualityBound()
-        assert after < 0.45 * before, f"seed {seed}: {before} cells under the target before, {after} after"
+        # Passes that creep end: before they did, such a mesh took more than 44 tries to move a node for each cell.
+        history = f.GetOutputDataObject(1)
+        tried = sum(history.GetColumnByName("NodeMotionTried").GetValue(row) for row in range(history.GetNumberOfRows()))
+        assert tried < 35 * f.GetInput().GetNumberOfCells(), f"seed {seed}: {tried} tries to move a node"
+        assert after < 0.6 * before, f"seed {seed}: {before} cells under the target before, {after} after"
 
 
 def test_reproducible():

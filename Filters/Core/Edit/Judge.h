@@ -63,10 +63,11 @@ public:
 
   // --- requirements
   /// The least gain over a worst quality q that makes a change worthwhile. It is smaller if all
-  /// qualities are tiny.
+  /// qualities are tiny. And no more than a tenth of it is needed where that reaches the target.
   double gain(double q) const
   {
-    return std::min(this->gain_, std::max(1e-4 * this->gain_, 2 * this->gain_ * std::fabs(q)));
+    const double least = std::min(this->gain_, std::max(0.1 * this->gain_, this->target_ - q));
+    return std::min(least, std::max(1e-4 * this->gain_, 2 * this->gain_ * std::fabs(q)));
   }
   /// The quality that a change must exceed if the worst is q.
   double required(double q) const { return q + this->gain(q); }

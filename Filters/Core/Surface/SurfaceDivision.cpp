@@ -193,7 +193,8 @@ Vec<3> SurfaceDivision::normal(const Part& part) const
 }
 
 /// Whether the two parts of the edge lie in one plane. The greater of them decides which: a needle
-/// has none.
+/// has none. Its plane is uncertain by as many slabs as the other part reaches beyond it; whether
+/// all parts of a patch lie in one slab, fits() says.
 bool SurfaceDivision::isFlat(const Edge& edge) const
 {
   const Part* parts[2] = { &this->parts[this->incidences_[edge.first]],
@@ -203,10 +204,13 @@ bool SurfaceDivision::isFlat(const Edge& edge) const
   const bool alike = runsForwards(parts[0]->nodes, a, b) != runsForwards(parts[1]->nodes, a, b);
   const int greater = n[1].squaredNorm() > n[0].squaredNorm() ? 1 : 0;
   const double area = n[greater].norm();
-  const double width = area / (this->mesh_.point(b) - this->mesh_.point(a)).norm();
-  const Vec<3>& other = this->mesh_.point(thirdNode(parts[1 - greater]->nodes, edge.nodes));
+  const double length = (this->mesh_.point(b) - this->mesh_.point(a)).norm();
+  const double width = area / length;
+  const Vec<3> other = this->mesh_.point(thirdNode(parts[1 - greater]->nodes, edge.nodes)) -
+    this->mesh_.point(a);
+  const double reach = 1.0 + other.norm() / std::min(width, length);
   return width > this->tolerance && (alike ? 1.0 : -1.0) * n[0].dot(n[1]) >= 0.0 &&
-    std::fabs(n[greater].dot(other - this->mesh_.point(a))) <= this->slab() * area;
+    std::fabs(n[greater].dot(other)) <= reach * this->slab() * area;
 }
 
 bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) const

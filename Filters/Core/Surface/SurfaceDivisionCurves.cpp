@@ -148,6 +148,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
       this->patchOfPoint[p] = this->parts[around[0]].patch;
     }
     else if (this->signature(curves[0]) == this->signature(curves[1]) &&
+      this->edges_[curves[0]].isSharp == this->edges_[curves[1]].isSharp && // no end of a ridge
       !this->turns(p, curves, options.cornerAngle))
     {
       this->freedom[p] = Freedom::Curve;

@@ -74,11 +74,17 @@ inline constexpr long OneNode = 10;
 /// Up to the target, look-ahead is for the worst few cells of a pass. "Few" is 1 in FewOfMany of
 /// all cells, but at least FewCells; in small meshes 1 in FewCellsPart, but at least FewestCells.
 inline constexpr long FewCells = 200, FewestCells = 20, FewCellsPart = 20, FewOfMany = 100;
-/// A pass creeps if, of half as many tries as it was given cells (1 in CreepingPart, at least
-/// CreepingTries), fewer than 1 in CreepingLift lift a cell above the target. Healthy meshes: 1 in
-/// 2 or more. It then requires CoarseGain, and ends after so many rounds, by effort.
+/// After this many tries per initially bad cell, nodes only creep. From then on a pass requires
+/// CoarseGain.
+inline constexpr long Creeping = 5;
+/// Where many cells are bad, a pass creeps if, of half as many tries as it was given cells (1 in
+/// CreepingPart, at least CreepingTries), fewer than 1 in CreepingLift lift a cell above the
+/// target. Healthy meshes: 1 in 2 or more. It then requires CoarseGain, and ends after so many
+/// rounds, by effort.
 inline constexpr long CreepingPart = 2, CreepingTries = 100, CreepingLift = 10;
-inline constexpr int CreepingRounds[] = { 0, 3, 20 };
+inline constexpr int CreepingRounds[] = { 0, 8, 20 };
+/// A quick run that creeps gives up the many if they are more than this fraction of the cells.
+inline constexpr double ManyStuck = 0.05;
 /// A stage ends if many cells are bad, and a pass leaves more than this fraction of them and does
 /// not lift the worst one.
 inline constexpr double HardlyFewer = 0.99;

@@ -152,19 +152,25 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
 }
 
 /// Nodes creep if many tries lift few cells above the target: the same ones move again and again
-/// by little. From then on a change must gain more, and each cell gets one try in a round.
+/// by little. From then on a change must gain more, and where many cells are bad, each gets one try
+/// in a round.
 template <int D, class Shape>
-void Schedule<D, Shape>::watch(Worker& w)
+void Schedule<D, Shape>::watch(Worker& w, const Task& task)
 {
+  ++w.tries;
+  if (!this->guard_)
+  {
+    return;
+  }
   const long window = std::max(CreepingTries, w.given / CreepingPart);
-  if (++w.tries % window == 0 && this->guard_)
+  if (w.tries % window == 0 && task.below > this->fewCells())
   {
     w.creeps = w.creeps || w.lifted * CreepingLift < window;
     w.lifted = 0;
-    if (w.creeps)
-    {
-      w.improver.judge().setGain(std::max(this->gain_, CoarseGain));
-    }
+  }
+  if (w.creeps || w.tries > Creeping * w.given)
+  {
+    w.improver.judge().setGain(std::max(this->gain_, CoarseGain));
   }
 }
 
@@ -207,7 +213,7 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
       continue;
     }
     --tries;
-    this->watch(w);
+    this->watch(w, task);
     w.editor.resetBlocked();
     if (w.improver.improve(c, level))
     {

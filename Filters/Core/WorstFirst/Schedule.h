@@ -79,7 +79,7 @@ private:
   void gather();
   void work(Worker& worker, const Task& task);
   int patientLevel(Worker& worker, const Task& task, int level) const;
-  void watch(Worker& worker);
+  void watch(Worker& worker, const Task& task);
   bool hasNext(Worker& worker) const;
   long fewCells() const;
   bool hardlyAny(const std::vector<Index>& bad) const
@@ -87,6 +87,13 @@ private:
     return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
   }
   bool worthTrying(Index c, int level) const;
+  /// Whether a quick run leaves the many bad cells as they are: a pass over them creeps, and the
+  /// surface, that holds most of such cells, is kept. Only the worst get more effort.
+  bool isQuickEnough(long bad) const
+  {
+    return this->options_.effort == Effort::Quick && this->guard_ && this->creeps_ &&
+      !this->slides() && bad > ManyStuck * static_cast<double>(this->mesh().countCells());
+  }
   /// How hard a try is, to compare with an earlier failure. Tries without guard are the hardest.
   int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }
   bool goesOn(double target);
@@ -270,8 +277,8 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
     again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
       now > before * (1.0 + WideGain) && now < NearBound * this->caps_.bound();
     this->reserve_ = isLast && !again ? 0 : this->reserve_;
-    const bool isQuick = this->options_.effort == Effort::Quick;
-    more = this->weighedStage((isQuick && this->creeps_) || again ? Stages[0] : target);
+    const long bad = this->run_.report.history.back().belowTarget;
+    more = this->weighedStage(again || this->isQuickEnough(bad) ? Stages[0] : target);
   }
   return more;
 }
@@ -325,9 +332,7 @@ bool Schedule<D, Shape>::stage(double target)
     {
       break;
     }
-    // Where a quick run creeps, only the worst cells, those of the first stage, get more effort.
-    if (this->guard_ && this->creeps_ && this->options_.effort == Effort::Quick &&
-      target > Stages[0])
+    if (target > Stages[0] && this->isQuickEnough(below))
     {
       break;
     }

@@ -53,6 +53,59 @@ TEST(SurfaceDivision, RoundingDoesNotHideWhatIsFlat)
   }
 }
 
+/// Rounded coordinates turn needles by much more than they displace points.
+TEST(SurfaceDivision, RoundingDoesNotHideWhatIsFlatAmongNeedles)
+{
+  for (unsigned seed : { 1U, 2U, 3U })
+  {
+    MeshInput<3> in = slidingBox(6, 0.2, seed);
+    for (Vec<3>& x : in.points)
+    {
+      x = Vec<3>(x[0] + 0.9 * x[1], 0.002 * x[1], x[2]); // flattened and sheared: still six planes
+    }
+    turn(in);
+    expectCounts(Sliding(in, {}), { 6, 12, 8 });
+  }
+}
+
+/// A ridge that ends on a border of labels: from there on the border is a curve without an angle.
+TEST(SurfaceDivision, ARidgeThatEndsOnABorderEndsInACorner)
+{
+  MeshInput<3> in = slidingBox(4, 0.0);
+  for (Vec<3>& x : in.points)
+  {
+    // The face z = 1 falls away for x > 0.5: as a ridge at y = 0, fading to a plane at y = 1.
+    x[2] -= x[2] * std::max(0.0, x[0] - 0.5) * (1.0 - x[1]) * 1.6;
+  }
+  const auto onRidge = [&](Index p)
+  { return std::fabs(in.points[p][0] - 0.5) < 1e-9 && std::fabs(in.points[p][2] - 1.0) < 1e-9; };
+  SurfaceOptions options;
+  options.tolerance = 1e-3;
+  options.featureAngle = 30.0;
+  const auto cornersInside = [&](const Sliding& made)
+  {
+    int count = 0;
+    for (Index p = 0; p < static_cast<Index>(in.points.size()); ++p)
+    {
+      const double y = in.points[p][1];
+      count += onRidge(p) && y > 0.1 && y < 0.9 && made.mesh.freedom(p) == Freedom::Corner;
+    }
+    return count;
+  };
+  EXPECT_EQ(cornersInside(Sliding(in, options)), 1); // the ridge just ends
+  for (Index a = 0; a < static_cast<Index>(in.points.size()); ++a)
+  {
+    for (Index b = 0; b < static_cast<Index>(in.points.size()); ++b)
+    {
+      if (onRidge(a) && onRidge(b) && std::fabs(in.points[b][1] - in.points[a][1] - 0.25) < 1e-9)
+      {
+        in.constrainedEdges.push_back({ a, b });
+      }
+    }
+  }
+  EXPECT_EQ(cornersInside(Sliding(in, options)), 1); // it goes on as a line, and yet ends there
+}
+
 TEST(SurfaceDivision, SinglePrecisionNeedsATolerance)
 {
   MeshInput<3> in = slidingBox(4, 0.2);
