@@ -82,6 +82,10 @@ public:
 
   /// The quality that the pass works towards.
   void setTarget(double quality) { this->target_ = quality; }
+  /// Whether operations try all they know for a cell, or only what promises most: where many cells
+  /// are bad, most of their tries are in vain.
+  void setThorough(bool on) { this->isThorough_ = on; }
+  bool isThorough() const { return this->isThorough_; }
   void setGain(double gain)
   {
     this->failuresSince_ = gain == this->gain_ ? this->failuresSince_ : this->editor_->clock();
@@ -224,7 +228,7 @@ private:
   const Caps<D>* caps_;
   double target_ = 1.0, gain_ = 1e-3;
   double guard_ = -1.0;
-  bool guardsAll_ = false, stampsStars_ = true;
+  bool guardsAll_ = false, stampsStars_ = true, isThorough_ = true;
   std::uint32_t failuresSince_ = 0; ///< older failures at a node were with another gain
   long bad_ = 0;                    ///< badness() of all cells made, minus that of those removed
   bool tangled_ = false, inverted_ = false;

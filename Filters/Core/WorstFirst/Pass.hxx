@@ -97,6 +97,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
     judge.setTangled(this->tangled_, this->inverted_, this->pinched_);
     judge.setGain(this->gain_);
     judge.setTarget(task.target);
+    judge.setThorough(this->guard_ && task.below <= few);
     judge.setGuard(guard, this->model_.weights || many);
     w.kept = w.tries = w.lifted = 0;
     w.creeps = false;
@@ -143,11 +144,15 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
   const auto op = static_cast<int>(inserts ? Operation::NodeInsertion : Operation::LookAhead);
   const Judge<D, Shape>& judge = w.improver.judge();
   const long tries = judge.tried[op] * (this->model_.plain ? 1 : Hurry);
+  // Where the surface takes part, other operations of the same level help more often than these.
+  const bool slides = this->slides();
+  const long helped = slides ? w.kept : judge.done[op];
   const bool isFirst = !(task.target > Stages[0]) && !w.creeps;
-  const long patient = inserts ? std::max(PatientInsertions, w.given / (isFirst ? 1 : PatientPart))
+  const bool patiently = slides || task.below <= this->fewCells();
+  const long patient = inserts ? std::max(PatientTries, w.given / (isFirst ? 1 : PatientPart))
+    : patiently                ? PatientTries
                                : PatientLooks;
-  w.isPatient = w.isPatient && w.tries < w.limit &&
-    (tries < patient || judge.done[op] * Patience >= tries);
+  w.isPatient = w.isPatient && w.tries < w.limit && (tries < patient || helped * Patience >= tries);
   return w.isPatient ? level : std::min<int>(level, Level::Removal);
 }
 
