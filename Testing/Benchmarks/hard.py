@@ -196,7 +196,7 @@ def print_head(opt):
 def print_row(name, effort, r, opt):
     count = r["evaluations_per_tet"]
     row = [name, effort, r["tets"], r["left_out"], f"{r['worst_before']:.2g}", f"{r['worst']:.4g}", f"{r['bound']:.4g}",
-           f"{ratio(r):.3f}", f"{r['quantile']:.3f}", f"{r['mean']:.3f}", r["poor"], r["cells"], f"{r['us_per_tet']:.3g}",
+           f"{ratio(r):.3g}", f"{r['quantile']:.3f}", f"{r['mean']:.3f}", r["poor"], r["cells"], f"{r['us_per_tet']:.3g}",
            f"{r['bare_ns_per_tet']:.1f}", f"{passes(r):.0f}", "" if count is None else f"{count:.0f}", r["stop"]]
     if opt.threads:
         row.append({True: "yes", False: "NO", None: "not tried"}[r.get("same")])
@@ -212,7 +212,7 @@ def print_summary(results, efforts):
         if of:
             us, bare = [r["us_per_tet"] for r in of], [passes(r) for r in of]
             print(f"| {effort} | {len(of)} | {statistics.median(us):.3g} | {max(us):.3g} | {statistics.median(bare):.0f} "
-                  f"| {max(bare):.0f} | {min(ratio(r) for r in of):.3f} | {sum(r['poor'] for r in of)} |")
+                  f"| {max(bare):.0f} | {min(ratio(r) for r in of):.3g} | {sum(r['poor'] for r in of)} |")
 
 
 def verdict(then, now):
