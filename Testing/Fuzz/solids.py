@@ -160,7 +160,15 @@ class Solid:
             factor, how = random.choice([0.2, 0.5]), "in its flat faces"
         else:
             factor, how = random.choice([1e-4, 1e-2, 0.05, 0.15]), "thrown"
-        self.points = p + factor * way * reach[:, None]
+        was = np.cross(p[t[:, 1]] - p[t[:, 0]], p[t[:, 2]] - p[t[:, 0]])
+        while True:  # until no facet folds onto its neighbours
+            x = p + factor * way * reach[:, None]
+            now = np.cross(x[t[:, 1]] - x[t[:, 0]], x[t[:, 2]] - x[t[:, 0]])
+            cosine = (was * now).sum(axis=1) / np.linalg.norm(was, axis=1) / np.maximum(np.linalg.norm(now, axis=1), 1e-300)
+            if cosine.min() > 0.5:
+                break
+            factor /= 2
+        self.points = x
         self.text += f", {how} {factor:g}"
 
 
