@@ -84,6 +84,30 @@ class Primitive:
         return (y ** 2).sum(axis=1) < s[0] ** 2
 
 
+def mesh_of_surface(make, count, algorithm=6):
+    """(points, triangles, face of each) of the volumes that make(occ) gives, divided into about so many triangles. To be called in
+    a child."""
+    import gmsh
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    occ = gmsh.model.occ
+    body = [x for x in make(occ) if x[0] == 3]
+    occ.synchronize()
+    faces = sorted({abs(tag) for _, tag in gmsh.model.getBoundary(body, combined=False, oriented=False)})
+    length = (sum(occ.getMass(2, tag) for tag in faces) / count / 0.43) ** 0.5
+    gmsh.option.setNumber("Mesh.CharacteristicLengthMin", length)
+    gmsh.option.setNumber("Mesh.CharacteristicLengthMax", length)
+    gmsh.option.setNumber("Mesh.Algorithm", algorithm)
+    gmsh.model.mesh.generate(2)
+    tags, x, _ = gmsh.model.mesh.getNodes()
+    place = np.zeros(int(tags.max()) + 1, dtype=np.int64)
+    place[tags.astype(np.int64)] = np.arange(len(tags))
+    triangles = [place[gmsh.model.mesh.getElementsByType(2, tag)[1].astype(np.int64)].reshape(-1, 3) for tag in faces]
+    owners = np.repeat(faces, [len(t) for t in triangles])
+    used, local = np.unique(np.concatenate(triangles), return_inverse=True)
+    return np.array(x).reshape(-1, 3)[used], local.reshape(-1, 3), owners
+
+
 class Solid:
     """points, triangles of its surface and of the walls in it, the face of the solid that each is of."""
 
@@ -103,10 +127,9 @@ class Solid:
             self.points, self.triangles, self.faces = done
 
     def mesh(self):
-        import gmsh
-        gmsh.initialize()
-        gmsh.option.setNumber("General.Terminal", 0)
-        occ = gmsh.model.occ
+        return mesh_of_surface(self.make, self.count, self.algorithm)
+
+    def make(self, occ):
         body = [self.parts[0].make(occ)]
         for operation, part in zip(self.operations, self.parts[1:]):
             tool = [part.make(occ)]
@@ -117,21 +140,7 @@ class Solid:
                 body = keep
             else:
                 body = getattr(occ, operation)(body, tool)[0]
-        body = [x for x in body if x[0] == 3]
-        occ.synchronize()
-        faces = sorted({abs(tag) for _, tag in gmsh.model.getBoundary(body, combined=False, oriented=False)})
-        length = (sum(occ.getMass(2, tag) for tag in faces) / self.count / 0.43) ** 0.5
-        gmsh.option.setNumber("Mesh.CharacteristicLengthMin", length)
-        gmsh.option.setNumber("Mesh.CharacteristicLengthMax", length)
-        gmsh.option.setNumber("Mesh.Algorithm", self.algorithm)
-        gmsh.model.mesh.generate(2)
-        tags, x, _ = gmsh.model.mesh.getNodes()
-        place = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-        place[tags.astype(np.int64)] = np.arange(len(tags))
-        triangles = [place[gmsh.model.mesh.getElementsByType(2, tag)[1].astype(np.int64)].reshape(-1, 3) for tag in faces]
-        owners = np.repeat(faces, [len(t) for t in triangles])
-        used, local = np.unique(np.concatenate(triangles), return_inverse=True)
-        return np.array(x).reshape(-1, 3)[used], local.reshape(-1, 3), owners
+        return body
 
     def contains(self, points):
         good = self.parts[0].contains(points)
