@@ -14,7 +14,7 @@ that one that crashes, or takes twice the time limit (20 s), is a failure like a
 - points sampled on the surface of before, interfaces included, are within the tolerance, and within what the filter proves
   (SurfaceDistance), of that of after, and the other way round; what is proved is within the tolerance;
 - the volume of each region changes by no more than half the area of its surface times the tolerance, and the triangles that ride
-  are those of the surface, their areas by face within the tolerance times the length of the border of the face;
+  are those of the surface, their areas by face within what the tolerance allows (the border, and the curvature), and 1 %;
 - with --judge: check_surface.py, and check_patches.py where triangles ride, find no fault in FOLDER's opinion, and the distance
   that check_surface.py measures is no greater than what is proved.
 """
@@ -47,6 +47,19 @@ def write(grid, path):
 def area(points, triangles):
     t = points[triangles]
     return 0.5 * np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum()
+
+
+def turning(points, triangles):
+    """Sum over the inner edges of length times angle: times a distance, what moving by it may change the area by."""
+    half = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    order = np.lexsort(half.T)
+    half, owner = half[order], order // 3
+    first = np.flatnonzero((half[1:] == half[:-1]).all(axis=1))
+    t = points[triangles]
+    normal = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    cosine = np.abs((normal[owner[first]] * normal[owner[first + 1]]).sum(axis=1))  # however they are turned
+    return (np.linalg.norm(points[half[first, 0]] - points[half[first, 1]], axis=1) * np.arccos(np.clip(cosine, -1, 1))).sum()
 
 
 def border_length(points, triangles):
@@ -173,7 +186,8 @@ class Case:
         self.check(set(faces0) == set(faces1), f"faces {sorted(set(faces0) ^ set(faces1))} came or went")
         for face in np.unique(faces0):
             one, other = area(self.points, t0[faces0 == face]), area(points, t1[faces1 == face])
-            self.check(abs(one - other) <= limit * border_length(self.points, t0[faces0 == face]) + 0.02 * one,
+            reach = sum(f(self.points, t0[faces0 == face]) for f in (border_length, turning))
+            self.check(abs(one - other) <= limit * reach + 0.01 * one,
                        f"face {face}: area {one:.4g} became {other:.4g}")
 
     def judge(self, judges, folder):
