@@ -231,8 +231,8 @@ def run(seed, opt):
     if opt.verbose:
         print(f"seed {seed}: {what}", flush=True)
     case.run()
-    if opt.judge and not case.failures[:1] == ["error"]:
-        case.judge(opt.judge, opt.output or opt.judge)
+    if opt.judge and hasattr(case, "changed"):
+        case.judge(opt.judge, opt.output)
     elif case.failures and opt.output:
         opt.output.mkdir(parents=True, exist_ok=True)
         write(case.grid, opt.output / f"seed{seed}-before.vtu")
