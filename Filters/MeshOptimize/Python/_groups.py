@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Groups and sets in the terms of each format: Gmsh and Medit and Nastran number cells, Abaqus names sets."""
+import sys
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+from ._meshio import BLOCK, CELL_TYPES, GEOMETRY, LABELS, POINT, REGION, MeshioMesh
+
+QUALITY = "MeshQuality"  # a result, not data of the user: not written, and no loss
+SET = " (set)"
+# For cells that did not come from Abaqus
+ABAQUS_TYPES = {"line": "T3D2", "triangle": "S3", "quad": "S4", "tetra": "C3D4", "pyramid": "C3D5", "wedge": "C3D6",
+                "hexahedron": "C3D8", "line3": "T3D3", "triangle6": "STRI65", "quad8": "S8R", "tetra10": "C3D10",
+                "wedge15": "C3D15", "hexahedron20": "C3D20"}
+_NAMES = {number: name for name, number in CELL_TYPES.items()}
+
+
+def is_meshio(mesh):
+    meshio = sys.modules.get("meshio")
+    return bool(meshio) and isinstance(mesh, meshio.Mesh)
+
+
+def grid_of(mesh):
+    """A meshio mesh as a grid for VTK's files: a set is an array "NAME (set)" of 0 and 1."""
+    grid = MeshioMesh(mesh).grid
+    for name in (BLOCK, REGION):
+        grid.GetCellData().RemoveArray(name)
+    grid.GetPointData().RemoveArray(POINT)
+    return grid
+
+
+def _arrays(attributes):
+    arrays = (attributes.GetArray(index) for index in range(attributes.GetNumberOfArrays()))
+    return {array.GetName(): vtk_to_numpy(array) for array in arrays if array}
+
+
+def mesh_of(grid):
+    """A grid as a meshio mesh, a block for each type of cell; arrays "NAME (set)" become sets again."""
+    import meshio
+
+    starts = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    nodes = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    kinds = np.array([grid.GetCellType(cell) for cell in range(grid.GetNumberOfCells())])
+    strange = sorted(set(kinds.tolist()) - _NAMES.keys())
+    if strange:
+        raise ValueError(f"cells of VTK's type {strange[0]} have no place in this format")
+    members = [np.flatnonzero(kinds == kind) for kind in np.unique(kinds)]
+    sizes = np.diff(starts)
+    cells = [(_NAMES[kinds[ids[0]]], nodes[starts[ids][:, None] + np.arange(sizes[ids[0]])]) for ids in members]
+    in_points, in_cells = _arrays(grid.GetPointData()), _arrays(grid.GetCellData())
+    return meshio.Mesh(
+        vtk_to_numpy(grid.GetPoints().GetData()), cells,
+        point_data={name: values for name, values in in_points.items() if not name.endswith(SET)},
+        cell_data={name: [values[ids] for ids in members] for name, values in in_cells.items() if not name.endswith(SET)},
+        point_sets={name[:-len(SET)]: np.flatnonzero(values) for name, values in in_points.items() if name.endswith(SET)},
+        cell_sets={name[:-len(SET)]: [np.flatnonzero(values[ids]) for ids in members]
+                   for name, values in in_cells.items() if name.endswith(SET)})
+
+
+class _Labels:
+    """The groups of a mesh as a number for each cell; `lost` names what that leaves out."""
+
+    def __init__(self, mesh):
+        self.lost, self.names = [], {}
+        present = [name for name in LABELS if name in mesh.cell_data]
+        sets = {name: members for name, members in mesh.cell_sets.items() if name not in GEOMETRY}
+        if present:
+            self.values, self.source = [np.asarray(part, int) for part in mesh.cell_data[present[0]]], present[0]
+            self.names = {name: tuple(map(int, entry[:2])) for name, entry in mesh.field_data.items()}
+            for name, members in sets.items():
+                number, dimension = self.names.get(name, (None, None))
+                if any(block.dim != dimension and len(given) or (self.values[k][given] != number).any()
+                       for k, (block, given) in enumerate(zip(mesh.cells, members)) if given is not None and len(given)):
+                    self.lost.append(f"the set {name}")
+        else:
+            self.values, self.source = [np.zeros(len(block), int) for block in mesh.cells], None
+            for number, (name, members) in enumerate(sets.items(), 1):
+                self._take_set(mesh, number, name, members)
+
+    def _take_set(self, mesh, number, name, members):
+        for block, values, given in zip(mesh.cells, self.values, members):
+            if given is None or not len(given):
+                continue
+            if values[given].any() and f"the set {name} where it overlaps others" not in self.lost:
+                self.lost.append(f"the set {name} where it overlaps others")
+            values[given[values[given] == 0]] = number
+            in_other_dimension = self.names.get(name, (number, block.dim))[1] != block.dim
+            self.names[f"{name}_{block.dim}d" if in_other_dimension else name] = (number, block.dim)
+
+
+def _data_left_out(mesh, kept=()):
+    names = [name for name in (*mesh.point_data, *mesh.cell_data) if name not in (*kept, *LABELS, *GEOMETRY, QUALITY)]
+    return [f"the array {name}" for name in names]
+
+
+def _for_gmsh(mesh):
+    """Version 2.2 in ASCII: nodes have no entities there, which would not be true of new nodes."""
+    labels = _Labels(mesh)
+    fits = lambda values: np.ndim(values) == 1 or np.shape(values)[1:] in ((1,), (3,), (9,))  # noqa: E731
+    point_data = {name: values for name, values in mesh.point_data.items() if name not in (*LABELS, *GEOMETRY) and fits(values)}
+    cell_data = {name: values for name, values in mesh.cell_data.items()
+                 if name not in (*LABELS, QUALITY) and fits(values[0])}
+    lost = labels.lost + _data_left_out(mesh, (*point_data, *cell_data)) + [f"the set {name}" for name in mesh.point_sets]
+    cell_data["gmsh:physical"] = labels.values if labels.source != "gmsh:geometrical" else [0 * part for part in labels.values]
+    cell_data["gmsh:geometrical"] = mesh.cell_data.get("gmsh:geometrical", labels.values)
+    fields = {name: np.array(entry) for name, entry in labels.names.items()}
+    return (_copy(mesh, point_data=point_data, cell_data=cell_data, field_data=fields),
+            {"file_format": "gmsh22", "binary": False}, lost)
+
+
+def _for_numbers(label, file_format):
+    """Formats that hold one number for each cell, and no names."""
+    def prepare(mesh):
+        labels = _Labels(mesh)
+        lost = labels.lost + _data_left_out(mesh) + [f"the set {name}" for name in mesh.point_sets]
+        lost += [f"the name {name} of the group {number}" for name, (number, _) in labels.names.items()]
+        point_data = {label: mesh.point_data[label]} if label == "medit:ref" and label in mesh.point_data else {}
+        return _copy(mesh, point_data=point_data, cell_data={label: labels.values}), {"file_format": file_format}, lost
+    return prepare
+
+
+def _for_abaqus(mesh):
+    """Groups that are numbers become sets, under their names where they have some."""
+    cell_sets = {name: [np.array([], int) if part is None else part for part in members]
+                 for name, members in mesh.cell_sets.items() if name not in GEOMETRY}
+    label = next((name for name in LABELS if name in mesh.cell_data and np.concatenate(mesh.cell_data[name]).any()), None)
+    if label:
+        names = {tuple(map(int, entry[:2])): name for name, entry in mesh.field_data.items()}
+        for k, (block, values) in enumerate(zip(mesh.cells, mesh.cell_data[label])):
+            for number in np.unique(values[values != 0]):
+                name = names.get((number, block.dim), f"{label.split(':')[1]}_{number}_{block.dim}d")
+                members = cell_sets.setdefault(name, [np.array([], int)] * len(mesh.cells))
+                members[k] = np.flatnonzero(values == number)
+    types = (mesh.info or {}).get("abaqus:types") or [ABAQUS_TYPES.get(block.type) for block in mesh.cells]
+    if None in types:
+        raise ValueError(f"cells of the type {mesh.cells[types.index(None)].type} have no place in this format")
+    prepared = _copy(mesh, point_sets=mesh.point_sets, cell_sets=cell_sets)
+    for block, element_type in zip(prepared.cells, [kind for kind, block in zip(types, mesh.cells) if len(block)]):
+        block.type = element_type  # which meshio then writes as it is
+    return prepared, {"file_format": "abaqus", "translate_cell_names": False}, _data_left_out(mesh)
+
+
+def _copy(mesh, **parts):
+    """The points and cells of a mesh, with these parts alone. Blocks without cells are left out."""
+    filled = [k for k, block in enumerate(mesh.cells) if len(block)]
+    for name in ("cell_data", "cell_sets"):
+        parts[name] = {key: [values[k] for k in filled] for key, values in parts.get(name, {}).items()}
+    return type(mesh)(mesh.points, [(mesh.cells[k].type, mesh.cells[k].data) for k in filled], **parts)
+
+
+PREPARE = {"gmsh": _for_gmsh, "medit": _for_numbers("medit:ref", "medit"),
+           "nastran": _for_numbers("nastran:ref", "nastran"), "abaqus": _for_abaqus}
