@@ -2,8 +2,15 @@
 """The calls optimize() and quality()."""
 import contextlib
 import inspect
+import textwrap
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE, VTK_TETRA, VTK_TRIANGLE,
+                                           vtkUnstructuredGrid)
 
 from . import _progress
+from ._grids import kinds_of
 from ._meshes import adapter
 from ._properties import make, properties
 from ._reports import columns, report_of_quality, report_of_run
@@ -11,8 +18,24 @@ from ._run import run
 from .vtkFiltersMeshOptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
 
 
-def _histogram(grid, options):
+def _elements_only(grid):
+    """Flags triangles as hidden where there are tetrahedra, which then are what is optimized: hidden cells do not count."""
+    kinds = kinds_of(grid)
+    beside = np.isin(kinds, (VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE))
+    if beside.any() and np.isin(kinds, (VTK_TETRA, VTK_QUADRATIC_TETRA)).any():
+        flags = grid.GetCellData().GetArray("vtkGhostType")
+        flags = vtk_to_numpy(flags).copy() if flags else np.zeros(len(kinds), np.uint8)
+        flags[beside] |= 32  # vtkDataSetAttributes::HIDDENCELL
+        array = numpy_to_vtk(flags, deep=1)
+        array.SetName("vtkGhostType")
+        grid.GetCellData().AddArray(array)
+
+
+def _histogram(mesh, options):
     """Measured as the run measures: with those of its options that measuring has."""
+    grid = vtkUnstructuredGrid()
+    grid.ShallowCopy(mesh)
+    _elements_only(grid)
     shared = {key: value for key, value in options.items() if key in properties(vtkMeshQualityMinMax)
               and key not in ("region_array", "target_quality")}
     measure = make(vtkMeshQualityMinMax, {**shared, "compute_bound": False})
@@ -111,7 +134,7 @@ def _both(first, second):
 
 
 def quality(mesh, **options):
-    """Measure the quality of every element of a mesh.
+    """Measure the quality of every element of a mesh: of the tetrahedra, or of triangles where there are none.
 
     Parameters
     ----------
@@ -138,7 +161,8 @@ def quality(mesh, **options):
     >>> print(f"{report.minimum:.2f} degrees")
     54.74 degrees
     """
-    _, algorithm = _prepare(vtkMeshQualityMinMax, mesh, options)
+    adapted, algorithm = _prepare(vtkMeshQualityMinMax, mesh, options)
+    _elements_only(adapted.grid)
     if run(algorithm):
         raise KeyboardInterrupt
     return report_of_quality(algorithm)
@@ -152,7 +176,9 @@ def _describe(function, cls):
     function.__signature__ = inspect.Signature(given + [
         inspect.Parameter(prop.keyword, inspect.Parameter.KEYWORD_ONLY, default=prop.shown_default) for prop in known])
     lines = ["", "    Other Parameters", "    ----------------"]
-    lines += [f"    {prop.keyword} : {prop.values}, default {prop.shown_default!r}" for prop in known]
+    for prop in known:
+        lines += [f"    {prop.keyword} : {prop.values}, default {prop.shown_default!r}",
+                  *textwrap.wrap(prop.description, 100, initial_indent=8 * " ", subsequent_indent=8 * " ")]
     function.__doc__ += "\n".join(lines) + "\n    "
 
 

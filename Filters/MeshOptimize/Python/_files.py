@@ -176,12 +176,7 @@ def write(mesh, path):
 
 
 def _write_vtk(mesh, part, writer, path):
-    if _groups.is_meshio(mesh):
-        grid = _groups.grid_of(mesh)
-        if mesh.field_data:
-            warnings.warn(f"{path}: lost: the names of groups: {', '.join(mesh.field_data)}", stacklevel=4)
-    else:
-        grid = adapter(mesh).grid
+    grid = _groups.grid_of(mesh) if _groups.is_meshio(mesh) else adapter(mesh).grid
     errors, _ = collect(writer, "ErrorEvent", "WarningEvent")
     writer.SetInputDataObject(grid)
     writer.SetFileName(os.fspath(part))

@@ -3,12 +3,13 @@
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
+from ._grids import kinds_of, nodes_of
 from ._meshio import BLOCK, CELL_TYPES, GEOMETRY, LABELS, POINT, REGION, MeshioMesh
 
 QUALITY = "MeshQuality"  # a result, not data of the user: not written, and no loss
-SET = " (set)"
+SET, GROUP = " (set)", "group "
 # For cells that did not come from Abaqus
 ABAQUS_TYPES = {"line": "T3D2", "triangle": "S3", "quad": "S4", "tetra": "C3D4", "pyramid": "C3D5", "wedge": "C3D6",
                 "hexahedron": "C3D8", "line3": "T3D3", "triangle6": "STRI65", "quad8": "S8R", "tetra10": "C3D10",
@@ -22,32 +23,33 @@ def is_meshio(mesh):
 
 
 def grid_of(mesh):
-    """A meshio mesh as a grid for VTK's files: a set is an array "NAME (set)" of 0 and 1."""
+    """A meshio mesh as a grid for VTK's files: a set is an array "NAME (set)" of 0 and 1, a group's name field data."""
     grid = MeshioMesh(mesh).grid
     for name in (BLOCK, REGION):
         grid.GetCellData().RemoveArray(name)
     grid.GetPointData().RemoveArray(POINT)
+    for name, entry in mesh.field_data.items():
+        array = numpy_to_vtk(np.array(entry[:2], np.int32), deep=1)
+        array.SetName(GROUP + name)
+        grid.GetFieldData().AddArray(array)
     return grid
 
 
 def _arrays(attributes):
     arrays = (attributes.GetArray(index) for index in range(attributes.GetNumberOfArrays()))
-    return {array.GetName(): vtk_to_numpy(array) for array in arrays if array}
+    return {array.GetName(): vtk_to_numpy(array) for array in arrays if array}  # GetArray() is None for strings
 
 
 def mesh_of(grid):
     """A grid as a meshio mesh, a block for each type of cell; arrays "NAME (set)" become sets again."""
     import meshio
 
-    starts = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
-    nodes = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
-    kinds = np.array([grid.GetCellType(cell) for cell in range(grid.GetNumberOfCells())])
+    kinds = kinds_of(grid)
     strange = sorted(set(kinds.tolist()) - _NAMES.keys())
     if strange:
         raise ValueError(f"cells of VTK's type {strange[0]} have no place in this format")
     members = [np.flatnonzero(kinds == kind) for kind in np.unique(kinds)]
-    sizes = np.diff(starts)
-    cells = [(_NAMES[kinds[ids[0]]], nodes[starts[ids][:, None] + np.arange(sizes[ids[0]])]) for ids in members]
+    cells = [(_NAMES[kinds[ids[0]]], nodes_of(grid, ids, grid.GetCell(ids[0]).GetNumberOfPoints())) for ids in members]
     in_points, in_cells = _arrays(grid.GetPointData()), _arrays(grid.GetCellData())
     return meshio.Mesh(
         vtk_to_numpy(grid.GetPoints().GetData()), cells,
@@ -55,7 +57,9 @@ def mesh_of(grid):
         cell_data={name: [values[ids] for ids in members] for name, values in in_cells.items() if not name.endswith(SET)},
         point_sets={name[:-len(SET)]: np.flatnonzero(values) for name, values in in_points.items() if name.endswith(SET)},
         cell_sets={name[:-len(SET)]: [np.flatnonzero(values[ids]) for ids in members]
-                   for name, values in in_cells.items() if name.endswith(SET)})
+                   for name, values in in_cells.items() if name.endswith(SET)},
+        field_data={name[len(GROUP):]: values for name, values in _arrays(grid.GetFieldData()).items()
+                    if name.startswith(GROUP)})
 
 
 class _Labels:

@@ -7,13 +7,11 @@ the caller gives others; and `back(output)`.
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 
+from ._grids import CELL_OF_CORNERS, simplices, vtk_points
 from ._meshio import MeshioMesh
-
-CELL_OF_CORNERS = {3: VTK_TRIANGLE, 4: VTK_TETRA}
 
 
 class GridMesh:
@@ -46,15 +44,7 @@ class ArrayMesh:
             raise ValueError("cells must be integers of shape (m, 4) for tetrahedra or (m, 3) for triangles, and they are "
                              f"{cells.dtype} of shape {cells.shape}")
         self._dimension, self._corners, self._index = points.shape[1], cells.shape[1], cells.dtype
-        if points.dtype != np.float32:
-            points = points.astype(float)
-        spatial = np.zeros((len(points), 3), points.dtype)
-        spatial[:, :self._dimension] = points
-        self.grid, vtk_points, vtk_cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
-        vtk_points.SetData(numpy_to_vtk(spatial, deep=1))
-        vtk_cells.SetData(self._corners, numpy_to_vtkIdTypeArray(cells.astype(np.int64).ravel(), deep=1))
-        self.grid.SetPoints(vtk_points)
-        self.grid.SetCells(CELL_OF_CORNERS[self._corners], vtk_cells)
+        self.grid = simplices(vtk_points(points), cells)
 
     def back(self, output):
         points = vtk_to_numpy(output.GetPoints().GetData())

@@ -11,8 +11,9 @@ import warnings
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+from ._grids import nodes_of, vtk_points
 
 # meshio's names of cells, in VTK's numbering
 CELL_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "pyramid": 14,
@@ -91,12 +92,8 @@ class MeshioMesh:
             for given, physical in zip(mesh.cell_sets[name], _physical(mesh, name)))
 
     def _make_grid(self):
-        points = np.asarray(self._mesh.points)
-        spatial = np.zeros((len(points), 3), np.float32 if points.dtype == np.float32 else float)
-        spatial[:, :points.shape[1]] = points
-        grid, vtk_points, cells = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
-        vtk_points.SetData(numpy_to_vtk(spatial, deep=1))
-        grid.SetPoints(vtk_points)
+        grid, cells = vtkUnstructuredGrid(), vtkCellArray()
+        grid.SetPoints(vtk_points(self._mesh.points))
         blocks = [(CELL_TYPES[block.type], np.asarray(block.data, np.int64)) for block in self._mesh.cells]
         sizes = np.concatenate([[0]] + [np.full(len(data), data.shape[1]) for _, data in blocks])
         nodes = np.concatenate([np.empty(0, np.int64)] + [data.ravel() for _, data in blocks])
@@ -150,10 +147,7 @@ class MeshioMesh:
         mesh, point_data, cell_data = self._mesh, output.GetPointData(), output.GetCellData()
         block_of = vtk_to_numpy(cell_data.GetArray(BLOCK))
         members = [np.flatnonzero(block_of == block) for block in range(len(mesh.cells))]
-        starts = vtk_to_numpy(output.GetCells().GetOffsetsArray())
-        nodes = vtk_to_numpy(output.GetCells().GetConnectivityArray())
-        cells = [(block.type, nodes[starts[ids][:, None] + np.arange(block.data.shape[1])])
-                 for block, ids in zip(mesh.cells, members)]
+        cells = [(block.type, nodes_of(output, ids, block.data.shape[1])) for block, ids in zip(mesh.cells, members)]
         in_cells = {name: [_values(cell_data, name, np.asarray(values[0]))[ids] for ids in members]
                     for name, values in mesh.cell_data.items() if values and cell_data.GetArray(name)}
         in_cells["MeshQuality"] = [_values(cell_data, "MeshQuality")[ids] for ids in members]

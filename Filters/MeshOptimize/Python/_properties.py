@@ -37,6 +37,7 @@ class Property:
     low: object = None
     high: object = None
     choices: dict = dataclasses.field(default_factory=dict)  # keyword -> number
+    description: str = ""  # the first sentence of the setter's documentation
 
     @property
     def keyword(self):
@@ -86,32 +87,37 @@ class Property:
             setter(value)
 
 
-def _property_of(cls, algorithm, name):
-    """The property that SetName sets, or None: of those of the class itself, not of all algorithms."""
+def _description(cls, setter):
+    text = (getattr(cls, setter).__doc__ or "").partition("\n\n")[2]  # after the signature
+    return " ".join(re.split(r"(?<=\.)\s", text, maxsplit=1)[0].split())
+
+
+def _property_of(cls, algorithm, setter):
+    """The property that a setter sets, or None: of those of the class itself, not of all algorithms."""
+    name, description = setter[len("Set"):], _description(cls, setter)
     if name.endswith("Array"):
-        return Property(name, "array")
+        return Property(name, "array", description="The array by its name.")
     if name.endswith("Data"):
-        return Property(name[:-len("Data")], "data")
+        return Property(name[:-len("Data")], "data", description=description)
     getter = getattr(algorithm, "Get" + name, None)
     default = getter() if getter else None
     if not isinstance(default, (bool, int, float)):
         return None
-    prefix = f"Set{name}To"
-    choices = {snake_case(key[len(prefix):]): int(getattr(cls, key[len(prefix):]))
-               for key in vars(cls) if key.startswith(prefix)}
+    choices = {snake_case(key[len(setter + "To"):]): int(getattr(cls, key[len(setter + "To"):]))
+               for key in vars(cls) if key.startswith(setter + "To")}
     if choices:
-        return Property(name, "choice", int(default), choices=choices)
+        return Property(name, "choice", int(default), choices=choices, description=description)
     if name + "On" in vars(cls):
-        return Property(name, "switch", bool(default))
+        return Property(name, "switch", bool(default), description=description)
     low, high = (getattr(algorithm, f"Get{name}{end}Value", lambda: None)() for end in ("Min", "Max"))
-    return Property(name, "real" if isinstance(default, float) else "whole", default, low, high)
+    return Property(name, "real" if isinstance(default, float) else "whole", default, low, high, description=description)
 
 
 @functools.lru_cache(maxsize=None)
 def properties(cls):
     """The properties of a filter's class: keyword -> Property."""
     algorithm = cls()
-    found = [_property_of(cls, algorithm, key[len("Set"):]) for key in vars(cls) if key.startswith("Set")]
+    found = [_property_of(cls, algorithm, key) for key in vars(cls) if key.startswith("Set")]
     return {prop.keyword: prop for prop in found if prop}
 
 
