@@ -5,14 +5,16 @@ import io
 import os
 import pathlib
 import re
+import tempfile
 import warnings
 
+from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOLegacy import vtkUnstructuredGridReader, vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
 from . import _abaqus, _groups
 from ._meshes import adapter
-from ._run import MeshOptimizeError, collect
+from ._run import MeshOptimizeError, collect, text_of
 
 VTK_FORMATS = {".vtu": (vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter),
                ".vtk": (vtkUnstructuredGridReader, vtkUnstructuredGridWriter)}
@@ -72,12 +74,37 @@ def _warn_of_lost(path, format_name):
 def _read_vtk(path, reader):
     errors, _ = collect(reader, "ErrorEvent", "WarningEvent")
     reader.SetFileName(os.fspath(path))
-    reader.Update()
+    # What reads XML within the reader cannot be observed: its messages are caught where VTK writes them.
+    window, before, verbosity = vtkStringOutputWindow(), vtkOutputWindow.GetInstance(), vtkLogger.GetCurrentVerbosityCutoff()
+    vtkOutputWindow.SetInstance(window)
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    try:
+        reader.Update()
+    finally:
+        vtkOutputWindow.SetInstance(before)
+        vtkLogger.SetStderrVerbosity(verbosity)
     if errors:
+        texts = f"{text_of(window.GetOutput())} {errors[0]}".strip()
         hint = ("; if it has raw appended data: this VTK may not read them, write it with SetDataModeToBinary()"
-                if "not well-formed" in "".join(errors) else "")
-        raise MeshOptimizeError(f"{path}: {' '.join(errors)}{hint}")
+                if "not well-formed" in texts else "")
+        raise MeshOptimizeError(f"{path}: {texts}{hint}")
     return reader.GetOutput()
+
+
+@contextlib.contextmanager
+def _without_element_data(path):
+    """A Gmsh file that meshio can read: of version 2 it cannot read the values at elements."""
+    content = pathlib.Path(path).read_bytes()
+    is_version_2 = re.match(rb"\$MeshFormat\s+2", content)
+    without = re.sub(rb"\$ElementData\s.*?\$EndElementData\s*", b"", content, flags=re.DOTALL) if is_version_2 else content
+    if without == content:
+        yield path
+        return
+    warnings.warn(f"{path}: lost: $ElementData, which meshio cannot read", stacklevel=6)
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder) / pathlib.Path(path).name
+        copy.write_bytes(without)
+        yield copy
 
 
 def _read_meshio(path, suffix):
@@ -86,8 +113,9 @@ def _read_meshio(path, suffix):
         return _abaqus.read(path)
     if suffix != ".meshb" and format_name in _KEYWORDS:
         _warn_of_lost(path, format_name)
-    with _meshio_speaking(path):
-        mesh = meshio.read(path, file_format=format_name)
+    with _without_element_data(path) if format_name == "gmsh" else contextlib.nullcontext(path) as file:
+        with _meshio_speaking(path):
+            mesh = meshio.read(file, file_format=format_name)
     for name, values in mesh.cell_data.items():
         if [len(block) for block in mesh.cells] != [len(part) for part in values]:
             raise MeshOptimizeError(f"{path}: only some cells have a number in {name}")

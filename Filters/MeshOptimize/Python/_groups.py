@@ -6,7 +6,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from ._grids import kinds_of, nodes_of
-from ._meshio import BLOCK, CELL_TYPES, GEOMETRY, LABELS, POINT, REGION, MeshioMesh
+from ._meshio import BETWEEN, BLOCK, CELL_TYPES, GEOMETRY, LABELS, POINT, REGION, MeshioMesh
 
 QUALITY = "MeshQuality"  # a result, not data of the user: not written, and no loss
 SET, GROUP = " (set)", "group "
@@ -55,7 +55,7 @@ def mesh_of(grid):
         vtk_to_numpy(grid.GetPoints().GetData()), cells,
         point_data={name: values for name, values in in_points.items() if not name.endswith(SET)},
         cell_data={name: [values[ids] for ids in members] for name, values in in_cells.items() if not name.endswith(SET)},
-        point_sets={name[:-len(SET)]: np.flatnonzero(values) for name, values in in_points.items() if name.endswith(SET)},
+        point_sets={name[:-len(SET)]: np.flatnonzero(values > BETWEEN) for name, values in in_points.items() if name.endswith(SET)},
         cell_sets={name[:-len(SET)]: [np.flatnonzero(values[ids]) for ids in members]
                    for name, values in in_cells.items() if name.endswith(SET)},
         field_data={name[len(GROUP):]: values for name, values in _arrays(grid.GetFieldData()).items()
@@ -99,17 +99,17 @@ def _data_left_out(mesh, kept=()):
 
 
 def _for_gmsh(mesh):
-    """Version 2.2 in ASCII: nodes have no entities there, which would not be true of new nodes."""
+    """Version 2.2 in ASCII: nodes have no entities there, which would not be true of new nodes. Values at cells could be
+    written, but meshio could not read that file again."""
     labels = _Labels(mesh)
-    fits = lambda values: np.ndim(values) == 1 or np.shape(values)[1:] in ((1,), (3,), (9,))  # noqa: E731
-    point_data = {name: values for name, values in mesh.point_data.items() if name not in (*LABELS, *GEOMETRY) and fits(values)}
-    cell_data = {name: values for name, values in mesh.cell_data.items()
-                 if name not in (*LABELS, QUALITY) and fits(values[0])}
-    lost = labels.lost + _data_left_out(mesh, (*point_data, *cell_data)) + [f"the set {name}" for name in mesh.point_sets]
-    cell_data["gmsh:physical"] = labels.values if labels.source != "gmsh:geometrical" else [0 * part for part in labels.values]
-    cell_data["gmsh:geometrical"] = mesh.cell_data.get("gmsh:geometrical", labels.values)
-    fields = {name: np.array(entry) for name, entry in labels.names.items()}
-    return (_copy(mesh, point_data=point_data, cell_data=cell_data, field_data=fields),
+    point_data = {name: values for name, values in mesh.point_data.items()
+                  if name not in (*LABELS, *GEOMETRY) and np.shape(values)[1:] in ((), (1,), (3,), (9,))}
+    lost = labels.lost + _data_left_out(mesh, point_data) + [f"the set {name}" for name in mesh.point_sets]
+    only_geometry = labels.source == "gmsh:geometrical"
+    cell_data = {"gmsh:physical": [0 * values for values in labels.values] if only_geometry else labels.values,
+                 "gmsh:geometrical": mesh.cell_data.get("gmsh:geometrical", labels.values)}
+    names = {name: np.array(entry) for name, entry in labels.names.items()}
+    return (_copy(mesh, point_data=point_data, cell_data=cell_data, field_data=names),
             {"file_format": "gmsh22", "binary": False}, lost)
 
 

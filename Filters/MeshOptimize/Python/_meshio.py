@@ -3,8 +3,8 @@
 
 - Cell data are cell arrays; a set of cells is a cell array of 0 and 1. A new cell takes the values of the cell in whose
   place it stands.
-- A set of points is told by the points themselves: those that are still there are in it. A new point inside joins the
-  sets that hold points inside; a new point of the surface joins those of its nearest neighbour.
+- A set of points is told by the points themselves: those that are still there are in it. A new point joins where it lies
+  between points of the set; if it is inside, only where the set holds points inside: a set of the surface stays one.
 - Groups of the tetrahedra (of the triangles, where there are no tetrahedra) are the regions.
 """
 import warnings
@@ -22,6 +22,7 @@ CELL_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "he
 # Cell data that number the groups of a format; the first that says something counts.
 LABELS = ("gmsh:physical", "medit:ref", "nastran:ref", "gmsh:geometrical")
 BLOCK, REGION, POINT = "meshoptimize:block", "meshoptimize:region", "meshoptimize:point"
+BETWEEN = 0.9  # a point that slides may leave the facets of before a little
 # What the nodes and entities of Gmsh's geometry are: no longer true of another mesh.
 GEOMETRY = ("gmsh:dim_tags", "gmsh:bounding_entities")
 
@@ -113,7 +114,8 @@ class MeshioMesh:
             else:
                 warnings.warn(f"lost: {name!r}, whose values are no numbers", stacklevel=6)
         for array, name in self._point_sets.items():
-            _add(point_data, array, _members(mesh.point_sets[name], len(mesh.points)))
+            # of type double: the filter interpolates it, and between members it is 1
+            _add(point_data, array, _members(mesh.point_sets[name], len(mesh.points)).astype(float))
         for array, name in self._cell_sets.items():
             _add(cell_data, array, np.concatenate([_members(indices, len(block)) for block, indices
                                                    in zip(mesh.cells, mesh.cell_sets[name])]))
@@ -171,7 +173,7 @@ class MeshioMesh:
         for array, name in self._point_sets.items():
             before = _members(self._mesh.point_sets[name], len(self._mesh.points)).astype(bool)
             holds_inside = (before & ~was_on_surface).any()
-            joins = _values(point_data, array).astype(bool) & (on_surface | holds_inside)
+            joins = (_values(point_data, array) > BETWEEN) & (on_surface | holds_inside)
             sets[name] = np.flatnonzero(np.where(old >= 0, before[old], joins))
             gone = before.sum() - before[old[old >= 0]].sum()
             if gone:

@@ -14,7 +14,8 @@ class MeshOptimizeError(RuntimeError):
     """A mesh, an array or a file cannot be used; the text says what is wrong and where."""
 
 
-def _text(message):
+def text_of(message):
+    """A message of VTK without where in its sources it came from."""
     return _HEAD.sub("", message).strip()
 
 
@@ -25,7 +26,7 @@ def collect(algorithm, *events):
         texts = []
 
         def observe(caller, name, message, texts=texts):
-            texts.append(_text(message))
+            texts.append(text_of(message))
 
         observe.CallDataType = "string0"
         algorithm.AddObserver(event, observe)
