@@ -10,7 +10,8 @@ import meshoptimize
 from meshoptimize import _progress
 
 PELLET = os.path.join(os.environ["MESHOPTIMIZE_DATA"], "crack40.vtu")
-INSTALLED = {name: bar for name, bar in (("tqdm", _progress._tqdm_bar), ("rich", _progress._rich_bar)) if find_spec(name)}
+BARS = {"tqdm": _progress._tqdm_bar, "rich": _progress._rich_bar}
+INSTALLED = {name: bar for name, bar in BARS.items() if find_spec(name)}
 
 if not INSTALLED:
     print("skipped: neither tqdm nor rich is installed (Debian: python3-tqdm, python3-rich)")
@@ -20,7 +21,8 @@ mesh, seen = meshoptimize.read(PELLET), []
 for name, make in INSTALLED.items():
     print(name, flush=True)
     show, close = make()
-    meshoptimize.optimize(mesh, target_quality=0.3, progress=lambda fraction, text: (seen.append(fraction), show(fraction, text)))
+    meshoptimize.optimize(mesh, target_quality=0.3,
+                          progress=lambda fraction, text: (seen.append(fraction), show(fraction, text)))
     close()
 text = io.StringIO()
 with redirect_stderr(text), redirect_stdout(text):

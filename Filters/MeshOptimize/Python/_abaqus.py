@@ -126,5 +126,6 @@ def read(path):
         np.array([[float(word) for word in row[1:4]] for row in nodes]),
         [(kind, order[np.searchsorted(numbers, block[:, 1:], sorter=order)]) for _, kind, block in blocks],
         point_sets={name: _find(numbers, members) for name, members in point_sets.items()},
-        cell_sets={name: [_find(block[:, 0], members) for _, _, block in blocks] for name, members in cell_sets.items()},
+        cell_sets={name: [_find(block[:, 0], members) for _, _, block in blocks]
+                   for name, members in cell_sets.items()},
         info={"abaqus:types": [element_type for element_type, _, _ in blocks]})

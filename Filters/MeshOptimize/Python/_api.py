@@ -19,7 +19,7 @@ from .vtkFiltersMeshOptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
 
 
 def _elements_only(grid):
-    """Flags triangles as hidden where there are tetrahedra, which then are what is optimized: hidden cells do not count."""
+    """Flags triangles as hidden, so that they do not count, where there are tetrahedra: those are what is optimized."""
     kinds = kinds_of(grid)
     beside = np.isin(kinds, (VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE))
     if beside.any() and np.isin(kinds, (VTK_TETRA, VTK_QUADRATIC_TETRA)).any():

@@ -36,7 +36,8 @@ def _add_properties(parser, cls):
 
 def _options(parser, arguments, cls):
     """The properties that were given. Wrong values end the program with status 2."""
-    options = {keyword: value for keyword in properties(cls) if (value := getattr(arguments, keyword, None)) is not None}
+    options = {keyword: getattr(arguments, keyword, None) for keyword in properties(cls)}
+    options = {keyword: value for keyword, value in options.items() if value is not None}
     try:
         make(cls, options)
     except ValueError as error:
@@ -111,12 +112,13 @@ def _progress_of(quiet):
 def mesh_optimize(arguments=None, program="mesh-optimize"):
     """Raises the worst element quality of mesh files. Returns the exit status."""
     parser = argparse.ArgumentParser(
-        program, usage="%(prog)s [options] IN [IN ...] OUT", description="Raise the worst element quality of meshes of tetrahedra or triangles.", epilog=FORMATS)
+        program, usage="%(prog)s [options] IN [IN ...] OUT", epilog=FORMATS,
+        description="Raise the worst element quality of meshes of tetrahedra or triangles.")
     parser.add_argument("sources", metavar="IN", nargs="+", type=pathlib.Path, help="mesh files")
     parser.add_argument("out", metavar="OUT", type=pathlib.Path, help="the file to write; for several inputs a folder")
     parser.add_argument("--force", action="store_true", help="overwrite files")
     parser.add_argument("--quiet", action="store_true", help="print warnings and errors only")
-    parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw before and after; one input only")
+    parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw before and after; of one input")
     _add_properties(parser, vtkMeshOptimizeFilter)
     given = parser.parse_args(arguments)
     _check_inputs(parser, given.sources)
@@ -150,17 +152,19 @@ def _bars(histogram):
 
 def _worst(cells):
     rows = zip(cells.get("OriginalCellIds", []), cells.get("MeshQuality", []), cells.get("Center", []))
-    return "\n".join(f"  cell {cell:8d}  quality {value:9.4f}  at ({x:.6g}, {y:.6g}, {z:.6g})" for cell, value, (x, y, z) in rows)
+    return "\n".join(f"  cell {cell:8d}  quality {value:9.4f}  at ({x:.6g}, {y:.6g}, {z:.6g})"
+                     for cell, value, (x, y, z) in rows)
 
 
 def mesh_quality(arguments=None, program="mesh-quality"):
     """Measures mesh files. Returns the exit status."""
     parser = argparse.ArgumentParser(
-        program, usage="%(prog)s [options] IN [IN ...]", description="Measure the quality of meshes of tetrahedra or triangles.", epilog=FORMATS)
+        program, usage="%(prog)s [options] IN [IN ...]", epilog=FORMATS,
+        description="Measure the quality of meshes of tetrahedra or triangles.")
     parser.add_argument("sources", metavar="IN", nargs="+", type=pathlib.Path, help="mesh files")
     parser.add_argument("--histogram", action="store_true", help="print the histogram, too; bars are logarithmic")
-    parser.add_argument("--json", action="store_true", help="print all results as JSON: a list with an entry for each file")
-    parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw the mesh; one input only")
+    parser.add_argument("--json", action="store_true", help="print all as JSON: a list with an entry for each file")
+    parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw the mesh; of one input")
     _add_properties(parser, vtkMeshQualityMinMax)
     given = parser.parse_args(arguments)
     _check_inputs(parser, given.sources)

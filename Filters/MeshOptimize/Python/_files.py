@@ -75,7 +75,8 @@ def _read_vtk(path, reader):
     errors, _ = collect(reader, "ErrorEvent", "WarningEvent")
     reader.SetFileName(os.fspath(path))
     # What reads XML within the reader cannot be observed: its messages are caught where VTK writes them.
-    window, before, verbosity = vtkStringOutputWindow(), vtkOutputWindow.GetInstance(), vtkLogger.GetCurrentVerbosityCutoff()
+    window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
     vtkOutputWindow.SetInstance(window)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     try:
@@ -95,8 +96,9 @@ def _read_vtk(path, reader):
 def _without_element_data(path):
     """A Gmsh file that meshio can read: of version 2 it cannot read the values at elements."""
     content = pathlib.Path(path).read_bytes()
-    is_version_2 = re.match(rb"\$MeshFormat\s+2", content)
-    without = re.sub(rb"\$ElementData\s.*?\$EndElementData\s*", b"", content, flags=re.DOTALL) if is_version_2 else content
+    without = content
+    if re.match(rb"\$MeshFormat\s+2", content):
+        without = re.sub(rb"\$ElementData\s.*?\$EndElementData\s*", b"", content, flags=re.DOTALL)
     if without == content:
         yield path
         return
@@ -120,7 +122,8 @@ def _read_meshio(path, suffix):
         if [len(block) for block in mesh.cells] != [len(part) for part in values]:
             raise MeshOptimizeError(f"{path}: only some cells have a number in {name}")
     if mesh.point_data.pop("nastran:ref", None) is not None:
-        warnings.warn(f"{path}: lost: the coordinate systems of GRID; all coordinates are taken for basic ones", stacklevel=4)
+        warnings.warn(f"{path}: lost: the coordinate systems of GRID; all coordinates are taken for basic ones",
+                      stacklevel=4)
     return mesh
 
 

@@ -6,7 +6,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from ._grids import kinds_of, nodes_of
-from ._meshio import BETWEEN, BLOCK, CELL_TYPES, GEOMETRY, LABELS, POINT, REGION, MeshioMesh
+from ._meshio import (BETWEEN, BLOCK, CELL_TYPES, GEOMETRY, LABELS, POINT, REGION, MeshioMesh, members_of_group,
+                      same_sets)
 
 QUALITY = "MeshQuality"  # a result, not data of the user: not written, and no loss
 SET, GROUP = " (set)", "group "
@@ -54,8 +55,10 @@ def mesh_of(grid):
     return meshio.Mesh(
         vtk_to_numpy(grid.GetPoints().GetData()), cells,
         point_data={name: values for name, values in in_points.items() if not name.endswith(SET)},
-        cell_data={name: [values[ids] for ids in members] for name, values in in_cells.items() if not name.endswith(SET)},
-        point_sets={name[:-len(SET)]: np.flatnonzero(values > BETWEEN) for name, values in in_points.items() if name.endswith(SET)},
+        cell_data={name: [values[ids] for ids in members] for name, values in in_cells.items()
+                   if not name.endswith(SET)},
+        point_sets={name[:-len(SET)]: np.flatnonzero(values > BETWEEN) for name, values in in_points.items()
+                    if name.endswith(SET)},
         cell_sets={name[:-len(SET)]: [np.flatnonzero(values[ids]) for ids in members]
                    for name, values in in_cells.items() if name.endswith(SET)},
         field_data={name[len(GROUP):]: values for name, values in _arrays(grid.GetFieldData()).items()
@@ -63,24 +66,25 @@ def mesh_of(grid):
 
 
 class _Labels:
-    """The groups of a mesh as a number for each cell; `lost` names what that leaves out."""
+    """The groups of a mesh as a number for each cell; `names`: name -> (number, dimension); `lost`: what is left."""
 
     def __init__(self, mesh):
         self.lost, self.names = [], {}
-        present = [name for name in LABELS if name in mesh.cell_data]
         sets = {name: members for name, members in mesh.cell_sets.items() if name not in GEOMETRY}
-        if present:
-            self.values, self.source = [np.asarray(part, int) for part in mesh.cell_data[present[0]]], present[0]
-            self.names = {name: tuple(map(int, entry[:2])) for name, entry in mesh.field_data.items()}
-            for name, members in sets.items():
-                number, dimension = self.names.get(name, (None, None))
-                if any(block.dim != dimension and len(given) or (self.values[k][given] != number).any()
-                       for k, (block, given) in enumerate(zip(mesh.cells, members)) if given is not None and len(given)):
-                    self.lost.append(f"the set {name}")
+        self.source = next((name for name in LABELS if name in mesh.cell_data), None)
+        if self.source:
+            self._take_numbers(mesh, sets)
         else:
-            self.values, self.source = [np.zeros(len(block), int) for block in mesh.cells], None
+            self.values = [np.zeros(len(block), int) for block in mesh.cells]
             for number, (name, members) in enumerate(sets.items(), 1):
                 self._take_set(mesh, number, name, members)
+
+    def _take_numbers(self, mesh, sets):
+        self.values = [np.asarray(part, int) for part in mesh.cell_data[self.source]]
+        self.names = {name: tuple(map(int, entry[:2])) for name, entry in mesh.field_data.items()}
+        for name, members in sets.items():  # those that the numbers do not tell
+            if name not in self.names or not same_sets(members, members_of_group(mesh, self.values, *self.names[name])):
+                self.lost.append(f"the set {name}")
 
     def _take_set(self, mesh, number, name, members):
         for block, values, given in zip(mesh.cells, self.values, members):
@@ -93,18 +97,25 @@ class _Labels:
             self.names[f"{name}_{block.dim}d" if in_other_dimension else name] = (number, block.dim)
 
 
-def _data_left_out(mesh, kept=()):
-    names = [name for name in (*mesh.point_data, *mesh.cell_data) if name not in (*kept, *LABELS, *GEOMETRY, QUALITY)]
-    return [f"the array {name}" for name in names]
+def _data_lost(mesh, point_data, labels=None):
+    """The arrays that a format has no place for: all but these point data and the numbers of the groups."""
+    lost = [f"the array {name}" for name in mesh.point_data if name not in (*point_data, *GEOMETRY)]
+    for name, values in mesh.cell_data.items():
+        if name in LABELS:
+            if labels and not all(map(np.array_equal, values, labels)):
+                lost.append(f"the numbers {name}")
+        elif name != QUALITY:
+            lost.append(f"the array {name}")
+    return lost
 
 
 def _for_gmsh(mesh):
-    """Version 2.2 in ASCII: nodes have no entities there, which would not be true of new nodes. Values at cells could be
-    written, but meshio could not read that file again."""
+    """Version 2.2 in ASCII: nodes have no entities there, which would not be true of new nodes. Values at cells could
+    be written, but meshio could not read that file again."""
     labels = _Labels(mesh)
     point_data = {name: values for name, values in mesh.point_data.items()
-                  if name not in (*LABELS, *GEOMETRY) and np.shape(values)[1:] in ((), (1,), (3,), (9,))}
-    lost = labels.lost + _data_left_out(mesh, point_data) + [f"the set {name}" for name in mesh.point_sets]
+                  if name not in GEOMETRY and np.shape(values)[1:] in ((), (1,), (3,), (9,))}
+    lost = labels.lost + _data_lost(mesh, point_data) + [f"the set {name}" for name in mesh.point_sets]
     only_geometry = labels.source == "gmsh:geometrical"
     cell_data = {"gmsh:physical": [0 * values for values in labels.values] if only_geometry else labels.values,
                  "gmsh:geometrical": mesh.cell_data.get("gmsh:geometrical", labels.values)}
@@ -113,36 +124,49 @@ def _for_gmsh(mesh):
             {"file_format": "gmsh22", "binary": False}, lost)
 
 
-def _for_numbers(label, file_format):
+def _for_numbers(mesh, label, file_format, point_label=None):
     """Formats that hold one number for each cell, and no names."""
-    def prepare(mesh):
-        labels = _Labels(mesh)
-        lost = labels.lost + _data_left_out(mesh) + [f"the set {name}" for name in mesh.point_sets]
-        lost += [f"the name {name} of the group {number}" for name, (number, _) in labels.names.items()]
-        point_data = {label: mesh.point_data[label]} if label == "medit:ref" and label in mesh.point_data else {}
-        return _copy(mesh, point_data=point_data, cell_data={label: labels.values}), {"file_format": file_format}, lost
-    return prepare
+    labels = _Labels(mesh)
+    point_data = {name: values for name, values in mesh.point_data.items() if name == point_label}
+    lost = labels.lost + _data_lost(mesh, point_data, labels.values) + [f"the set {name}" for name in mesh.point_sets]
+    lost += [f"the name {name} of the group {number}" for name, (number, _) in labels.names.items()]
+    return _copy(mesh, point_data=point_data, cell_data={label: labels.values}), {"file_format": file_format}, lost
+
+
+def _for_medit(mesh):
+    return _for_numbers(mesh, "medit:ref", "medit", point_label="medit:ref")
+
+
+def _for_nastran(mesh):
+    return _for_numbers(mesh, "nastran:ref", "nastran")
 
 
 def _for_abaqus(mesh):
     """Groups that are numbers become sets, under their names where they have some."""
     cell_sets = {name: [np.array([], int) if part is None else part for part in members]
                  for name, members in mesh.cell_sets.items() if name not in GEOMETRY}
-    label = next((name for name in LABELS if name in mesh.cell_data and np.concatenate(mesh.cell_data[name]).any()), None)
+    label = next((name for name in LABELS
+                  if name in mesh.cell_data and any(map(np.any, mesh.cell_data[name]))), None)
     if label:
-        names = {tuple(map(int, entry[:2])): name for name, entry in mesh.field_data.items()}
-        for k, (block, values) in enumerate(zip(mesh.cells, mesh.cell_data[label])):
-            for number in np.unique(values[values != 0]):
-                name = names.get((number, block.dim), f"{label.split(':')[1]}_{number}_{block.dim}d")
-                members = cell_sets.setdefault(name, [np.array([], int)] * len(mesh.cells))
-                members[k] = np.flatnonzero(values == number)
+        _add_numbered(mesh, label, cell_sets)
     types = (mesh.info or {}).get("abaqus:types") or [ABAQUS_TYPES.get(block.type) for block in mesh.cells]
     if None in types:
         raise ValueError(f"cells of the type {mesh.cells[types.index(None)].type} have no place in this format")
     prepared = _copy(mesh, point_sets=mesh.point_sets, cell_sets=cell_sets)
     for block, element_type in zip(prepared.cells, [kind for kind, block in zip(types, mesh.cells) if len(block)]):
         block.type = element_type  # which meshio then writes as it is
-    return prepared, {"file_format": "abaqus", "translate_cell_names": False}, _data_left_out(mesh)
+    lost = _data_lost(mesh, {}, mesh.cell_data.get(label))
+    return prepared, {"file_format": "abaqus", "translate_cell_names": False}, lost
+
+
+def _add_numbered(mesh, label, cell_sets):
+    """A set for each number of each dimension."""
+    names = {tuple(map(int, entry[:2])): name for name, entry in mesh.field_data.items()}
+    for k, (block, values) in enumerate(zip(mesh.cells, mesh.cell_data[label])):
+        for number in np.unique(values[values != 0]):
+            name = names.get((number, block.dim), f"{label.split(':')[1]}_{number}_{block.dim}d")
+            members = cell_sets.setdefault(name, [np.array([], int)] * len(mesh.cells))
+            members[k] = np.flatnonzero(values == number)
 
 
 def _copy(mesh, **parts):
@@ -153,5 +177,5 @@ def _copy(mesh, **parts):
     return type(mesh)(mesh.points, [(mesh.cells[k].type, mesh.cells[k].data) for k in filled], **parts)
 
 
-PREPARE = {"gmsh": _for_gmsh, "medit": _for_numbers("medit:ref", "medit"),
-           "nastran": _for_numbers("nastran:ref", "nastran"), "abaqus": _for_abaqus}
+# For each format: mesh -> what meshio is to write, how, and what is lost
+PREPARE = {"gmsh": _for_gmsh, "medit": _for_medit, "nastran": _for_nastran, "abaqus": _for_abaqus}

@@ -41,8 +41,8 @@ class ArrayMesh:
             raise ValueError(f"points must be numbers of shape (n, 3) or (n, 2), and they are {points.dtype} "
                              f"of shape {points.shape}")
         if cells.ndim != 2 or cells.shape[1] not in CELL_OF_CORNERS or cells.dtype.kind not in "iu":
-            raise ValueError("cells must be integers of shape (m, 4) for tetrahedra or (m, 3) for triangles, and they are "
-                             f"{cells.dtype} of shape {cells.shape}")
+            raise ValueError("cells must be integers of shape (m, 4) for tetrahedra or (m, 3) for triangles, and they "
+                             f"are {cells.dtype} of shape {cells.shape}")
         self._dimension, self._corners, self._index = points.shape[1], cells.shape[1], cells.dtype
         self.grid = simplices(vtk_points(points), cells)
 

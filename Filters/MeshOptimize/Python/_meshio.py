@@ -3,8 +3,8 @@
 
 - Cell data are cell arrays; a set of cells is a cell array of 0 and 1. A new cell takes the values of the cell in whose
   place it stands.
-- A set of points is told by the points themselves: those that are still there are in it. A new point joins where it lies
-  between points of the set; if it is inside, only where the set holds points inside: a set of the surface stays one.
+- A set of points is told by the points themselves: those that are still there are in it. A new point joins where it
+  lies between points of the set; if it is inside, only a set that holds points inside: a set of the surface stays one.
 - Groups of the tetrahedra (of the triangles, where there are no tetrahedra) are the regions.
 """
 import warnings
@@ -16,9 +16,9 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 from ._grids import nodes_of, vtk_points
 
 # meshio's names of cells, in VTK's numbering
-CELL_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "pyramid": 14,
-              "line3": 21, "triangle6": 22, "quad8": 23, "tetra10": 24, "hexahedron20": 25, "wedge15": 26,
-              "pyramid13": 27, "quad9": 28, "hexahedron27": 29}
+CELL_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13,
+              "pyramid": 14, "line3": 21, "triangle6": 22, "quad8": 23, "tetra10": 24, "hexahedron20": 25,
+              "wedge15": 26, "pyramid13": 27, "quad9": 28, "hexahedron27": 29}
 # Cell data that number the groups of a format; the first that says something counts.
 LABELS = ("gmsh:physical", "medit:ref", "nastran:ref", "gmsh:geometrical")
 BLOCK, REGION, POINT = "meshoptimize:block", "meshoptimize:region", "meshoptimize:point"
@@ -48,11 +48,20 @@ def _values(attributes, name, like=None):
     return values if like is None else values.reshape((-1,) + like.shape[1:]).astype(like.dtype)
 
 
+def members_of_group(mesh, numbers, number, dimension):
+    """The cells of this dimension that have this number, block by block."""
+    return [np.flatnonzero(values == number) if block.dim == dimension else np.array([], int)
+            for block, values in zip(mesh.cells, numbers)]
+
+
 def _physical(mesh, name):
-    """The members of one of Gmsh's named groups, block by block."""
-    tag, dimension = mesh.field_data[name][:2]
-    return [np.flatnonzero(tags == tag) if block.dim == dimension else np.array([], int)
-            for block, tags in zip(mesh.cells, mesh.cell_data["gmsh:physical"])]
+    """The cells of one of Gmsh's named groups."""
+    return members_of_group(mesh, mesh.cell_data["gmsh:physical"], *mesh.field_data[name][:2])
+
+
+def same_sets(some, others):
+    """Whether two sets of cells are the same, block by block; None is empty."""
+    return all(set(() if one is None else map(int, one)) == set(map(int, other)) for one, other in zip(some, others))
 
 
 def _on_surface(mesh):
@@ -88,9 +97,8 @@ class MeshioMesh:
     def _is_physical(self, name):
         """Whether a set only repeats what the numbers in gmsh:physical say."""
         mesh = self._mesh
-        return name in mesh.field_data and "gmsh:physical" in mesh.cell_data and all(
-            np.array_equal(np.sort(np.asarray([] if given is None else given, int)), physical)
-            for given, physical in zip(mesh.cell_sets[name], _physical(mesh, name)))
+        return (name in mesh.field_data and "gmsh:physical" in mesh.cell_data
+                and same_sets(mesh.cell_sets[name], _physical(mesh, name)))
 
     def _make_grid(self):
         grid, cells = vtkUnstructuredGrid(), vtkCellArray()

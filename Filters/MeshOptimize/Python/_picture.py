@@ -13,8 +13,8 @@ from vtkmodules.vtkCommonDataModel import VTK_TETRA
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
-                                         vtkTextActor, vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer,
+                                         vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
 from ._grids import CELL_OF_CORNERS, kinds_of, nodes_of, simplices
 from ._run import MeshOptimizeError
@@ -35,7 +35,8 @@ def _display():
         yield
         return
     if not shutil.which("Xvfb"):
-        raise MeshOptimizeError("a picture needs a display: set DISPLAY, or install Xvfb (Debian: apt-get install xvfb)")
+        raise MeshOptimizeError(
+            "a picture needs a display: set DISPLAY, or install Xvfb (Debian: apt-get install xvfb)")
     reading, writing = os.pipe()
     server = subprocess.Popen(["Xvfb", "-displayfd", str(writing), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"],
                               pass_fds=[writing], stderr=subprocess.DEVNULL)

@@ -110,7 +110,8 @@ def _property_of(cls, algorithm, setter):
     if name + "On" in vars(cls):
         return Property(name, "switch", bool(default), description=description)
     low, high = (getattr(algorithm, f"Get{name}{end}Value", lambda: None)() for end in ("Min", "Max"))
-    return Property(name, "real" if isinstance(default, float) else "whole", default, low, high, description=description)
+    kind = "real" if isinstance(default, float) else "whole"
+    return Property(name, kind, default, low, high, description=description)
 
 
 @functools.lru_cache(maxsize=None)

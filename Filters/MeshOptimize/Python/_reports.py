@@ -145,9 +145,11 @@ class QualityReport(_Report):
     def __str__(self):
         lines = [f"worst quality {self.minimum:.4f}, mean {self.mean:.4f}, best {self.maximum:.4f}; "
                  f"with this surface the worst is at most {self.bound:.4f}",
-                 f"{self.cells} elements, {self.inverted} inverted or flat, {self.capped_cells} kept low by the surface"]
+                 f"{self.cells} elements, {self.inverted} inverted or flat, "
+                 f"{self.capped_cells} kept low by the surface"]
         if self.not_measurable or self.other_cells:
-            lines.append(f"not measured: {self.other_cells} other cells, {self.not_measurable} without finite coordinates")
+            lines.append(f"not measured: {self.other_cells} other cells, "
+                         f"{self.not_measurable} without finite coordinates")
         return "\n".join(lines)
 
 
