@@ -56,12 +56,13 @@ def test_several_files(folder):
     assert "same name" in run("optimize", copy, copy, folder / "results", "--force", status=2).stderr
     assert "folder" in run("optimize", copy, PELLET, folder / "results.vtu", status=2).stderr
     assert "one input" in run("optimize", copy, PELLET, folder / "r", "--picture", "p.png", status=2).stderr
-    run("optimize", PELLET, folder / "results", "--force", "--quiet", "--target-quality", ".1")  # into a folder that is there
+    run("optimize", PELLET, folder / "results", "--force", "--quiet", "--target-quality", ".1")  # the folder is there
 
 
 def test_wrong_use(folder):
     out = folder / "out.vtu"
-    for arguments, word in (((PELLET, out, "--effort", "much"), "quick"), ((PELLET, out, "--target-quality", "2"), "0 to 1"),
+    for arguments, word in (((PELLET, out, "--effort", "much"), "quick"),
+                            ((PELLET, out, "--target-quality", "2"), "0 to 1"),
                             ((PELLET, out, "--nothing", "2"), "--nothing"), ((PELLET,), "OUT"),
                             ((PELLET, folder / "out.xyz"), ".msh"), ((folder / "in.xyz", out), ".msh"),
                             ((PELLET, folder / "no" / "out.vtu"), "no")):
@@ -78,7 +79,8 @@ def test_wrong_use(folder):
 def test_quality(folder):
     assert "worst quality 0.0039" in run("quality", PELLET).stdout
     result = run("quality", PELLET, "--histogram", "--worst", "3", "--number-of-bins", "4")
-    assert result.stdout.count("  cell ") == 3 and result.stdout.count(" to ") == 4 and "0.75 to        1" in result.stdout
+    assert result.stdout.count("  cell ") == 3 and result.stdout.count(" to ") == 4
+    assert "0.75 to        1" in result.stdout
     result = run("quality", PELLET, folder / "none.vtu", "--json", "--worst", "2", status=1)
     (entry,) = json.loads(result.stdout)
     assert entry["file"] == str(PELLET) and 0 < entry["minimum"] < 0.004 and len(entry["worst_cells"]["Center"]) == 2
@@ -98,16 +100,16 @@ def test_ctrl_c(folder):
         time.sleep(0.01)
     running.send_signal(signal.SIGINT)
     out, errors = running.communicate(timeout=60)
-    assert running.returncode == 130 and "aborted" in out and "Traceback" not in errors, (running.returncode, out, errors)
+    assert running.returncode == 130 and "aborted" in out and "Traceback" not in errors, (out, errors)
     assert meshoptimize.read(folder / "out.vtu").GetNumberOfCells() > 50000
 
 
 def test_picture(folder):
-    """On a display of its own, if there is none and Xvfb is there; else a message, and the mesh is there all the same."""
+    """On a display of its own, if there is none and Xvfb is there; else a message, and the mesh is written."""
     picture, environment = folder / "picture.png", {"DISPLAY": ""}
     has_x = bool(shutil.which("Xvfb"))
-    result = run("optimize", PELLET, folder / "out.vtu", "--target-quality", ".3", "--picture", picture, status=0 if has_x else 1,
-                 environment=environment)
+    result = run("optimize", PELLET, folder / "out.vtu", "--target-quality", ".3", "--picture", picture,
+                 status=0 if has_x else 1, environment=environment)
     assert (folder / "out.vtu").exists()
     if not has_x:
         assert "Xvfb" in result.stderr
@@ -130,7 +132,8 @@ def look(path, width):
     reader.Update()
     assert reader.GetOutput().GetDimensions() == (width, 800, 1)
     red, green, blue = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int).T[:3]
-    return np.count_nonzero((red > 90) & (red > 2 * green) & (red > 2 * blue)), len(np.unique(red << 16 | green << 8 | blue))
+    is_red = (red > 90) & (red > 2 * green) & (red > 2 * blue)
+    return np.count_nonzero(is_red), len(np.unique(red << 16 | green << 8 | blue))
 
 
 if __name__ == "__main__":

@@ -68,8 +68,7 @@ def members_of(mesh, group):
         if block.type == kind:
             label = next((mesh.cell_data[key][k] for key in ("gmsh:physical", "medit:ref", "nastran:ref")
                           if key in mesh.cell_data), None)
-            ids = np.flatnonzero(label == group) if label is not None else mesh.cell_sets.get(
-                name, [[]] * len(mesh.cells))[k]
+            ids = mesh.cell_sets[name][k] if label is None else np.flatnonzero(label == group)
             found.append(mesh.points[block.data[np.asarray(ids, int)]])
     return np.concatenate(found)
 
@@ -88,8 +87,8 @@ def check_groups(before, after):
         assert as_set(members_of(before, group)) == as_set(members_of(after, group)) != set(), group
     for group in (LEFT, RIGHT):
         assert abs(volume(members_of(after, group)) - 0.5) < 1e-9, group
-    sides = [{frozenset(facet) for cell in as_set(members_of(after, group)) for facet in itertools.combinations(cell, 3)}
-             for group in (LEFT, RIGHT)]
+    sides = [{frozenset(facet) for cell in as_set(members_of(after, group))
+              for facet in itertools.combinations(cell, 3)} for group in (LEFT, RIGHT)]
     assert as_set(members_of(after, BORDER)) <= sides[0] & sides[1]  # a facet of both materials, still
 
 
@@ -135,6 +134,21 @@ def test_gmsh_41(folder):
     before, after = round_trip(path)
     assert len(before.cells) == 5 and "bottom" in before.cell_sets
     assert {name: tuple(entry) for name, entry in after.field_data.items()} == NAMES
+
+
+def test_gmsh_several_groups(folder):
+    """Cells of two groups keep the first; the other group is named."""
+    mesh = meshio.Mesh(POINTS, BLOCKS, cell_data=labelled("gmsh:physical"), cell_sets={
+        "solid": [np.arange(len(nodes) if kind == "tetra" else 0) for kind, nodes in BLOCKS],
+        "left": [np.arange(len(nodes) if group == LEFT else 0) for _, nodes, group in GROUPS]},
+        field_data={name: np.array(entry) for name, entry in (*NAMES.items(), ("solid", (9, 3)))})
+    result, _ = meshoptimize.optimize(mesh)
+    assert sum(map(len, result.cell_sets["solid"])) == sum(len(block) for block in result.cells if block.type == "tetra")
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        meshoptimize.write(result, folder / "out.msh")
+    assert len(seen) == 1 and "the set solid" in str(seen[0].message) and "left" not in str(seen[0].message)
+    check_groups(mesh, meshoptimize.read(folder / "out.msh"))
 
 
 def test_medit(folder):
@@ -268,7 +282,7 @@ def test_abaqus_files_that_cannot_be_read(folder):
 
 
 def test_sets_of_points(folder):
-    """Points that go are counted in a warning. New points inside join a set of inner points, and no set of the surface."""
+    """Points that go are counted in a warning. New points inside join no set of the surface."""
     sets = {"all": np.arange(len(POINTS)), "bottom": np.flatnonzero(POINTS[:, 2] == 0)}
     points = POINTS.copy()
     near = np.flatnonzero((np.round(points * N) == [4, 3, 3]).all(axis=1))
@@ -281,13 +295,15 @@ def test_sets_of_points(folder):
     assert gone > 0 and len(seen) == 1
     assert f"{gone} of the {len(POINTS)} points of the set 'all'" in str(seen[0].message)
     assert seen[0].filename == __file__ and len(result.point_sets["all"]) == len(result.points)
-    for options in ({"target_quality": 0.7}, {"boundary_mode": "slide", "surface_tolerance": 0, "target_quality": 0.75}):
+    for options in ({"target_quality": 0.7},
+                    {"boundary_mode": "slide", "surface_tolerance": 0, "target_quality": 0.75}):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             result, report = meshoptimize.optimize(mesh, **options)
         assert len(result.point_sets["all"]) == len(result.points), options
         assert set(result.point_sets["bottom"]) == set(np.flatnonzero(result.points[:, 2] == 0)), options
-        assert abs(sum(volume(result.points[block.data]) for block in result.cells if block.type == "tetra") - 1) < 1e-9
+        volumes = [volume(result.points[block.data]) for block in result.cells if block.type == "tetra"]
+        assert abs(sum(volumes) - 1) < 1e-9
 
 
 def test_regions(folder):

@@ -94,7 +94,7 @@ def optimize(mesh, *, progress_bar=False, progress=None, **options):
     Notes
     -----
     Ctrl-C ends the run, not the program: the mesh comes back as good as it is by then, and `report.aborted` is True.
-    This is so in the main thread.
+    This is so in the main thread, and not in pvpython, which has a handler of its own.
 
     Examples
     --------

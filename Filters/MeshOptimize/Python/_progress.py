@@ -28,7 +28,7 @@ def _rich_bar():
 def plain_bar(stream=None):
     """A line that is written over on a terminal; a line for each tenth elsewhere, such as in a log."""
     stream = stream or sys.stderr
-    terminal = stream.isatty()
+    terminal = getattr(stream, "isatty", lambda: False)()  # ParaView's streams do not say
     shown = [-1]
 
     def show(fraction, text):
