@@ -103,6 +103,7 @@ def round_trip(path, lost=()):
         after = meshoptimize.read(out)
     texts = [str(warning.message) for warning in seen]
     assert len(texts) == len(lost) and all(word in text for word, text in zip(lost, texts)), texts
+    assert all(warning.filename == __file__ for warning in seen)  # where the user's call is
     assert report.worst_before < 0.2 < 0.5 < report.worst_after, report
     assert abs(meshoptimize.quality(after).minimum - report.worst_after) < 1e-9
     check_groups(before, after)
@@ -148,6 +149,7 @@ def test_gmsh_several_groups(folder):
         warnings.simplefilter("always")
         meshoptimize.write(result, folder / "out.msh")
     assert len(seen) == 1 and "the set solid" in str(seen[0].message) and "left" not in str(seen[0].message)
+    assert seen[0].filename == __file__
     check_groups(mesh, meshoptimize.read(folder / "out.msh"))
 
 
@@ -168,6 +170,7 @@ def test_medit(folder):
         warnings.simplefilter("always")
         meshoptimize.read(path)
     assert "Corners" in str(seen[0].message) and "Ridges" in str(seen[0].message)
+    assert len(seen) == 2 and all(warning.filename == __file__ for warning in seen)  # meshio says it of Ridges, too
 
 
 def test_nastran(folder):

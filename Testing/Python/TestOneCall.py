@@ -150,6 +150,10 @@ def test_errors_and_warnings():
         meshoptimize.optimize(SQUARE, desired_size=0.1)
     assert len(seen) == 1 and "Beta is 0" in str(seen[0].message) and "0x" not in str(seen[0].message)
     assert seen[0].filename == __file__
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        _, report = meshoptimize.optimize(vtkUnstructuredGrid())
+    assert report.stop == "nothing_to_do" and len(seen) <= 1, seen
 
 
 def test_progress():

@@ -40,7 +40,7 @@ def _histogram(mesh, options):
               and key not in ("region_array", "target_quality")}
     measure = make(vtkMeshQualityMinMax, {**shared, "compute_bound": False})
     measure.SetInputDataObject(grid)
-    if run(measure):
+    if run(measure, warn=False):  # the run itself has warned
         raise KeyboardInterrupt
     return columns(measure.GetOutputDataObject(2))
 
@@ -120,11 +120,11 @@ def optimize(mesh, *, progress_bar=False, progress=None, **options):
     TypeError: there is no option 'target'; did you mean 'target_quality'?
     """
     adapted, algorithm = _prepare(vtkMeshOptimizeFilter, mesh, options)
-    histogram_before = _histogram(adapted.grid, options)
     with _progress.bar() if progress_bar else contextlib.nullcontext() as bar:
         interrupted = run(algorithm, _both(progress, bar))
     output = algorithm.GetOutput()
-    report = report_of_run(algorithm, interrupted, adapted.grid, output, histogram_before, _histogram(output, options))
+    report = report_of_run(algorithm, interrupted, adapted.grid, output,
+                           _histogram(adapted.grid, options), _histogram(output, options))
     return adapted.back(output), report
 
 

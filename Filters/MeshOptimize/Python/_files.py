@@ -68,7 +68,7 @@ def _warn_of_lost(path, format_name):
     text = pathlib.Path(path).read_text(encoding="utf-8", errors="replace")
     lost = {word for word in pattern.findall(text) if word not in known and word.upper() not in known}
     if lost:
-        warnings.warn(f"{path}: lost or changed: {', '.join(sorted(lost))}", stacklevel=5)
+        warnings.warn(f"{path}: lost or changed: {', '.join(sorted(lost))}", stacklevel=4)
 
 
 def _read_vtk(path, reader):
@@ -102,7 +102,7 @@ def _without_element_data(path):
     if without == content:
         yield path
         return
-    warnings.warn(f"{path}: lost: $ElementData, which meshio cannot read", stacklevel=6)
+    warnings.warn(f"{path}: lost: $ElementData, which meshio cannot read", stacklevel=5)
     with tempfile.TemporaryDirectory() as folder:
         copy = pathlib.Path(folder) / pathlib.Path(path).name
         copy.write_bytes(without)
@@ -123,7 +123,7 @@ def _read_meshio(path, suffix):
             raise MeshOptimizeError(f"{path}: only some cells have a number in {name}")
     if mesh.point_data.pop("nastran:ref", None) is not None:
         warnings.warn(f"{path}: lost: the coordinate systems of GRID; all coordinates are taken for basic ones",
-                      stacklevel=4)
+                      stacklevel=3)
     return mesh
 
 
@@ -225,6 +225,6 @@ def _write_meshio(mesh, part, format_name, path):
         mesh = _groups.mesh_of(adapter(mesh).grid)
     mesh, options, lost = _groups.PREPARE[format_name](mesh)
     if lost:
-        warnings.warn(f"{path}: lost, as the format has no place for it: {', '.join(lost)}", stacklevel=4)
+        warnings.warn(f"{path}: lost, as the format has no place for it: {', '.join(lost)}", stacklevel=3)
     with _meshio_speaking(path):
         meshio.write(part, mesh, **options)

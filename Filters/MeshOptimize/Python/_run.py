@@ -53,7 +53,7 @@ def _on_ctrl_c(handler):
         signal.signal(signal.SIGINT, before)
 
 
-def run(algorithm, progress=None, stacklevel=3):
+def run(algorithm, progress=None, warn=True):
     """Updates the filter. True if Ctrl-C stopped it.
 
     `progress(fraction, text)` is called about ten times a second at most; what it raises stops the filter and is
@@ -78,8 +78,8 @@ def run(algorithm, progress=None, stacklevel=3):
     algorithm.AddObserver("ProgressEvent", on_progress)
     with _on_ctrl_c(on_ctrl_c):
         algorithm.Update()
-    for text in texts:
-        warnings.warn(text, stacklevel=stacklevel)
+    for text in texts if warn else ():
+        warnings.warn(text, stacklevel=3)  # the caller of optimize() or quality()
     if raised:
         raise raised[0]
     if errors:
