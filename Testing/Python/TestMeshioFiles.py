@@ -294,6 +294,11 @@ def test_sets_of_points(folder):
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter("always")
         result, report = meshoptimize.optimize(mesh, insert_nodes=False, move_nodes=False)
+    mesh.point_sets["third"] = np.arange(0, len(POINTS), 3)
+    moved, _ = meshoptimize.optimize(mesh, insert_nodes=False, remove_nodes=False)
+    assert (moved.points != points).any() and all(
+        set(moved.point_sets[name]) == set(members) for name, members in mesh.point_sets.items())
+    del mesh.point_sets["third"]
     gone = report.points_before - report.points_after
     assert gone > 0 and len(seen) == 1
     assert f"{gone} of the {len(POINTS)} points of the set 'all'" in str(seen[0].message)

@@ -19,7 +19,7 @@ import meshoptimize
 import numpy as np
 from meshoptimize import _api, _files, _progress
 from meshoptimize._properties import properties
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 
 PELLET = os.path.join(os.environ["MESHOPTIMIZE_DATA"], "crack40.vtu")
@@ -54,6 +54,9 @@ def test_grid():
 
     before = Grid()
     before.ShallowCopy(meshoptimize.read(PELLET))
+    note = numpy_to_vtk(np.array([7.0]), deep=1)
+    note.SetName("note")
+    before.GetFieldData().AddArray(note)
     content, time = arrays_of(before), before.GetMTime()
     after, report = meshoptimize.optimize(before, target_quality=0.3, effort="quick")
     assert type(after) is Grid and after.GetCellData().HasArray("MeshQuality")
@@ -61,6 +64,10 @@ def test_grid():
     assert not before.GetCellData().HasArray("MeshQuality")
     vtk_to_numpy(after.GetPoints().GetData())[:] = 0  # the result is the caller's own
     assert arrays_of(before) == content and before.GetMTime() == time
+    unchanged, _ = meshoptimize.optimize(before, target_quality=0.001)
+    for array in (unchanged.GetPoints().GetData(), unchanged.GetFieldData().GetArray("note")):
+        vtk_to_numpy(array)[:] = 0
+    assert arrays_of(before) == content and before.GetFieldData().GetArray("note").GetValue(0) == 7
     assert report.cells_before == before.GetNumberOfCells() and report.cells_after == after.GetNumberOfCells()
     assert report.history["Worst"][-1] == report.worst_after and report.history["Stage"][0] == "input"
     assert report.histogram_before["Count"].sum() == report.cells_before
@@ -177,10 +184,14 @@ def not_installed():
 
 
 def test_progress_that_raises():
+    seen = []
+
     def progress(fraction, text):
+        seen.append(fraction)
         raise ZeroDivisionError("mine")
 
     raised(ZeroDivisionError, lambda: meshoptimize.optimize(meshoptimize.read(PELLET), progress=progress), "mine")
+    assert len(seen) == 1  # and not again
 
 
 def test_ctrl_c():
