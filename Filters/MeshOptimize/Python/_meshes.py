@@ -26,7 +26,7 @@ class GridMesh:
 
     def back(self, output):
         result = self._kind()
-        result.DeepCopy(output)  # arrays that the filter passes on are those of the input
+        result.ShallowCopy(output)  # the filter's output shares no array with its input
         return result
 
 
