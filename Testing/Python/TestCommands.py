@@ -68,7 +68,8 @@ def test_wrong_use(folder):
                             ((PELLET, folder / "no" / "out.vtu"), "no")):
         result = run("optimize", *arguments, status=2)
         assert word in result.stderr and not result.stdout and len(result.stderr) < 400, result.stderr
-    assert "not there" in run("optimize", folder / "none.vtu", out, status=1).stderr
+    missing = run("optimize", folder / "none.vtu", out, status=1).stderr
+    assert "not there" in missing and missing.count("none.vtu") == 1
     assert "'nothing'" in run("optimize", PELLET, out, "--region", "nothing", status=1).stderr
     assert not list(folder.iterdir())
     for name in ("optimize", "quality"):

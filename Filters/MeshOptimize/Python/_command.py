@@ -89,7 +89,8 @@ def _for_each(program, sources, action):
                 if action(index, source):
                     return 130
             except (MeshOptimizeError, OSError, ValueError) as error:
-                print(f"{program}: {source}: {error}", file=sys.stderr)
+                where = "" if str(source) in str(error) else f"{source}: "
+                print(f"{program}: {where}{error}", file=sys.stderr)
                 failed = True
             except KeyboardInterrupt:
                 print(f"{program}: interrupted", file=sys.stderr)

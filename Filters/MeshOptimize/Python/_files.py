@@ -58,7 +58,9 @@ def _meshio_speaking(path):
             yield
     except (Exception, SystemExit) as error:
         text = " ".join(said.getvalue().split()) or str(error) or type(error).__name__
-        raise MeshOptimizeError(f"{path}: meshio cannot use it: {text}") from error
+        hint = ("; of Gmsh 4 it reads only files with all elements in groups, or none: save without Mesh.SaveAll, or "
+                "as version 2.2" if "gmsh:physical" in text else "")
+        raise MeshOptimizeError(f"{path}: meshio cannot use it: {text}{hint}") from error
     for text in filter(None, said.getvalue().split("Warning:")):
         warnings.warn(f"{path}: meshio says:{' '.join(['', *text.split()])}", stacklevel=5)
 
