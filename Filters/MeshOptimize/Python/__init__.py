@@ -14,6 +14,7 @@ vtkTetGenFilter is among the classes where the module was built with TetGen.
 from importlib.util import find_spec
 
 import vtkmodules.vtkCommonExecutionModel  # noqa: F401  (base classes must be there first)
+import vtkmodules.vtkParallelCore  # noqa: F401  (so must the class of the property Controller)
 from vtkmodules.vtkCommonCore import vtkVersion
 
 from ._built_with import VTK_VERSION
