@@ -20,7 +20,7 @@ packages=(
   paraview-dev python3-paraview python3-dev libtet1.5-dev
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev liblzma-dev liblz4-dev
   xvfb libgl1-mesa-dri)
-test_packages=(libgtest-dev)
+test_packages=(libgtest-dev python3-meshio python3-tqdm)
 
 usage() { sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
@@ -113,6 +113,7 @@ print_env() {
 export MESHOPTIMIZE_PLUGIN='$plugin'
 export PV_PLUGIN_PATH='$(dirname "$plugin")'
 export PYTHONPATH='$python_dir'"\${PYTHONPATH:+:\$PYTHONPATH}"
+export PATH='$build_dir/bin'":\$PATH"
 END
 }
 
