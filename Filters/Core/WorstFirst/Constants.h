@@ -92,7 +92,7 @@ inline constexpr double HardlyFewer = 0.99;
 /// times.
 inline constexpr long Hurry = 5;
 /// By level: the most tries of one chunk between two looks at progress (some tenths of a second).
-inline constexpr long Tries[] = { 20000, 10000, 4000, 400, 100 };
+inline constexpr long Tries[] = { 20000, 10000, 2000, 200, 20 };
 }
 }
 
