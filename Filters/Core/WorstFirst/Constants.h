@@ -41,6 +41,10 @@ inline constexpr std::size_t MostBelowBound = 40;
 /// repair follow each other if it does, by effort.
 inline constexpr double WideGain = 0.05;
 inline constexpr int PolishCycles[] = { 1, 4, 4 };
+/// Up to the target, so many look-aheads are spent on polishing in a run: 1 for so many cells, but
+/// at least FewestLooks. Each takes as long as a pass over thousands of cells.
+inline constexpr Index CellsPerLook = 150;
+inline constexpr Index FewestLooks = 40;
 inline constexpr int PolishRounds = 50;
 inline constexpr double RoundGain =
   10.0; // what a round must gain to be repeated, in least gains of a change

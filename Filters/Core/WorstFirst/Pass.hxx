@@ -79,6 +79,9 @@ void Schedule<D, Shape>::instruct(const Task& task)
   const long few = this->fewCells();
   const long limit = onTheWay && task.level == Level::LookAhead ? few / n
                                                                 : std::numeric_limits<long>::max();
+  const bool polishes = !this->guard_ && !this->isPast(this->polishTarget_);
+  const long looks = polishes ? std::max<long>(1, (this->mostLooks() - this->looks_) / n)
+                              : std::numeric_limits<long>::max();
   // Where many cells are stuck, it does not pay to lift one of them by making others bad: all
   // changes are then guarded at the target. Otherwise the guard only keeps cells from falling below
   // the first stage.
@@ -104,6 +107,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
     w.round = 0;
     w.changed.clear();
     w.limit = limit;
+    w.looks = looks;
     w.isPatient = true;
   }
 }
@@ -125,6 +129,7 @@ void Schedule<D, Shape>::gather()
     {
       this->surface_[i] += std::exchange(judge.surfaceChanges[i], 0);
     }
+    this->looks_ += this->guard_ ? 0 : judge.tried[static_cast<int>(Operation::LookAhead)];
     for (int op = 0; op < NumberOfOperations; ++op)
     {
       this->tried_[op] += std::exchange(judge.tried[op], 0);
@@ -141,8 +146,9 @@ template <int D, class Shape>
 int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) const
 {
   const bool inserts = level == Level::Insertion;
-  const auto op = static_cast<int>(inserts ? Operation::NodeInsertion : Operation::LookAhead);
   const Judge<D, Shape>& judge = w.improver.judge();
+  const long looks = judge.tried[static_cast<int>(Operation::LookAhead)];
+  const auto op = static_cast<int>(inserts ? Operation::NodeInsertion : Operation::LookAhead);
   const long tries = judge.tried[op] * (this->model_.plain ? 1 : Hurry);
   // Where the surface takes part, other operations of the same level help more often than these.
   const bool slides = this->slides();
@@ -152,7 +158,8 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
   const long patient = inserts ? std::max(PatientTries, w.given / (isFirst ? 1 : PatientPart))
     : patiently                ? PatientTries
                                : PatientLooks;
-  w.isPatient = w.isPatient && w.tries < w.limit && (tries < patient || helped * Patience >= tries);
+  w.isPatient = w.isPatient && w.tries < w.limit && looks < w.looks &&
+    (tries < patient || helped * Patience >= tries);
   return w.isPatient ? level : std::min<int>(level, Level::Removal);
 }
 

@@ -39,6 +39,7 @@ private:
     Improver<D, Shape> improver;
     long kept = 0, tries = 0; // in this pass
     long limit = 0;           // of the tries above the lowest level
+    long looks = 0;           // the most look-aheads
     bool isPatient = true;    // insertion and look-ahead are still tried
     long lifted = 0;          // cells, since watch() looked last
     bool creeps = false;
@@ -82,6 +83,10 @@ private:
   void watch(Worker& worker, const Task& task);
   bool hasNext(Worker& worker) const;
   long fewCells() const;
+  long mostLooks() const
+  {
+    return std::max(FewestLooks, this->mesh().numberOfCellSlots() / CellsPerLook);
+  }
   bool hardlyAny(const std::vector<Index>& bad) const
   {
     return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
@@ -128,6 +133,7 @@ private:
   bool isShort_ = false;              ///< a change was left out for lack of growth budget
   long kept_ = 0;                     ///< accepted changes of the pass
   bool creeps_ = false;               ///< the pass: see watch()
+  long looks_ = 0;                    ///< look-aheads of polish() up to now
   bool mayWiden_ = true;              ///< polish() takes more cells on the way to the bound
   std::array<long, NumberOfOperations> tried_{}, done_{};
   std::array<long, 2> surface_{}; ///< the same for changes of the surface
@@ -332,7 +338,9 @@ bool Schedule<D, Shape>::stage(double target)
     {
       break;
     }
-    if (target > Stages[0] && this->isQuickEnough(below))
+    const bool isSpent = !this->guard_ && !this->isPast(this->polishTarget_) &&
+      this->looks_ >= this->mostLooks();
+    if (isSpent || (target > Stages[0] && this->isQuickEnough(below)))
     {
       break;
     }
