@@ -66,7 +66,8 @@ public:
   /// qualities are tiny. And no more than a tenth of it is needed where that reaches the target.
   double gain(double q) const
   {
-    const double least = std::min(this->gain_, std::max(0.1 * this->gain_, this->target_ - q));
+    const double near = std::max(0.1 * this->gain_, this->target_ - q);
+    const double least = this->model_->plain ? std::min(this->gain_, near) : this->gain_;
     return std::min(least, std::max(1e-4 * this->gain_, 2 * this->gain_ * std::fabs(q)));
   }
   /// The quality that a change must exceed if the worst is q.

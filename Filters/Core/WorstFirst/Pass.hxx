@@ -100,7 +100,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
     judge.setTangled(this->tangled_, this->inverted_, this->pinched_);
     judge.setGain(this->gain_);
     judge.setTarget(task.target);
-    judge.setThorough(this->guard_ && task.below <= few);
+    judge.setThorough(!this->model_.plain || (this->guard_ && task.below <= few));
     judge.setGuard(guard, this->model_.weights || many);
     w.kept = w.tries = w.lifted = 0;
     w.creeps = false;
@@ -150,11 +150,11 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
   const long looks = judge.tried[static_cast<int>(Operation::LookAhead)];
   const auto op = static_cast<int>(inserts ? Operation::NodeInsertion : Operation::LookAhead);
   const long tries = judge.tried[op] * (this->model_.plain ? 1 : Hurry);
-  // Where the surface takes part, other operations of the same level help more often than these.
-  const bool slides = this->slides();
-  const long helped = slides ? w.kept : judge.done[op];
+  // Where the surface takes part, or in a metric, others of the same level help more often.
+  const bool others = this->slides() || !this->model_.plain;
+  const long helped = others ? w.kept : judge.done[op];
   const bool isFirst = !(task.target > Stages[0]) && !w.creeps;
-  const bool patiently = slides || task.below <= this->fewCells();
+  const bool patiently = others || task.below <= this->fewCells();
   const long patient = inserts ? std::max(PatientTries, w.given / (isFirst ? 1 : PatientPart))
     : patiently                ? PatientTries
                                : PatientLooks;
@@ -175,7 +175,7 @@ void Schedule<D, Shape>::watch(Worker& w, const Task& task)
     return;
   }
   const long window = std::max(CreepingTries, w.given / CreepingPart);
-  if (w.tries % window == 0 && task.below > this->fewCells())
+  if (w.tries % window == 0 && task.below > this->fewCells() && this->model_.plain)
   {
     w.creeps = w.creeps || w.lifted * CreepingLift < window;
     w.lifted = 0;

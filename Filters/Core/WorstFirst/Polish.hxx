@@ -39,7 +39,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     }
     const double before = this->worst();
     const bool isHopeful = !past && this->mayWiden_ && !(target < this->options_.targetQuality) &&
-      this->looks_ < this->mostLooks() && before < NearBound * this->caps_.bound();
+      this->looks_ < this->mostLooks() && this->isFarBelowBound();
     this->gain_ = worst[0].first > worstOfAll ? CoarseGain : leastGain;
     // Whether the worst cell is near its cap, by the usual fraction also when polishing finely:
     // such a cell is not worth the work around it.

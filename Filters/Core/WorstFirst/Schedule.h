@@ -83,15 +83,23 @@ private:
   void watch(Worker& worker, const Task& task);
   bool hasNext(Worker& worker) const;
   long fewCells() const;
+  /// Of polish(), up to the target; where a bound tells how far there is to go.
   long mostLooks() const
   {
-    return std::max(FewestLooks, this->mesh().numberOfCellSlots() / CellsPerLook);
+    return this->caps_.bound() < 1.0
+      ? std::max(FewestLooks, this->mesh().numberOfCellSlots() / CellsPerLook)
+      : std::numeric_limits<long>::max();
   }
   bool hardlyAny(const std::vector<Index>& bad) const
   {
     return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
   }
   bool worthTrying(Index c, int level) const;
+  /// False where no bound is known.
+  bool isFarBelowBound() const
+  {
+    return this->caps_.bound() < 1.0 && this->worst() < NearBound * this->caps_.bound();
+  }
   /// Whether a quick run leaves the many bad cells as they are: a pass over them creeps, and the
   /// surface, that holds most of such cells, is kept. Only the worst get more effort.
   bool isQuickEnough(long bad) const
@@ -281,7 +289,7 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
     }
     const double now = this->worst();
     again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
-      now > before * (1.0 + WideGain) && now < NearBound * this->caps_.bound();
+      now > before * (1.0 + WideGain) && this->isFarBelowBound();
     this->reserve_ = isLast && !again ? 0 : this->reserve_;
     const long bad = this->run_.report.history.back().belowTarget;
     more = this->weighedStage(again || this->isQuickEnough(bad) ? Stages[0] : target);
