@@ -102,6 +102,22 @@ def test_stuck_cells_spoil_no_others():
         assert after < 0.6 * before, f"seed {seed}: {before} cells under the target before, {after} after"
 
 
+def test_no_stage_is_past_a_low_target():
+    """Also where the worst cells are polished and repaired again and again."""
+    points, cloud, delaunay = vtkPoints(), vtkPolyData(), vtkDelaunay3D()
+    points.SetData(numpy_to_vtk(np.random.default_rng(5).normal(size=(200, 3)), deep=1))
+    cloud.SetPoints(points)
+    delaunay.SetInputData(cloud)
+    f = vtkMeshOptimizeFilter()
+    f.SetInputConnection(delaunay.GetOutputPort())
+    f.SetTargetQuality(0.1)
+    f.Update()
+    names = f.GetOutputDataObject(1).GetColumnByName("Stage")
+    stages = [names.GetValue(row) for row in range(names.GetNumberOfValues())]
+    assert f.GetWorstQualityAfter() >= 0.1
+    assert not [stage for stage in stages if "towards 0.30" in stage], stages
+
+
 def test_reproducible():
     """The same bytes twice, from another filter object."""
     grid = read(PELLET)

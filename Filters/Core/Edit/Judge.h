@@ -63,7 +63,8 @@ public:
 
   // --- requirements
   /// The least gain over a worst quality q that makes a change worthwhile. It is smaller if all
-  /// qualities are tiny. And no more than a tenth of it is needed where that reaches the target.
+  /// qualities are tiny; and, down to a tenth of it, where less reaches the target. Not in a
+  /// metric: there each change costs more, and the many small ones ended lower.
   double gain(double q) const
   {
     const double near = std::max(0.1 * this->gain_, this->target_ - q);

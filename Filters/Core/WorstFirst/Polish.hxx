@@ -8,6 +8,33 @@ namespace meshopt
 {
 namespace worstfirst
 {
+/// Polishes the worst cells. That makes other cells worse, up to the target: repairs these. As long
+/// as the worst one is far below the certified bound and gains, both are repeated. `isLast`: there
+/// is no further stage.
+template <int D, class Shape>
+bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
+{
+  const int most = PolishCycles[static_cast<int>(this->options_.effort)];
+  bool more = true, again = true;
+  for (int cycle = 0; more && again; ++cycle)
+  {
+    const double before = this->worst();
+    more = this->polish(target, false);
+    if (!more || this->isPast(target))
+    {
+      return more;
+    }
+    const double now = this->worst();
+    again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
+      now > before * (1.0 + WideGain) && this->isFarBelowBound();
+    this->reserve_ = isLast && !again ? 0 : this->reserve_;
+    const long bad = this->run_.report.history.back().belowTarget;
+    const bool onlyWorst = again || this->isQuickEnough(bad);
+    more = this->weighedStage(onlyWorst ? std::min(Stages[0], target) : target);
+  }
+  return more;
+}
+
 /// Tries the few worst cells again, now even if other cells become bad. Repeats this as long as the
 /// worst cell gets better. When it does not, more of the worst cells are taken, and then the cells
 /// around them are lifted first, in ever wider neighbourhoods. `finely`: for smaller gains, and
@@ -38,7 +65,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
       break;
     }
     const double before = this->worst();
-    const bool isHopeful = !past && this->mayWiden_ && !(target < this->options_.targetQuality) &&
+    const bool isHopeful = !past && !(target < this->options_.targetQuality) &&
       this->looks_ < this->mostLooks() && this->isFarBelowBound();
     this->gain_ = worst[0].first > worstOfAll ? CoarseGain : leastGain;
     // Whether the worst cell is near its cap, by the usual fraction also when polishing finely:
@@ -71,7 +98,6 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     }
     else
     {
-      this->mayWiden_ = this->mayWiden_ && wanted < most; // once in vain is enough
       break;
     }
   }

@@ -142,7 +142,6 @@ private:
   long kept_ = 0;                     ///< accepted changes of the pass
   bool creeps_ = false;               ///< the pass: see watch()
   long looks_ = 0;                    ///< look-aheads of polish() up to now
-  bool mayWiden_ = true;              ///< polish() takes more cells on the way to the bound
   std::array<long, NumberOfOperations> tried_{}, done_{};
   std::array<long, 2> surface_{}; ///< the same for changes of the surface
   double stageDone_ = 0.0;
@@ -270,125 +269,6 @@ void Schedule<D, Shape>::optimize()
   this->run_.report.stopReason = this->reason();
 }
 
-/// Polishes the worst cells. That makes other cells worse, up to the target: repairs these. As long
-/// as the worst one is far below the certified bound and gains, both are repeated. `isLast`: there
-/// is no further stage.
-template <int D, class Shape>
-bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
-{
-  const int most = PolishCycles[static_cast<int>(this->options_.effort)];
-  bool more = true, again = true;
-  for (int cycle = 0; more && again; ++cycle)
-  {
-    const double before = this->worst();
-    this->mayWiden_ = true;
-    more = this->polish(target, false);
-    if (!more || this->isPast(target))
-    {
-      return more;
-    }
-    const double now = this->worst();
-    again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
-      now > before * (1.0 + WideGain) && this->isFarBelowBound();
-    this->reserve_ = isLast && !again ? 0 : this->reserve_;
-    const long bad = this->run_.report.history.back().belowTarget;
-    more = this->weighedStage(again || this->isQuickEnough(bad) ? Stages[0] : target);
-  }
-  return more;
-}
-
-/// A stage with weighted qualities (Weights.h). Without tiny caps it is a plain stage.
-template <int D, class Shape>
-bool Schedule<D, Shape>::weighedStage(double target)
-{
-  this->weights_.switchOn();
-  const bool more = this->stage(target);
-  this->weights_.switchOff();
-  return more;
-}
-
-/// Passes of rising effort over the cells under the target, until none is left or they gain hardly
-/// anything. False if the run has to end.
-template <int D, class Shape>
-bool Schedule<D, Shape>::stage(double target)
-{
-  std::vector<Index> bad;
-  // Without guard (polishing) the first pass is at the highest level: it includes all cheaper
-  // operations, and those have just failed on these cells.
-  const int last = this->guard_ ? this->passesThatRise() : 0;
-  long below = 0;
-  bool raised = false;
-  for (int pass = 0; pass < MaximumPasses; ++pass)
-  {
-    const int level = this->levelOf(pass);
-    const long belowBefore = std::exchange(below, this->collect(target, level, bad));
-    // Most cells of a large mesh can be stuck. A pass that does not lift the worst and creeps, or
-    // does not make them clearly fewer, then ends the stage.
-    const bool idle = this->guard_ && pass > last && !raised && below > this->fewCells() &&
-      (this->creeps_ || below > HardlyFewer * belowBefore);
-    if ((bad.empty() && pass >= last) || idle)
-    {
-      break;
-    }
-    const double before = this->worst();
-    if (bad.empty())
-    {
-      continue; // all have failed at this level: a higher one may help
-    }
-    this->pass({ target, level, below }, bad);
-    this->record(target, pass);
-    if (!this->goesOn(target))
-    {
-      return false;
-    }
-    raised = this->worst() > before + this->gain_;
-    if (pass >= last && !raised && (this->hardlyAny(bad) || this->gain_ < Gain))
-    {
-      break;
-    }
-    const bool isSpent = !this->guard_ && !this->isPast(this->polishTarget_) &&
-      this->looks_ >= this->mostLooks();
-    if (isSpent || (target > Stages[0] && this->isQuickEnough(below)))
-    {
-      break;
-    }
-  }
-  return true;
-}
-
-/// A failed cell is tried again only with more effort, or after something has changed around it.
-template <int D, class Shape>
-bool Schedule<D, Shape>::worthTrying(Index c, int level) const
-{
-  const auto& data = this->mesh().cellData(c);
-  const auto& nodes = this->mesh().nodes(c);
-  return data.stamp == 0 || data.level < this->rank(level) ||
-    std::any_of(nodes.begin(), nodes.end(),
-      [&](Index p) { return this->mesh().pointData(p).stamp > data.stamp; });
-}
-
-/// Collects the cells under the target that are worth a try. Returns how many are under the target
-/// and not capped, tried or not.
-template <int D, class Shape>
-long Schedule<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
-{
-  bad.clear();
-  long below = 0;
-  for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
-  {
-    if (this->mesh().quality(c) < target && this->mesh().isAlive(c) &&
-      !this->caps_.isCapped(this->mesh(), c))
-    {
-      ++below;
-      if (this->worthTrying(c, level))
-      {
-        bad.push_back(c);
-      }
-    }
-  }
-  return below;
-}
-
 template <int D, class Shape>
 bool Schedule<D, Shape>::goesOn(double target)
 {
@@ -508,6 +388,7 @@ StopReason Schedule<D, Shape>::reason()
 
 #include "WorstFirst/Pass.hxx"
 #include "WorstFirst/Polish.hxx"
+#include "WorstFirst/Stage.hxx"
 
 namespace meshopt
 {
