@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The surface of tetrahedra that slides: what vtkMeshOptimizeFilter takes and gives.
-#include "MeshOptimizeFilterTesting.h"
+#include "SlidingTesting.h"
 
 #include "vtkIntArray.h"
 #include "vtkMath.h"
@@ -12,122 +12,6 @@ using namespace Testing;
 
 namespace
 {
-
-class Sliding : public OptimizeFilter
-{
-public:
-  explicit Sliding(double tolerance)
-    : OptimizeFilter(vtkMeshOptimizeFilter::WorstFirst)
-  {
-    (*this)->SetBoundaryModeToSlide();
-    (*this)->SetSurfaceTolerance(tolerance);
-  }
-};
-
-/**
- * A box whose points are displaced inside, in its faces and along its edges.
- */
-Grid MakeBadBox(int n, double jitter)
-{
-  Grid grid = MakeBox(n, jitter);
-  Random random;
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    Point x = GetPoint(grid, p);
-    const bool isInside = std::all_of(
-      x.begin(), x.end(), [](double v) { return v > 0.0 && v < 1.0; });
-    for (double& v : x)
-    {
-      const double move = jitter / n * random();
-      v += !isInside && v > 0.0 && v < 1.0 ? move : 0.0;
-    }
-    grid->GetPoints()->SetPoint(p, x.data());
-  }
-  return grid;
-}
-
-/**
- * Adds the triangles of the faces z = 0 (id 1 where x < 1/2, else 2) and z = 1 (id 3). Tetrahedra
- * have the id 0. The number of each cell is in another array.
- */
-void AddTriangles(vtkUnstructuredGrid* grid)
-{
-  vtkNew<vtkIntArray> ids, numbers;
-  ids->SetName("Physical");
-  numbers->SetName("Number");
-  const vtkIdType n = grid->GetNumberOfCells();
-  for (vtkIdType c = 0; c < n; ++c)
-  {
-    ids->InsertNextValue(0);
-  }
-  for (vtkIdType c = 0; c < n; ++c)
-  {
-    const std::vector<vtkIdType> t = CellPoints(grid, c);
-    for (int i = 0; i < 4; ++i)
-    {
-      const std::vector<vtkIdType> face{ t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4] };
-      for (double z : { 0.0, 1.0 })
-      {
-        double x = 0.0;
-        bool isIn = true;
-        for (vtkIdType p : face)
-        {
-          isIn = isIn && GetPoint(grid, p)[2] == z;
-          x += GetPoint(grid, p)[0] / 3.0;
-        }
-        if (isIn)
-        {
-          AddCell(grid, VTK_TRIANGLE, face);
-          ids->InsertNextValue(z == 1.0 ? 3 : x < 0.5 ? 1 : 2);
-        }
-      }
-    }
-  }
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    numbers->InsertNextValue(static_cast<int>(c));
-  }
-  grid->GetCellData()->AddArray(ids);
-  grid->GetCellData()->AddArray(numbers);
-}
-
-double AreaOf(vtkUnstructuredGrid* grid, vtkIdType cell)
-{
-  const std::vector<vtkIdType> t = CellPoints(grid, cell);
-  return vtkTriangle::TriangleArea(
-    GetPoint(grid, t[0]).data(), GetPoint(grid, t[1]).data(), GetPoint(grid, t[2]).data());
-}
-
-/**
- * The area of the triangles of each id. Each must be a face of a tetrahedron.
- */
-std::map<int, double> AreasOf(vtkUnstructuredGrid* grid)
-{
-  std::set<std::vector<vtkIdType>> faces;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const std::vector<vtkIdType> t = CellPoints(grid, c);
-    for (int i = 0; i < 4 && grid->GetCellType(c) == VTK_TETRA; ++i)
-    {
-      std::vector<vtkIdType> face{ t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4] };
-      std::sort(face.begin(), face.end());
-      faces.insert(face);
-    }
-  }
-  std::map<int, double> areas;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    if (grid->GetCellType(c) == VTK_TRIANGLE)
-    {
-      std::vector<vtkIdType> face = CellPoints(grid, c);
-      std::sort(face.begin(), face.end());
-      EXPECT_EQ(faces.count(face), 1u);
-      areas[static_cast<int>(grid->GetCellData()->GetArray("Physical")->GetComponent(c, 0))] +=
-        AreaOf(grid, c);
-    }
-  }
-  return areas;
-}
 
 TEST(MeshOptimizeFilterSurface, ABadSurfaceGetsBetterAndStaysTheSameSet)
 {
@@ -309,71 +193,6 @@ TEST(MeshOptimizeFilterSurface, AGreatToleranceIsLimited)
   EXPECT_LE(filter->GetSurfaceDistance(), 0.1 * std::sqrt(3.0));
   EXPECT_GE(filter->GetWorstQualityAfter(), filter->GetWorstQualityBefore());
   EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
-}
-
-TEST(MeshOptimizeFilterSurface, TrianglesRideOnIt)
-{
-  Grid grid = MakeBadBox(6, 0.0);
-  AddTriangles(grid);
-  // The border between the ids 1 and 2 is the line x = 1/2 of the floor. Displace all else.
-  Random random;
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    Point x = GetPoint(grid, p);
-    const bool isBorder = x[0] == 0.5 && x[2] == 0.0;
-    for (double& v : x)
-    {
-      const double move = 0.05 * random();
-      v += v > 0.0 && v < 1.0 && !isBorder ? move : 0.0;
-    }
-    grid->GetPoints()->SetPoint(p, x.data());
-  }
-  const std::map<int, double> before = AreasOf(grid);
-  Sliding filter(0.0);
-  filter->SetPatchArray("Physical");
-  filter->SetInputData(grid);
-  filter->Update();
-  vtkUnstructuredGrid* output = filter->GetOutput();
-  EXPECT_GE(filter->GetWorstQualityAfter(), 0.6);
-  EXPECT_FALSE(SameFacets(KeptFacets(grid), KeptFacets(output))); // the surface took part
-  const std::map<int, double> after = AreasOf(output);
-  ASSERT_EQ(after.size(), 3u);
-  for (const auto& [id, area] : before)
-  {
-    EXPECT_NEAR(after.at(id), area, 1e-13) << id;
-  }
-  // Each triangle of the output has the data of one triangle of the input, and looks the same way.
-  vtkDataArray* numbers = output->GetCellData()->GetArray("Number");
-  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
-  {
-    const auto source = static_cast<vtkIdType>(numbers->GetComponent(c, 0));
-    EXPECT_EQ(output->GetCellType(c), grid->GetCellType(source));
-    if (output->GetCellType(c) == VTK_TRIANGLE)
-    {
-      double n[3], m[3];
-      const std::vector<vtkIdType> t = CellPoints(output, c), s = CellPoints(grid, source);
-      vtkTriangle::ComputeNormal(GetPoint(output, t[0]).data(), GetPoint(output, t[1]).data(),
-        GetPoint(output, t[2]).data(), n);
-      vtkTriangle::ComputeNormal(
-        GetPoint(grid, s[0]).data(), GetPoint(grid, s[1]).data(), GetPoint(grid, s[2]).data(), m);
-      EXPECT_GT(vtkMath::Dot(n, m), 0.99);
-    }
-  }
-}
-
-TEST(MeshOptimizeFilterSurface, WithoutAPatchArrayAllIntegersCount)
-{
-  // The array Number is different for each triangle: none of them may change.
-  Grid grid = MakeBadBox(4, 0.2);
-  AddTriangles(grid);
-  Sliding filter(0.0);
-  filter->SetInputData(grid);
-  filter->Update();
-  std::map<int, double> before = AreasOf(grid), after = AreasOf(filter->GetOutput());
-  for (const auto& [id, area] : before)
-  {
-    EXPECT_NEAR(after.at(id), area, 1e-13) << id;
-  }
 }
 
 TEST(MeshOptimizeFilterSurface, CellsThatPassThroughKeepTheirFaces)

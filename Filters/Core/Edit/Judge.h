@@ -322,7 +322,7 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
   if (slides)
   {
     ++this->surfaceChanges[0];
-    this->changes_.beforeMoves(this->mesh(), p);
+    this->changes_.beforeMoves(*this->surface_, this->mesh(), p);
   }
   for (const auto& m : p.moves)
   {

@@ -31,7 +31,8 @@ public:
       {
         if (mesh.isConstrained(c, i) && find(p.kept.gone, sortedIds(mesh.facet(c, i))) >= 0)
         {
-          this->add(mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), this->change_.gone);
+          this->add(
+            surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), this->change_.gone);
         }
       }
     }
@@ -43,7 +44,8 @@ public:
         const int k = find(p.kept.come, sortedIds(facetOf(p.cells[n], i)));
         if (k >= 0)
         {
-          this->add(mesh, p.cells[n], i, p.kept.patches[k], p.kept.regions[n], this->change_.come);
+          this->add(
+            surface, mesh, p.cells[n], i, p.kept.patches[k], p.kept.regions[n], this->change_.come);
         }
       }
     }
@@ -54,15 +56,15 @@ public:
   }
 
   /// To be called before the nodes of p move.
-  void beforeMoves(const SimplexMesh<D>& mesh, const Proposal<D>& p)
+  void beforeMoves(const Surface<D>& surface, const SimplexMesh<D>& mesh, const Proposal<D>& p)
   {
     this->change_.clear();
-    this->addMoved(mesh, p, this->change_.gone);
+    this->addMoved(surface, mesh, p, this->change_.gone);
   }
   /// Asks the surface whether they may have moved.
   bool allowsMoves(const Surface<D>& surface, const SimplexMesh<D>& mesh, const Proposal<D>& p)
   {
-    this->addMoved(mesh, p, this->change_.come);
+    this->addMoved(surface, mesh, p, this->change_.come);
     for (Index c : p.cavity)
     {
       for (int e = 0; e < Local<D>::numberOfEdges; ++e)
@@ -170,8 +172,8 @@ private:
   }
 
   /// Adds a facet, but only once: an interface has cells on both sides.
-  void add(const SimplexMesh<D>& mesh, const Simplex<D>& nodes, int i, Index patch, Index region,
-    std::vector<SurfacePiece<D>>& pieces)
+  void add(const Surface<D>& surface, const SimplexMesh<D>& mesh, const Simplex<D>& nodes, int i,
+    Index patch, Index region, std::vector<SurfacePiece<D>>& pieces)
   {
     const Facet<D> f = facetOf(nodes, i);
     if (find(this->seen_, sortedIds(f)) < 0)
@@ -181,12 +183,17 @@ private:
       std::transform(f.begin(), f.end(), piece.x.begin(), [&](Index q) { return mesh.point(q); });
       piece.patch = patch;
       piece.region = region;
+      piece.sets = surface.sets(mesh, f[0]);
+      for (int k = 1; k < D && piece.sets != 0; ++k)
+      {
+        piece.sets &= surface.sets(mesh, f[k]);
+      }
       pieces.push_back(piece);
     }
   }
 
-  void addMoved(
-    const SimplexMesh<D>& mesh, const Proposal<D>& p, std::vector<SurfacePiece<D>>& pieces)
+  void addMoved(const Surface<D>& surface, const SimplexMesh<D>& mesh, const Proposal<D>& p,
+    std::vector<SurfacePiece<D>>& pieces)
   {
     this->seen_.clear();
     for (Index c : p.cavity)
@@ -197,7 +204,7 @@ private:
         if (mesh.isConstrained(c, i) &&
           std::any_of(f.begin(), f.end(), [&](Index q) { return slides(p, q); }))
         {
-          this->add(mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), pieces);
+          this->add(surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), pieces);
         }
       }
     }

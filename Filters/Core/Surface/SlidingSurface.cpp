@@ -49,6 +49,10 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
       editor.setPlace(id, { Freedom::Corner, id, 0.0 });
     }
   }
+  if (!options.sets.empty())
+  {
+    this->addSets(editor, division, options.sets);
+  }
 }
 
 void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
@@ -152,6 +156,71 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
       }
     }
   }
+}
+
+void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
+  const std::vector<std::uint32_t>& sets)
+{
+  const SimplexMesh<3>& mesh = editor.mesh();
+  constexpr std::uint32_t all = ~std::uint32_t(0);
+  for (Patch& patch : this->patches_)
+  {
+    patch.sets = all;
+  }
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    for (int i = 0; i < 3 && part.patch != None; ++i)
+    {
+      this->patches_[part.patch].sets &= sets[part.nodes[i]];
+    }
+  }
+  // A curve is in the sets of the patches beside it.
+  this->setsOfCurve_.assign(this->curves_.size(), 0);
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    for (int i = 0; i < 3 && part.patch != None; ++i)
+    {
+      const auto span = this->span(mesh, part.nodes[i], part.nodes[(i + 1) % 3]);
+      if (span)
+      {
+        this->setsOfCurve_[span->part] |= this->patches_[part.patch].sets;
+      }
+    }
+  }
+  this->sets_ = all;
+  for (std::size_t p = 0; p < sets.size(); ++p)
+  {
+    const Place place = mesh.place(static_cast<Index>(p));
+    if (place.freedom == Freedom::Curve)
+    {
+      this->sets_ &= ~(sets[p] & ~this->setsOfCurve_[place.part]);
+    }
+    else if (place.freedom == Freedom::Patch)
+    {
+      this->sets_ &= ~(sets[p] & ~this->patches_[place.part].sets);
+    }
+  }
+  this->setsOfPoint_ = sets;
+}
+
+std::uint32_t SlidingSurface::sets(const SimplexMesh<3>& mesh, Index v) const
+{
+  if (this->setsOfPoint_.empty())
+  {
+    return 0;
+  }
+  const Place place = mesh.place(v);
+  if (place.freedom == Freedom::Patch)
+  {
+    return this->sets_ & this->patches_[place.part].sets;
+  }
+  if (place.freedom == Freedom::Curve)
+  {
+    return this->sets_ & this->setsOfCurve_[place.part];
+  }
+  return static_cast<std::size_t>(v) < this->setsOfPoint_.size()
+    ? this->sets_ & this->setsOfPoint_[v]
+    : 0;
 }
 
 const Facet<3>& SlidingSurface::inputFacet(Index patch, const Vec<3>& x) const
@@ -426,8 +495,11 @@ bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
 bool SlidingSurface::allows(const SurfaceChange<3>& change) const
 {
   const auto isLocked = [](const SurfacePiece<3>& piece) { return piece.patch == None; };
+  const auto growsASet = [&](const SurfacePiece<3>& piece)
+  { return (piece.sets & ~this->patches_[piece.patch].sets) != 0; };
   if (std::any_of(change.gone.begin(), change.gone.end(), isLocked) ||
     std::any_of(change.come.begin(), change.come.end(), isLocked) ||
+    std::any_of(change.come.begin(), change.come.end(), growsASet) ||
     !std::all_of(change.spans.begin(), change.spans.end(),
       [&](const Span& span) { return this->follows(span); }))
   {

@@ -39,6 +39,13 @@ public:
 
   /// The number that the facets of a patch had in SurfaceOptions::labels.
   Index label(Index patch) const { return this->patches_[patch].label; }
+  /// The node sets of SurfaceOptions that are sets of patches: whoever is in one of them, and
+  /// slides, is on a patch or beside a patch all of whose nodes are in it. Such a set keeps its
+  /// part of the surface: no facet of another patch gets three nodes of it. The other sets mean
+  /// nothing to the surface.
+  std::uint32_t sets() const { return this->sets_; }
+  /// Those that the patch is in as a whole.
+  std::uint32_t setsOfPatch(Index patch) const { return this->patches_[patch].sets; }
   /// The facet of the input (sorted ids) that is nearest to x, of those of the patch.
   const Facet<3>& inputFacet(Index patch, const Vec<3>& x) const;
 
@@ -62,6 +69,7 @@ public:
   bool mayJoin(
     const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const override;
   bool judgesChanges() const override { return true; }
+  std::uint32_t sets(const SimplexMesh<3>& mesh, Index v) const override;
   bool allows(const SurfaceChange<3>& change) const override;
   /// Inside a patch, up to the feature angle; beyond, only along edges that were as sharp as half
   /// of it. At a curve that is sharp, from half of it on.
@@ -73,6 +81,7 @@ private:
   {
     Index region = 0; ///< facets are ordered as seen from outside of it
     Index label = None;
+    std::uint32_t sets = 0;
     bool isSigned = true; ///< the other side has another region, or none
     SurfaceDivision::Plane plane;
     std::array<Vec<3>, 2> basis{ Vec<3>::Zero(), Vec<3>::Zero() }; ///< of the plane
@@ -80,6 +89,8 @@ private:
 
   void addPatches(MeshEditor<3>& editor, const SurfaceDivision& division);
   void addCurves(MeshEditor<3>& editor, const SurfaceDivision& division);
+  void addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
+    const std::vector<std::uint32_t>& sets);
   bool follows(const Span& span) const;
   bool isFlat(const SurfacePiece<3>& piece) const;
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
@@ -93,6 +104,8 @@ private:
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;
   std::vector<Vec<3>> corners_; ///< by point of the input: where those that are corners were
+  std::uint32_t sets_ = 0;
+  std::vector<std::uint32_t> setsOfPoint_, setsOfCurve_; ///< empty if there are none
   bool isExact_ = false;
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it

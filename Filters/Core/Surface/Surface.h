@@ -71,6 +71,8 @@ public:
 
   /// Whether allows() has to be asked before a change is made.
   virtual bool judgesChanges() const { return false; }
+  /// The node sets that point v of the surface is in, as bits.
+  virtual std::uint32_t sets(const SimplexMesh<D>&, Index /*v*/) const { return 0; }
   /// Whether the surface may change in this way.
   virtual bool allows(const SurfaceChange<D>&) const { return true; }
   /// Whether two facets of the surface may have this cosine between their normals at the edge from

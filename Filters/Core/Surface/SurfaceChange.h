@@ -26,6 +26,7 @@ struct SurfacePiece
   std::array<Vec<D>, D> x; ///< ordered as in Local<D>::facets, as seen from a cell of `region`
   Index patch;             ///< None: it must not change
   Index region;            ///< of a cell on one side of it
+  std::uint32_t sets = 0;  ///< the node sets that all its nodes are in
 };
 
 template <int D>

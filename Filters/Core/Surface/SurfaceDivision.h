@@ -27,6 +27,8 @@ struct SurfaceOptions
   std::vector<std::pair<Facet<3>, Index>> labels;
   /// Facets (sorted ids) that must stay as they are, in ascending order.
   std::vector<Facet<3>> locked;
+  /// One per point, or empty: bit k says that the point is in node set k (SlidingSurface::sets()).
+  std::vector<std::uint32_t> sets;
 };
 
 /// The kept facets of a mesh: outer surface, interfaces between regions, and those that the caller

@@ -25,6 +25,32 @@ constexpr vtkMeshBridge::ArrayRole Roles[NumberOfInputArrays] = {
   { "patch array", nullptr, true, true, { { 1, 0 } } },
 };
 
+constexpr vtkMeshBridge::ArrayRole PatchesAtPoints = { "patch array", nullptr, false, false,
+  { { 0, 0 } } };
+
+/**
+ * The array of this index in the grid, and its role. Patches may be on cells or at points: first
+ * where the caller says, then at the other place (ParaView calls what is not chosen a point array).
+ */
+vtkAbstractArray* FindInRole(
+  vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index, vtkMeshBridge::ArrayRole& role)
+{
+  role = Roles[index];
+  vtkAbstractArray* found = vtkMeshBridge::FindArray(filter, grid, index, role);
+  vtkInformation* wanted = filter->GetInputArrayInformation(index);
+  const bool isAtPoints = wanted->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+    wanted->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkAbstractArray* atPoints = index == PatchArray && (isAtPoints || !found)
+    ? vtkMeshBridge::FindArray(filter, grid, index, PatchesAtPoints)
+    : nullptr;
+  if (atPoints)
+  {
+    role = PatchesAtPoints;
+    found = atPoints;
+  }
+  return found;
+}
+
 } // namespace
 
 void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name)
@@ -42,13 +68,15 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
   arrays = InputArrays();
   for (int i = 0; i < NumberOfInputArrays; ++i)
   {
-    vtkAbstractArray* found = vtkMeshBridge::FindArray(filter, grid, i, Roles[i]);
-    const std::string error = found ? vtkMeshBridge::CheckArray(found, Roles[i]) : std::string();
+    vtkMeshBridge::ArrayRole role;
+    vtkAbstractArray* found = FindInRole(filter, grid, i, role);
+    const std::string error = found ? vtkMeshBridge::CheckArray(found, role) : std::string();
     if (!error.empty())
     {
       return error;
     }
     *targets[i] = vtkDataArray::SafeDownCast(found);
+    arrays.PatchIsAtPoints |= found && i == PatchArray && !role.OnCells;
   }
   return {};
 }
@@ -61,12 +89,17 @@ std::string CheckArraysAreThere(
   for (int i = 0; i < NumberOfInputArrays && hasCells; ++i)
   {
     const auto hasArray = [&](vtkUnstructuredGrid* grid)
-    { return vtkMeshBridge::FindArray(filter, grid, i, Roles[i]) != nullptr; };
+    {
+      vtkMeshBridge::ArrayRole role;
+      return FindInRole(filter, grid, i, role) != nullptr;
+    };
     if (vtkMeshBridge::IsWanted(filter, i) && i != elsewhere &&
       std::none_of(grids.begin(), grids.end(), hasArray))
     {
-      return vtkMeshBridge::DescribeMissing(
-        filter->GetInputArrayInformation(i)->Get(vtkDataObject::FIELD_NAME()), Roles[i]);
+      const char* name = filter->GetInputArrayInformation(i)->Get(vtkDataObject::FIELD_NAME());
+      return i == PatchArray && name ? "The patch array '" + std::string(name) +
+          "' is not there: the input has no such cell or point array."
+                                     : vtkMeshBridge::DescribeMissing(name, Roles[i]);
     }
   }
   return {};

@@ -40,6 +40,7 @@ struct InputArrays
   vtkDataArray* Metric = nullptr;
   vtkDataArray* Corners = nullptr;
   vtkDataArray* Patch = nullptr;
+  bool PatchIsAtPoints = false;
 };
 
 /**

@@ -12,6 +12,7 @@
 #include "Mesh/SimplexMesh.h"
 #include "Metric/NodalMetric.h"
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,15 @@ class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
 {
+
+/**
+ * A point array of the grid that may be a node set (vtkMeshOptimizeSets.h), and its sets as bits.
+ */
+struct NodeSetArray
+{
+  int Array = -1; ///< index in the point data
+  std::uint32_t Bits = 0;
+};
 
 template <int D>
 struct Model
@@ -32,6 +42,7 @@ struct Model
   /// Triangles that ride on a surface that slides (D = 3): sorted points, and cell of the grid; in
   /// ascending order.
   std::vector<std::pair<meshopt::Facet<3>, vtkIdType>> Riding;
+  std::vector<NodeSetArray> NodeSets; ///< the same
 };
 
 } // namespace vtkMeshOptimizeBridge

@@ -201,7 +201,8 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
 {
   vtkDataSetAttributes* data = model.Grid->GetCellData();
   std::vector<vtkDataArray*> arrays;
-  for (int i = 0; i < data->GetNumberOfArrays() && !model.Arrays.Patch; ++i)
+  const bool isChosen = model.Arrays.Patch && !model.Arrays.PatchIsAtPoints;
+  for (int i = 0; i < data->GetNumberOfArrays() && !isChosen; ++i)
   {
     vtkDataArray* array = data->GetArray(i);
     const int attribute = data->IsArrayAnAttribute(i);
@@ -213,7 +214,7 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
       arrays.push_back(array);
     }
   }
-  if (model.Arrays.Patch)
+  if (isChosen)
   {
     arrays.push_back(model.Arrays.Patch);
   }
@@ -280,6 +281,10 @@ void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, Ou
     const meshopt::Vec<3> centre = (mesh.point(key[0]) + mesh.point(key[1]) + mesh.point(key[2])) /
       3.0;
     const vtkIdType source = Find(model.Riding, surface.inputFacet(patch, centre));
+    if (source < 0)
+    {
+      continue; // a patch of a node set, without triangles
+    }
     map.Triangles.push_back(TurnedLike(model, source, key));
     map.CellToSource.push_back(source);
     map.CellToSlot.push_back(meshopt::None);

@@ -10,6 +10,7 @@
 #include "vtkMeshOptimizeModel.h"
 #include "vtkMeshOptimizeQuality.h"
 #include "vtkMeshOptimizeRiding.h"
+#include "vtkMeshOptimizeSets.h"
 #include "vtkMeshOptimizeSizes.h"
 #include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeTangle.h"
@@ -125,6 +126,10 @@ void Export(const Request& request, const typename SurfaceOf<D>::type& surface, 
     samples = SampleInput(model, map);
   }
   TransferPointData(input->GetPointData(), map, samples, output->GetPointData());
+  if (request.Slide)
+  {
+    TransferNodeSets(model, surface, map, output->GetPointData());
+  }
   TransferCellData(input->GetCellData(), map, output->GetCellData());
   SetMetricOfGhosts(request, model);
   AddMeshQuality(model, map, request.Options, output);

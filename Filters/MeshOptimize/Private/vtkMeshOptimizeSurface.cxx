@@ -2,6 +2,7 @@
 #include "vtkMeshOptimizeSurface.h"
 
 #include "vtkMeshOptimizeRiding.h"
+#include "vtkMeshOptimizeSets.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkBoundingBox.h"
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace vtkMeshOptimizeBridge
@@ -348,6 +350,41 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
   return locked;
 }
 
+namespace
+{
+
+using Labels = std::vector<std::pair<meshopt::Facet<3>, Index>>;
+
+/**
+ * Facets get one number for each pair of numbers.
+ */
+Labels Combined(const Labels& first, const Labels& second)
+{
+  if (second.empty())
+  {
+    return first;
+  }
+  std::map<meshopt::Facet<3>, std::array<Index, 2>> pairs;
+  for (const Labels* labels : { &first, &second })
+  {
+    for (const auto& [facet, label] : *labels)
+    {
+      pairs.try_emplace(facet, std::array<Index, 2>{ meshopt::None, meshopt::None })
+        .first->second[labels == &second] = label;
+    }
+  }
+  std::map<std::array<Index, 2>, Index> numbers;
+  Labels combined;
+  for (const auto& [facet, pair] : pairs)
+  {
+    combined.emplace_back(
+      facet, numbers.emplace(pair, static_cast<Index>(numbers.size())).first->second);
+  }
+  return combined;
+}
+
+} // namespace
+
 std::string BuildSurface(const Request& request, Model<2>& model, meshopt::BoundaryCurves& curves)
 {
   if (!request.Slide)
@@ -387,7 +424,10 @@ std::string BuildSurface(const Request& request, Model<3>& model, meshopt::Slidi
   }
   meshopt::SurfaceOptions options = request.Surface;
   options.corners = ReadCorners(model.Arrays.Corners, model.Cells);
-  options.labels = LabelRiding(model);
+  const auto ofPoints = LabelByPoints(model);
+  options.labels = Combined(LabelRiding(model), ofPoints);
+  KeepLonePoints(model, ofPoints, options.corners);
+  options.sets = FindNodeSets(model);
   meshopt::MeshEditor<3> editor(model.Mesh);
   surface.build(editor, options);
   return {};

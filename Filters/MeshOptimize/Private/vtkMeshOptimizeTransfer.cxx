@@ -67,19 +67,6 @@ double Interpolate(vtkDataArray* source, int component, const Sample& sample)
   return value;
 }
 
-void InterpolateSamples(vtkDataArray* source, const OutputMap& map,
-  const std::vector<Sample>& samples, vtkDataArray* array)
-{
-  for (std::size_t k = 0; k < samples.size(); ++k)
-  {
-    for (int component = 0; component < source->GetNumberOfComponents(); ++component)
-    {
-      array->SetComponent(
-        map.SampledPoints[k], component, Interpolate(source, component, samples[k]));
-    }
-  }
-}
-
 /**
  * Sets the new tuples [first, end) to one value: they are not copies of any tuple.
  */
@@ -150,8 +137,11 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
     vtkSmartPointer<vtkAbstractArray> array = Gather(source, isIdentity ? byIdentity : byPlace);
     if (IsFloating(source) && !isIdentity)
     {
-      InterpolateSamples(
-        vtkDataArray::SafeDownCast(source), map, samples, vtkDataArray::SafeDownCast(array));
+      for (std::size_t k = 0; k < samples.size(); ++k)
+      {
+        SetSample(vtkDataArray::SafeDownCast(source), samples[k], vtkDataArray::SafeDownCast(array),
+          map.SampledPoints[k]);
+      }
     }
     if (attribute == vtkDataSetAttributes::GLOBALIDS)
     {
@@ -162,6 +152,19 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
       FillNew(array, map.NumberOfOldPoints, 0.0);
     }
     AddArray(input, i, array, output);
+  }
+}
+
+void SetSample(vtkDataArray* source, const Sample& sample, vtkDataArray* array, vtkIdType id)
+{
+  if (!IsFloating(source))
+  {
+    array->SetTuple(id, sample.Nearest, source);
+    return;
+  }
+  for (int i = 0; i < source->GetNumberOfComponents(); ++i)
+  {
+    array->SetComponent(id, i, Interpolate(source, i, sample));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <vector>
 
+class vtkDataArray;
 class vtkDataSetAttributes;
 
 namespace vtkMeshOptimizeBridge
@@ -19,6 +20,12 @@ namespace vtkMeshOptimizeBridge
  */
 void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
   const std::vector<Sample>& samples, vtkDataSetAttributes* output);
+
+/**
+ * Sets tuple `id` of `array` to the value of `source` at a place: interpolated if floating, else
+ * that of the nearest corner.
+ */
+void SetSample(vtkDataArray* source, const Sample& sample, vtkDataArray* array, vtkIdType id);
 
 /**
  * Cell data of the output, without the array `MeshQuality` of an earlier run.
