@@ -37,7 +37,8 @@
  *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfInvertedCellsBefore`,
  *   `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`, `NumberOfOperations`, `StopReason`.
  * - the cell array `MeshQuality` (double): quality by the chosen measure, also of ghost cells; NaN
- *   for other cells.
+ *   for other cells. It is the active scalars, unless another cell array of the input is.
+ *   `MinimumDihedralAngle`, which vtkMeshQualityMinMax adds, is of other cells and left out.
  *
  * <b>Output port 1: the history</b>, a vtkTable with one row per pass; the first row is the input.
  * Columns: Pass, Stage, how often each kind of operation was tried and done, then Worst, Mean,

@@ -248,7 +248,7 @@ std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
     return error;
   }
   vtkSmartPointer<vtkDoubleArray> values = vtkSmartPointer<vtkDoubleArray>::New();
-  values->SetName("MeshQuality");
+  values->SetName(quality::ArrayName(this->Options.Measure));
   values->SetNumberOfValues(grid.GetNumberOfCells());
   quality::Figures figures = quality::MeasureGrid(
     grid, this->Options, block.Part, values->GetPointer(0));
@@ -258,7 +258,7 @@ std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
   }
   this->Figures.Merge(figures);
   block.Mesh->GetCellData()->AddArray(values);
-  block.Mesh->GetCellData()->SetActiveScalars("MeshQuality");
+  block.Mesh->GetCellData()->SetActiveScalars(values->GetName());
   return {};
 }
 
@@ -287,7 +287,8 @@ void vtkMeshQualityMinMax::Run::CountInBins(meshopt::QualityHistogram& histogram
 {
   for (const quality::Block& block : this->Blocks)
   {
-    auto* values = vtkDoubleArray::SafeDownCast(block.Mesh->GetCellData()->GetArray("MeshQuality"));
+    auto* values = vtkDoubleArray::SafeDownCast(
+      block.Mesh->GetCellData()->GetArray(quality::ArrayName(this->Options.Measure)));
     const vtkMeshBridge::GhostCells ghosts(block.Mesh);
     for (vtkIdType c = 0; values && c < values->GetNumberOfValues(); ++c)
     {
@@ -335,8 +336,8 @@ void vtkMeshQualityMinMax::FillOutputs(Run& run, vtkInformationVector* outputVec
   }
   std::vector<meshopt::WorstElement> worst = run.Figures.Worst.sorted();
   worst.resize(std::min(worst.size(), static_cast<std::size_t>(this->NumberOfWorstCells)));
-  quality::FillWorstCells(
-    worst, run.Blocks, run.Rank, run.IsComposite, vtkUnstructuredGrid::GetData(outputVector, 3));
+  quality::FillWorstCells(run.Options, worst, run.Blocks, run.Rank, run.IsComposite,
+    vtkUnstructuredGrid::GetData(outputVector, 3));
 }
 
 //------------------------------------------------------------------------------

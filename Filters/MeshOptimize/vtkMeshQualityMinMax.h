@@ -9,8 +9,9 @@
  * refined or hidden) are measured but not counted; its other flags make no difference.
  *
  * Outputs:
- *  - 0: the input with the cell array `MeshQuality`. It is NaN for cells that are neither triangles
- *    nor tetrahedra (these pass through), and for cells with a coordinate that is not finite. It is
+ *  - 0: the input with the cell array `MeshQuality`, or `MinimumDihedralAngle` if that is the
+ *    measure. It is the active scalars. It is NaN for cells that are neither triangles nor
+ *    tetrahedra (these pass through), and for cells with a coordinate that is not finite. It is
  *    0 for elements without volume, negative for inverted ones. Triangles have a sign only in a
  *    grid of nothing but triangles in one plane (any plane, to 1e-6 of their extent): the upper
  *    side is the one for which most of the area is positive. Elsewhere there is no upper side.
@@ -20,9 +21,9 @@
  *  - 2: histogram (vtkTable): BinCenter, BinLow, BinHigh, Count; bins of equal width from 0, or the
  *    minimum if that is less, to the value of the regular element, so that histograms before and
  *    after can be compared.
- *  - 3: the worst cells (vtkUnstructuredGrid), worst first: MeshQuality, OriginalCellIds (in their
- *    grid), Rank, Block (flat index; composite input only), Center (mean of the points). Each rank
- *    has only its own ones.
+ *  - 3: the worst cells (vtkUnstructuredGrid), worst first: the same array, OriginalCellIds (in
+ *    their grid), Rank, Block (flat index; composite input only), Center (mean of the points). Each
+ *    rank has only its own ones.
  *
  * Tables are filled on rank 0 and empty elsewhere; the figures that Get...() returns are the same
  * on all ranks.

@@ -13,18 +13,11 @@ from paraview import servermanager
 from paraview.simple import *  # noqa: F403  (PV_PLUGIN_PATH brings MeshOptimize and MeshQualityMinMax)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData
 
 STEPS = (0.1, 0.2, 0.3)  # "elements under ..." in the table
 INK = [0.12, 0.16, 0.22]
 SHOWN = 0.3  # the picture shows every element under this
-# Loud where elements are bad, pale where they are good; the breaks are the ones of the table.
-COLOURS = [0.0, 0.50, 0.00, 0.15,
-           0.1, 0.80, 0.10, 0.11,
-           0.2, 0.95, 0.40, 0.05,
-           0.3, 1.00, 0.75, 0.15,
-           0.301, 0.86, 0.92, 0.96,
-           1.0, 0.72, 0.83, 0.91]
 
 
 def measure(source):
@@ -47,14 +40,6 @@ def print_table(before, after):
     print(f"{'':24}{'before':>12}{'after':>12}")
     for key in before:
         print(f"{key:24}{before[key]:>12}{after[key]:>12}")
-
-
-def colour_map():
-    table = GetColorTransferFunction("MeshQuality")
-    table.RGBPoints = COLOURS
-    table.ColorSpace = "RGB"
-    table.ScalarRangeInitialized = 1
-    return table
 
 
 def text_in(view, text, size, location, position=None):
@@ -85,8 +70,7 @@ def show_mesh(quality, title, view):
         display.EdgeColor = edges
         display.LineWidth = 1.0
         display.Ambient, display.Diffuse = 0.35, 0.7
-        ColorBy(display, ("CELLS", "MeshQuality"))
-        display.LookupTable = colour_map()
+        display.SetScalarColoring("MeshQuality", vtkDataObject.CELL)  # ColorBy would fit the range to the data
         display.SetScalarBarVisibility(view, False)
     text_in(view, title, 22, "Upper Center")
     view.CameraFocalPoint = [centre[0], centre[1], centre[2] + 0.04]
@@ -131,8 +115,7 @@ def show_histogram(quality, title, view, decades):
     source.GetClientSideObject().SetOutput(bars(*columns, (left, bottom, width, height), decades))
     display = Show(source, view)
     display.Ambient, display.Diffuse = 1.0, 0.0
-    ColorBy(display, ("CELLS", "MeshQuality"))
-    display.LookupTable = colour_map()
+    display.SetScalarColoring("MeshQuality", vtkDataObject.CELL)
     display.SetScalarBarVisibility(view, False)
     axis = Show(Line(Point1=[left, bottom, 0], Point2=[left + width, bottom, 0]), view)
     axis.AmbientColor = axis.DiffuseColor = INK
@@ -168,8 +151,8 @@ def picture(before, after, rows, path):
             (before, rows[0], "before", left, left_chart), (after, rows[1], "after", right, right_chart)):
         show_mesh(quality, f"{name}: worst element {row['worst quality']}", view)
         show_histogram(quality, f"{row[f'elements under {SHOWN}']} of {row['elements']} elements under {SHOWN}", chart, decades)
-    bar = GetScalarBar(colour_map(), right)
-    bar.Title, bar.ComponentTitle = "MeshQuality", ""
+    bar = GetScalarBar(GetColorTransferFunction("MeshQuality"), right)  # the plugin's: loud where elements are bad
+    bar.Title, bar.ComponentTitle = "Mesh quality", ""
     bar.TitleColor = bar.LabelColor = INK
     bar.Orientation, bar.WindowLocation = "Vertical", "Any Location"
     bar.Position, bar.ScalarBarLength = [0.88, 0.2], 0.5

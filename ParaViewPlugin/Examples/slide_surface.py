@@ -33,8 +33,6 @@ if len(sys.argv) > 3:
         bad = Threshold(Input=source, Scalars=["CELLS", "MeshQuality"], LowerThreshold=0.61, ThresholdMethod="Below Lower Threshold")
         display = Show(bad, view)
         display.SetRepresentationType("Surface With Edges")
-        ColorBy(display, ("CELLS", "MeshQuality"))
-        GetColorTransferFunction("MeshQuality").RescaleTransferFunction(0, 1)
         display.SetScalarBarVisibility(view, True)
         view.OrientationAxesVisibility = 0
         view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp = [0, 0, 0.6], [0.7, -1.2, 1.5], [0, 0, 1]

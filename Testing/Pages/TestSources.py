@@ -22,7 +22,7 @@ def faults_of(path):
 
 
 def main():
-    sources = [path for folder in ("Filters", "Testing") for path in sorted((SOURCE / folder).rglob("*"))
+    sources = [path for folder in ("Filters", "ParaViewPlugin", "Testing") for path in sorted((SOURCE / folder).rglob("*"))
                if path.suffix in (".h", ".hxx", ".cpp", ".cxx")]
     faults = [fault for path in sources for fault in faults_of(path)]
     print("\n".join(faults) or f"{len(sources)} sources")

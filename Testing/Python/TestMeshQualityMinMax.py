@@ -118,7 +118,10 @@ def measured(grid, **options):
     for name, value in options.items():
         getattr(f, "Set" + name)(value)
     f.Update()
-    return f, vtk_to_numpy(f.GetOutput().GetCellData().GetArray("MeshQuality"))
+    data, degrees = f.GetOutput().GetCellData(), f.GetQualityMeasure() == f.MinimumDihedralAngle
+    array = data.GetArray("MinimumDihedralAngle" if degrees else "MeshQuality")
+    check(data.GetScalars() == array, "the quality is not the active scalars")
+    return f, vtk_to_numpy(array)
 
 
 MEASURES = ["Shape", "RadiusRatio", "MeanRatio", "MinimumSine", "WarpedSine", "VolumeLength", "MinimumDihedralAngle"]

@@ -25,6 +25,10 @@ vtkDoubleArray* AddQualityArray(vtkUnstructuredGrid* output)
   quality->SetNumberOfValues(output->GetNumberOfCells());
   quality->FillValue(std::numeric_limits<double>::quiet_NaN());
   output->GetCellData()->AddArray(quality);
+  if (!output->GetCellData()->GetScalars()) // what ParaView colours by
+  {
+    output->GetCellData()->SetActiveScalars("MeshQuality");
+  }
   return quality;
 }
 

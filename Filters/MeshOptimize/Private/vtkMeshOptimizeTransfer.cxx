@@ -177,7 +177,8 @@ void TransferCellData(
   for (int i = 0; i < input->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* source = input->GetAbstractArray(i);
-    if (IsNamed(source, "MeshQuality"))
+    // of the input's cells, which are others
+    if (IsNamed(source, "MeshQuality") || IsNamed(source, "MinimumDihedralAngle"))
     {
       continue;
     }

@@ -16,6 +16,15 @@ namespace vtkMeshQualityBridge
 {
 
 /**
+ * The name of the cell array of qualities. Degrees have one of their own: ParaView keeps a colour
+ * map for each name, and theirs does not go from 0 to 1.
+ */
+inline const char* ArrayName(meshopt::Measure measure)
+{
+  return measure == meshopt::Measure::MinimumDihedralAngle ? "MinimumDihedralAngle" : "MeshQuality";
+}
+
+/**
  * What to measure, and how.
  */
 struct Options

@@ -240,7 +240,7 @@ void FillHistogram(const meshopt::QualityHistogram& histogram, vtkTable* table)
 }
 
 //------------------------------------------------------------------------------
-void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
+void FillWorstCells(const Options& options, const std::vector<meshopt::WorstElement>& worst,
   const std::vector<Block>& blocks, int rank, bool isComposite, vtkUnstructuredGrid* output)
 {
   vtkNew<vtkPoints> points;
@@ -248,7 +248,7 @@ void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
   vtkNew<vtkDoubleArray> quality, centre;
   vtkNew<vtkIdTypeArray> ids;
   vtkNew<vtkIntArray> ranks, blockIds;
-  quality->SetName("MeshQuality");
+  quality->SetName(ArrayName(options.Measure));
   ids->SetName("OriginalCellIds");
   ranks->SetName("Rank");
   blockIds->SetName("Block");

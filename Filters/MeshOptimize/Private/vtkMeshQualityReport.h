@@ -60,7 +60,7 @@ struct Block
  * Copies the worst cells that are in `blocks` to `output`, worst first. `isComposite`: adds an
  * array with the block of each cell.
  */
-void FillWorstCells(const std::vector<meshopt::WorstElement>& worst,
+void FillWorstCells(const Options& options, const std::vector<meshopt::WorstElement>& worst,
   const std::vector<Block>& blocks, int rank, bool isComposite, vtkUnstructuredGrid* output);
 
 } // namespace vtkMeshQualityBridge

@@ -13,6 +13,7 @@ from . import _files, _progress
 from ._api import optimize, quality
 from ._meshes import adapter
 from ._properties import make, properties
+from ._reports import QUALITY_ARRAYS
 from ._run import MeshOptimizeError
 from .vtkFiltersMeshOptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
 
@@ -152,7 +153,8 @@ def _bars(histogram):
 
 
 def _worst(cells):
-    rows = zip(cells.get("OriginalCellIds", []), cells.get("MeshQuality", []), cells.get("Center", []))
+    values = next((cells[name] for name in QUALITY_ARRAYS if name in cells), [])
+    rows = zip(cells.get("OriginalCellIds", []), values, cells.get("Center", []))
     return "\n".join(f"  cell {cell:8d}  quality {value:9.4f}  at ({x:.6g}, {y:.6g}, {z:.6g})"
                      for cell, value, (x, y, z) in rows)
 

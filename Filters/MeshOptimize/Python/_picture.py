@@ -23,7 +23,7 @@ from .vtkFiltersMeshOptimize import vtkMeshQualityMinMax
 SIZE = 800  # of one view, in pixels
 BAD, FEWEST = 0.3, 10  # elements under BAD are shown, and that many of the worst in any case
 INK = (0.12, 0.16, 0.22)
-# Loud where elements are bad, pale where they are good: the map of ParaViewPlugin/Examples/demo.py
+# Loud where elements are bad, pale where they are good: the map of ParaViewPlugin/MeshOptimizeColorMaps.cxx
 COLOURS = ((0.0, 0.50, 0.00, 0.15), (0.1, 0.80, 0.10, 0.11), (0.2, 0.95, 0.40, 0.05), (0.3, 1.00, 0.75, 0.15),
            (0.301, 0.86, 0.92, 0.96), (1.0, 0.72, 0.83, 0.91))
 

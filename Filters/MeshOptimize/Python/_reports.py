@@ -8,6 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ._properties import snake_case
 
+QUALITY_ARRAYS = ("MeshQuality", "MinimumDihedralAngle")  # degrees have a name of their own
 
 def columns(table):
     """The columns of a vtkTable as arrays, by their names. Copies."""
@@ -125,7 +126,7 @@ class QualityReport(_Report):
     histogram : dict of numpy arrays
         A row for each bin: BinCenter, BinLow, BinHigh, Count.
     worst_cells : dict of numpy arrays
-        Worst first: OriginalCellIds, MeshQuality, Center of shape (n, 3).
+        Worst first: OriginalCellIds, MeshQuality (MinimumDihedralAngle if that is measured), Center of shape (n, 3).
     """
 
     minimum: float
@@ -189,4 +190,4 @@ def report_of_quality(algorithm):
         capped_cells=algorithm.GetNumberOfCappedCells(),
         summary=columns(algorithm.GetOutputDataObject(1)), histogram=columns(algorithm.GetOutputDataObject(2)),
         worst_cells={name: vtk_to_numpy(worst.GetArray(name)).copy()
-                     for name in ("OriginalCellIds", "MeshQuality", "Center") if worst.GetArray(name)})
+                     for name in ("OriginalCellIds", *QUALITY_ARRAYS, "Center") if worst.GetArray(name)})
