@@ -60,6 +60,7 @@ std::string CheckArraysAreThere(
     [](vtkUnstructuredGrid* grid) { return grid->GetNumberOfCells() > 0; });
   for (int i = 0; i < NumberOfInputArrays && hasCells; ++i)
   {
+    // A block may lack what others have: only an array that none has is an error.
     const auto hasArray = [&](vtkUnstructuredGrid* grid)
     { return vtkMeshBridge::FindArray(filter, grid, i, Roles[i]) != nullptr; };
     if (vtkMeshBridge::IsWanted(filter, i) && i != elsewhere &&

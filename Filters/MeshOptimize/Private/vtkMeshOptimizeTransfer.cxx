@@ -159,6 +159,7 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
     }
     if (IsNamed(source, vtkDataSetAttributes::GhostArrayName()))
     {
+      // A new point is no ghost, whatever it was made from.
       FillNew(array, map.NumberOfOldPoints, 0.0);
     }
     AddArray(input, i, array, output);
@@ -174,6 +175,7 @@ void TransferCellData(
   for (int i = 0; i < input->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* source = input->GetAbstractArray(i);
+    // The filter adds a new one.
     if (IsNamed(source, "MeshQuality"))
     {
       continue;

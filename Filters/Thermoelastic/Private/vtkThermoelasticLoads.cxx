@@ -130,6 +130,7 @@ std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
   std::map<Facet<D>, Facet<D>> oriented;
   for (const Facet<D>& facet : surface)
   {
+    // A pressure acts against the outside of the mesh, however the cell of the facet is numbered.
     oriented[sorted(facet)] = facet;
   }
   for (vtkIdType c = 0; c < model.Grid->GetNumberOfCells(); ++c)
