@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # MeshOptimize from nothing to a running filter on Debian 12 or 13.
 #
 #   ./bootstrap.sh demo    install what is missing, build, optimize a cracked pellet, show before and after
@@ -22,7 +23,7 @@ packages=(
   xvfb libgl1-mesa-dri)
 test_packages=(libgtest-dev python3-meshio python3-tqdm)
 
-usage() { sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+usage() { sed -n '3,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi

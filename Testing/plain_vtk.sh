@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests against plain VTK (no ParaView) beside ParaView's stack: VTK 9.1 on Debian 12, 9.3 on Debian 13.
 #
 #   Testing/plain_vtk.sh [FOLDER]      default FOLDER: build-plain-vtk in the source tree

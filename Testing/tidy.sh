@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # clang-tidy, with the checks of .clang-tidy, over all sources of Filters or the given ones. Exit status 1 if it warns.
 #
 #   Testing/tidy.sh [FILE ...]

@@ -162,6 +162,7 @@ int FindDimension(vtkUnstructuredGrid* grid)
   bool triangles = false, volumes = false, tetrahedra = false;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells() && !tetrahedra; ++c)
   {
+    // One tetrahedron decides: triangles beside it are marks on its mesh.
     const int type = grid->GetCellType(c);
     tetrahedra = type == VTK_TETRA;
     triangles |= type == VTK_TRIANGLE;
@@ -205,6 +206,7 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
     {
       return error;
     }
+    // Points of ghosts count as used by others: they will neither move nor vanish.
     const bool isOfMesh = isSimplex && !ghosts.Has(c);
     for (vtkIdType k = 0; k < n; ++k)
     {

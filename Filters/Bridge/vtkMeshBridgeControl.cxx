@@ -32,6 +32,7 @@ meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double f
   {
     control.parallelFor = [=](int n, const std::function<void(int)>& body)
     {
+      // Only for this call: what the application has set for other filters stays.
       vtkSMPTools::LocalScope(vtkSMPTools::Config{ numberOfThreads, "STDThread", false },
         [&]()
         {

@@ -212,6 +212,7 @@ Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, c
 {
   Plane plane;
   plane.Extent = box.GetDiagonal();
+  // Far from the origin, and as floats, coordinates are less exact than the extent alone tells.
   plane.Tolerance = 1e-6 * plane.Extent + 4.0 * grid.GetPrecision() * box.GetMagnitude();
   Vec<3> normal = FindNormal(grid, triangles);
   const int constant = FindConstantCoordinate(box);

@@ -80,6 +80,7 @@ std::vector<Index> ReadRegions(vtkDataArray* array, const Cells& cells)
   {
     return std::vector<Index>(values.begin(), values.end());
   }
+  // Numbers that do not fit become their ranks: the core only compares regions.
   const std::vector<long long> distinct = FindDistinct(values);
   std::vector<Index> regions(values.size());
   std::transform(values.begin(), values.end(), regions.begin(),

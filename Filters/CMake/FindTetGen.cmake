@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Finds TetGen as a library: TetGen_FOUND, and the target TetGen::TetGen (Debian: libtet1.5-dev).
 #
 # TETGEN_INCLUDE_DIR  the folder of tetgen.h

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Decides whether the module Filters/TetGen is built, and says so: TetGen is under the AGPL, all the rest is not.
 #
 # MESHOPTIMIZE_WITH_TETGEN  ON by default. Without TetGen (Debian: libtet1.5-dev) or fork() it is off all the same.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Finds ParaView with its own VTK (then the plugin is built) or, without ParaView, a VTK.
 #
 # MESHOPTIMIZE_WITH_PARAVIEW  ON by default when ParaView >= 5.11 is found. OFF: plain VTK >= 9.1 (VTK_DIR).

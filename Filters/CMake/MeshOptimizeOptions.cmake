@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Language, build type, warnings, sanitizers and output folders: what holds for every target.
 
 set(CMAKE_CXX_STANDARD 17)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The CMake package of the install tree: find_package(MeshOptimize) gives MeshOptimize::FiltersMeshOptimize.
 include(CMakePackageConfigHelpers)
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The Python package "meshoptimize": one wrapped extension per VTK module, the files of Filters/MeshOptimize/Python, and the
 # commands mesh-optimize and mesh-quality.
 set(MESHOPTIMIZE_PYTHON_BUILD_DIR "${CMAKE_BINARY_DIR}/${MESHOPTIMIZE_PYTHON_DIR}")

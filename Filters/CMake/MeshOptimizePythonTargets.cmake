@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Debian 13 installs the Python modules of ParaView and its VTK as vtkX.cpython-313-x86_64-linux-gnu.so; its CMake packages name
 # vtkX.so all the same, and find_package() stops: "references the file ... but this file does not exist". Other packages are right.
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # One function per kind of test. Each test stands on a line of its own in the CMakeLists.txt of its folder:
 #   meshopt_core_test(Mesh/SimplexMeshTest)     Testing/Core/Mesh/SimplexMeshTest.cpp, GoogleTest, no VTK
 #   meshopt_cxx_test(TestMeshOptimizeFilter)    Testing/Cxx/TestMeshOptimizeFilter.cxx, GoogleTest, VTK

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What sliding is worth at tolerance 0: bodies with flat faces whose surfaces are badly divided, as a Markdown table.
 
     eval "$(./bootstrap.sh env)"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """How time and memory of Mesh Optimize grow with the mesh, and what a second thread brings; Markdown tables.
 
     cmake -DBUILD_TESTING=ON -DMESHOPTIMIZE_BENCHMARKS=ON build && cmake --build build

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Optimizes a mesh as it is, and rotated, mirrored, scaled and renumbered: the worst quality must hardly depend on that.
 
     eval "$(./bootstrap.sh env)"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs Mesh Optimize on mesh files and prints what it reached, as a Markdown table.
 
     eval "$(./bootstrap.sh env)"

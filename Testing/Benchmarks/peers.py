@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Mesh Optimize beside the mesh optimizers that Debian packages: one run over mesh files, a table and a plot.
 
     eval "$(./bootstrap.sh env)"

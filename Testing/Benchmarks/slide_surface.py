@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What it is worth to let the surface of tetrahedra take part, for several tolerances, as a Markdown table.
 
     eval "$(./bootstrap.sh env)"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Bodies that are hard for a surface that takes part (Boundary Mode Slide), and what must stay of each, as a Markdown table.
 
     eval "$(./bootstrap.sh env)"

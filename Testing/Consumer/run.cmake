@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs BUILD into WORK/install, builds CONSUMER against it, runs its programs.
 function (step)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Random triangle meshes through vtkMeshOptimizeFilter: sliding boundaries, geometries, sizes and metrics.
 
     eval "$(./bootstrap.sh env)"

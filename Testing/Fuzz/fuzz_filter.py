@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Random meshes and options through vtkMeshOptimizeFilter: does what must hold hold?
 
     eval "$(./bootstrap.sh env)"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Random small meshes for fuzz_filter.py: a function of the random generator only.
 
 A mesh is a dictionary: dimension 2 or 3, points [n, 3], cells [m, dimension + 1], others (list of VTK type and ids),

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Random solids (booleans of boxes, cylinders and spheres) whose surface takes part (Boundary Mode Slide): does what must hold hold?
 
     eval "$(./bootstrap.sh env)"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Random solids whose surface takes part (Boundary Mode Slide), through vtkMeshOptimizeFilter: does what must hold hold?
 
     eval "$(./bootstrap.sh env)"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Random solids: booleans of boxes, cylinders and spheres by Gmsh (OpenCASCADE; Debian: python3-gmsh), filled by TetGen.
 
 fuzz_solids.py uses them. Gmsh runs in a child process: it ends the process where it fails.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The demo's picture on a small mesh, against Data/Baseline/demo_picture.png.
 
 The mesh is a box of tetrahedra with its inner points pushed about, made here, so that the test takes seconds. MESHOPTIMIZE_ACCEPT_BASELINES=1 takes the

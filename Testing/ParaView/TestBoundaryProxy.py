@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A disc of sixteen triangles with a hole gets fine and round by Mesh Optimize, along its own points and along a geometry; a picture of it.
 
 MESHOPTIMIZE_ACCEPT_BASELINES=1 takes the new picture over as Data/Baseline/boundary_slides.png: look at it first.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """pvpython as a client of a pvserver: the plugin is loaded on both sides, the filters run on the server."""
 import os
 import socket

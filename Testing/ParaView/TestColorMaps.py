@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Both filters are coloured by quality at once, by a map of their own: loud where bad, a range that stays, a title."""
 from meshoptimize import _picture
 from paraview import servermanager, simple

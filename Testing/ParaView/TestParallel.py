@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """pvbatch, alone or with several ranks: one minimum and maximum over all ranks, and each rank optimizes its piece."""
 from paraview import servermanager, simple
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Both filters by their proxies: defaults that have no surprise, results that can be read, ports that hold what they say."""
 from paraview import servermanager, simple
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """vtkMeshQualityMinMax on several ranks gives on each of them the figures of the whole mesh. Run by pvbatch under mpirun."""
 import sys
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Solution Metric by its proxy: takes a solution by itself, hands on what Mesh Optimize and ParaView's tensor glyphs take."""
 from paraview import simple
 

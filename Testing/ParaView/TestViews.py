@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """meshoptimize.paraview: the worst elements, and before and after; data first, then that something is drawn."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Holds the plugin's XML against the wrapped classes: defaults, ranges, enumerations, ports, nothing missing.
 
 Runs without ParaView's server manager: it reads the XML files as files. TestProxies.py then asks the loaded proxies.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the paraview tests share: the plugin, a mesh made in the script, and a check that speaks."""
 import itertools
 import os

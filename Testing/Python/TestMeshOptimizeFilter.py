@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """vtkMeshOptimizeFilter from Python: the real pellet, numpy in and out, files, events, enums."""
 import os
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """vtkMeshQualityMinMax against formulas written down here in numpy, and against VTK's own vtkMeshQuality."""
 import sys
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """vtkSolutionMetricFilter against finite differences written down here in numpy, and through files and other filters."""
 import os
 import sys

@@ -62,6 +62,7 @@ struct ApexProblem
     double lastRest = 1e30;
     for (int iteration = 0; iteration < 60; ++iteration)
     {
+      // The maximum of a quotient z / s is where z - lambda s has its maximum 0 (Dinkelbach).
       const double lambda = z / s;
       if (lambda >= enough)
       {

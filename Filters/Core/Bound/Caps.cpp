@@ -25,6 +25,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
   this->bound_ = surface.bound;
   for (std::size_t k = 0; k < surface.sides.size(); ++k)
   {
+    // A cap above the limit holds nothing back, and would only make the table larger.
     if (surface.sideCaps[k] < limit)
     {
       this->facets_[sortedIds(surface.sides[k].nodes)] = surface.sideCaps[k];
@@ -47,6 +48,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
 template <int D>
 double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
 {
+  // Most facets have a point inside: they need no look into the table.
   if (std::any_of(f.begin(), f.end(), [&](Index p) { return !mesh.isBoundary(p); }))
   {
     return 1.0;
@@ -74,6 +76,7 @@ double Caps<D>::weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) cons
 template <int D>
 bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 {
+  // Stored qualities may be weighed; caps never are.
   const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh, mesh.nodes(c)) : 1.0);
   // The caps are looked up only for cells that may be at one: most are above the largest cap.
   if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))

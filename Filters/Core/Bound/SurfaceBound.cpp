@@ -23,6 +23,7 @@ struct Rim
   bool forward;  ///< from low to high; in 2D: the side begins here
   bool operator<(const Rim& other) const
   {
+    // The side comes last: it only makes the order unique.
     return this->low != other.low    ? this->low < other.low
       : this->high != other.high     ? this->high < other.high
       : this->region != other.region ? this->region < other.region
@@ -110,6 +111,7 @@ public:
     const double regular = regularValue<D>(this->options_.measure);
     this->result_.bound = regular;
     this->result_.sideCaps.assign(this->result_.sides.size(), regular);
+    // Wedges come later: they need the best apexes of their facets.
     this->capSides();
     if (infoOf(this->options_.measure).bound == FacetBound::BestApex)
     {
@@ -172,6 +174,7 @@ double BoundBuilder<3>::capOfSide(std::size_t s, double enough)
       const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
       const double area = 0.5 * (b - a).cross(c - a).norm();
       const double cap = squares == 0.0 ? 0.0 : std::min(1.0, 6.928203230275509 * area / squares);
+      // Too large for its squares. A cap of 1 is always true.
       if (!std::isfinite(squares))
       {
         return 1.0;
@@ -219,6 +222,7 @@ bool BoundBuilder<D>::findWedge(
     }
     const bool own = this->tip(*rim) == this->tip(from);
     const Angle t = own ? back : this->angle(from, *rim);
+    // An angle that may be 0 as well as 2 pi leaves the order open.
     if (!own && !t.known())
     {
       return false;

@@ -67,9 +67,10 @@ public:
   /// metric: there each change costs more, and the many small ones ended lower.
   double gain(double q) const
   {
-    const double near = std::max(0.1 * this->gain_, this->target_ - q);
+    constexpr double nearTarget = 0.1, ofTiny = 1e-4; // of the least gain
+    const double near = std::max(nearTarget * this->gain_, this->target_ - q);
     const double least = this->model_->plain ? std::min(this->gain_, near) : this->gain_;
-    return std::min(least, std::max(1e-4 * this->gain_, 2 * this->gain_ * std::fabs(q)));
+    return std::min(least, std::max(ofTiny * this->gain_, 2 * this->gain_ * std::fabs(q)));
   }
   /// The quality that a change must exceed if the worst is q.
   double required(double q) const { return q + this->gain(q); }

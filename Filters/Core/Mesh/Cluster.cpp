@@ -44,6 +44,7 @@ void ClusterGatherer<D>::findNeighbours(MeshEditor<D>& editor, Index cell, int l
   {
     this->numbers_.add(p);
   }
+  // Each round looks only at the points that the last one has added.
   for (std::size_t begin = 0; level > 0; --level)
   {
     const std::size_t end = this->front_.size();

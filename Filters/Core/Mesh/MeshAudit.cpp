@@ -21,6 +21,7 @@ struct Audit
 
   void fault(const std::string& text)
   {
+    // One broken invariant often breaks thousands of others: the first ones say enough.
     if (this->faults.size() < 20)
     {
       this->faults.push_back(text);
@@ -70,6 +71,7 @@ struct Audit
       }
       return;
     }
+    // Nothing is trusted here, not even that the handle leads to a slot.
     const Index o = Mesh::cellOf(h);
     const int j = Mesh::facetOf(h);
     if (o < 0 || o >= this->mesh.numberOfCellSlots() || !this->mesh.isAlive(o) || j > D)
@@ -103,6 +105,7 @@ struct Audit
       {
         continue;
       }
+      // Sorted: two cells with the same points are one cell twice, however they are numbered.
       Simplex<D> t = this->mesh.nodes(c);
       std::sort(t.begin(), t.end());
       if (!seen.insert(t).second)

@@ -51,6 +51,7 @@ struct FacetEntry
   std::uint32_t handle2; // 2 * handle + parity
   bool operator<(const FacetEntry& o) const
   {
+    // Equal facets come in the order of their cells: std::sort() alone may exchange them.
     return this->rest != o.rest ? this->rest < o.rest : this->handle2 < o.handle2;
   }
 };
@@ -79,6 +80,8 @@ struct MeshBuilder
     };
     if (this->input.cells.size() > (std::size_t(1) << 29))
     {
+      // Handles are then under 2^31: they fit into an Index, and with a bit for parity into 32
+      // bits.
       return this->error("More than 2^29 cells.");
     }
     if (!this->input.regions.empty() && this->input.regions.size() != this->input.cells.size())
@@ -156,6 +159,7 @@ struct MeshBuilder
       data.flags = Mesh::CellAlive;
       for (Index p : this->input.cells[c])
       {
+        // Any of its cells will do: stars are walked from it.
         this->mesh.points_[p].cell = static_cast<Index>(c);
         this->mesh.points_[p].flags |= Mesh::PointAlive;
       }
@@ -188,6 +192,7 @@ struct MeshBuilder
       {
         Facet<D> f = this->mesh.facet(c, i);
         const bool odd = sortFacet<D>(f);
+        // The lowest id is the number of the bucket, so that the others fit into 64 bits.
         std::uint64_t rest = static_cast<std::uint32_t>(f[1]);
         if constexpr (D == 3)
         {
@@ -210,6 +215,7 @@ struct MeshBuilder
         {
           return wrong;
         }
+        // Both have found each other: go on behind the second one.
         ++k;
       }
     }
@@ -267,6 +273,7 @@ struct MeshBuilder
     {
       negative = signedVolume(this->mesh.corners(c)) < 0.0;
     }
+    // The usual case: nothing to walk over.
     if (this->consistent && !negative)
     {
       return;
@@ -375,6 +382,7 @@ struct MeshBuilder
         }
       }
     }
+    // Pinched points come last: points on kept facets are held already, and need no star.
     this->constrainListed();
     this->fixPinchedPoints();
   }

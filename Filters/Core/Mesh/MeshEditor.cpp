@@ -28,6 +28,7 @@ MeshEditor<D> MeshEditor<D>::beside(const MeshEditor& other)
 {
   MeshEditor editor;
   editor.mesh_ = other.mesh_;
+  // Stamps and marks on the mesh are compared with these: a new start at 0 would match old ones.
   editor.clock_ = other.clock_;
   editor.mark_ = other.mark_;
   for (PointAttachment<D>* attachment : other.attachments_)
@@ -135,6 +136,7 @@ Index MeshEditor<D>::takeCell()
     }
     return c;
   }
+  // Only the editor of the whole mesh gets here: reserveCells() has refused the others.
   this->mesh_->cells_.emplace_back();
   this->mesh_->cellData_.emplace_back();
   this->growPatches();
@@ -149,6 +151,7 @@ template <int D>
 void MeshEditor<D>::freeCell(Index c)
 {
   this->saveCell(c);
+  // The rest of the slot stays as it is until create() overwrites it.
   this->mesh_->cellData_[c].flags = 0;
   this->freeCells_.push_back(c);
   if (this->depth_ > 0)
@@ -169,6 +172,7 @@ Index MeshEditor<D>::takePoint()
     {
       this->journal_.push_back(Entry::PointTaken);
       this->slotRecords_.push_back(p);
+      // Also of a dead slot: undo is bit for bit.
       this->savePoint(p);
       this->savePlace(p);
     }
@@ -361,12 +365,14 @@ void MeshEditor<D>::undo(Entry entry)
       }
       break;
     case Entry::CellFreed:
+      // Later entries are undone already, so the slot that was freed is the last one again.
       this->freeCells_.pop_back();
       break;
     case Entry::PointTaken:
       this->freePoints_.push_back(pop(this->slotRecords_));
       break;
     case Entry::PointGrown:
+      // Attachments keep their room. Their values have entries of their own.
       this->mesh_->points_.pop_back();
       if (!this->mesh_->places_.empty())
       {
@@ -388,6 +394,7 @@ void MeshEditor<D>::movePoint(Index p, const Vec<D>& x, Index near)
   this->savePoint(p);
   this->saveAttachments(p);
   Point& point = this->mesh_->points_[p];
+  // A point that stays where it is changes no star: earlier failures around it still count.
   point.stamp = point.x == x ? point.stamp : ++this->clock_;
   point.x = x;
   for (PointAttachment<D>* attachment : this->attachments_)
@@ -437,9 +444,11 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
   {
     return false;
   }
+  // Marks are written only on cells that the editor owns: others may be in use by another thread.
   this->setMark(star[0], seen);
   for (std::size_t k = 0; k < star.size(); ++k)
   {
+    // The list is the queue, too: cells that are found are looked at later in this loop.
     const Cell& cell = mesh.cells_[star[k]];
     for (int i = 0; i <= D; ++i)
     {

@@ -19,6 +19,7 @@ void MeshEditor<D>::collectOpenFacets(
   this->facets_.clear();
   const auto isGone = [&](const Facet<D>& key)
   {
+    // Ids are compared in sorted order: the two cells of a facet number it differently.
     return change &&
       std::any_of(change->gone.begin(), change->gone.end(),
         [&](const Facet<D>& f) { return sortedIds(f) == key; });
@@ -72,6 +73,8 @@ void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity, const Kep
           std::none_of(change->goneEdges.begin(), change->goneEdges.end(),
             [&](const std::array<Index, 2>& gone) { return isSame(gone, a, b); }))
         {
+          // An edge comes once for each of its cells. The list is only asked whether it has an
+          // edge.
           this->keptEdges_.push_back({ std::min(a, b), std::max(a, b) });
         }
       }
@@ -109,6 +112,7 @@ void MeshEditor<D>::keepFacets(const KeptChange<D>& change)
     for (int i = 0; i <= D; ++i)
     {
       const Facet<D> key = sortedIds(this->mesh_->facet(c, i));
+      // Searched one by one: a change brings few kept facets.
       const auto come = std::find_if(change.come.begin(), change.come.end(),
         [&](const Facet<D>& f) { return sortedIds(f) == key; });
       if (come == change.come.end())
@@ -138,6 +142,7 @@ void MeshEditor<D>::killPoints(const std::vector<Index>& cavity)
     for (Index p : this->mesh_->nodes(c))
     {
       Point& point = this->mesh_->points_[p];
+      // Points are shared by cells: the first cell that has the point takes its flag away.
       if (point.flags & Mesh::PointAlive)
       {
         this->savePoint(p);
@@ -174,6 +179,7 @@ template <int D>
 void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
 {
   // At least twice as many slots as facets, so that chains stay short.
+  // Facets between two new cells enter the table, too, when the first of these is linked.
   std::size_t size = 64;
   while (size < 2 * (this->facets_.size() + (D + 1) * numberOfNewCells))
   {
@@ -183,6 +189,7 @@ void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
   for (std::size_t f = 0; f < this->facets_.size(); ++f)
   {
     std::size_t k = hashIds(this->facets_[f].key) & (size - 1);
+    // The size is a power of two: a mask does for a remainder.
     while (this->table_[k] != None)
     {
       k = (k + 1) & (size - 1);
@@ -196,6 +203,7 @@ void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region
 {
   const Index c = this->takeCell();
   this->created_.push_back(c);
+  // Sets all that the slot of a dead cell may still hold, except the mark.
   this->mesh_->cells_[c].nodes = nodes;
   this->mesh_->cells_[c].adjacent.fill(None);
   CellData& data = this->mesh_->cellData_[c];

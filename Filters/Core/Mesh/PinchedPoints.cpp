@@ -22,12 +22,14 @@ std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh, bool freeOnl
   {
     if (uses[p] > 0 && (!freeOnly || mesh.isFree(p)))
     {
+      // A star is walked over facets: it misses cells that share only the point or an edge.
       mesh.star(p, star);
       pinched[p] = star.size() < uses[p];
     }
   }
   if (std::count(pinched.begin(), pinched.end(), 1) == 0)
   {
+    // Empty means that there is none: callers then skip all that the rare case needs.
     pinched.clear();
   }
   return pinched;

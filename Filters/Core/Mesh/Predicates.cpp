@@ -75,6 +75,7 @@ void grow(Expansion<N>& e, double b)
   {
     double sum, error;
     twoSum(q, e.c[i], sum, error);
+    // Zeros are left out by push(): the expansion stays short.
     result.push(error);
     q = sum;
   }

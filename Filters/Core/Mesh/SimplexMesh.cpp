@@ -44,11 +44,13 @@ void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
     const Cell& cell = this->cells_[star[k]];
     for (int i = 0; i <= D; ++i)
     {
+      // Facet i lies opposite to node i: the one opposite to p leads out of the star.
       if (cell.nodes[i] == p || cell.adjacent[i] == None)
       {
         continue;
       }
       const Index next = cellOf(cell.adjacent[i]);
+      // A number as high as the list is long is a new one.
       if (seen.add(next) == static_cast<int>(star.size()))
       {
         star.push_back(next);

@@ -96,6 +96,7 @@ Background<D>::Background(const SimplexMesh<D>& mesh)
   this->cellOfPoint_.assign(mesh.numberOfPointSlots(), None);
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
+    // A copy: the mesh moves on, while values are those of its first state.
     this->points_[p] = mesh.point(p);
   }
   this->cells_.resize(n);
@@ -205,6 +206,7 @@ Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
   for (int step = 0; c != None && step < limit; ++step)
   {
     std::array<double, D + 1> w;
+    // A flat cell does not say which way to go.
     if (!this->weights(c, x, w))
     {
       break;
@@ -254,6 +256,7 @@ void Background<D>::buildTree() const
   this->boxes_.push_back(root);
   for (std::size_t b = 0; b < this->boxes_.size(); ++b)
   {
+    // A copy, since push_back() below may move the boxes.
     Box box = this->boxes_[b];
     this->fitBox(box);
     if (box.last - box.first > leafSize)
@@ -265,6 +268,7 @@ void Background<D>::buildTree() const
       std::nth_element(begin + box.first, begin + middle, begin + box.last,
         [&centres, axis](Index a, Index c)
         {
+          // With ties by id, both halves are the same on every machine.
           const double x = centres[a][axis], y = centres[c][axis];
           return x != y ? x < y : a < c;
         });
@@ -296,6 +300,7 @@ bool Background<D>::isFartherThan(Index c, const Vec<D>& x, double distance) con
 template <int D>
 Location<D> Background<D>::searchTree(const Vec<D>& x) const
 {
+  // Built at the first need: most points are found by a walk. Several threads may ask.
   std::call_once(this->treeFlag_, [this] { this->buildTree(); });
   // Depth first, the nearer child first, until a cell contains x; ties to the lowest id.
   Location<D> best;
@@ -314,6 +319,7 @@ Location<D> Background<D>::searchTree(const Vec<D>& x) const
       const Box &l = this->boxes_[box.left], &r = this->boxes_[box.left + 1];
       const bool leftFirst = squaredDistanceToBox<D>(l.low, l.high, x) <=
         squaredDistanceToBox<D>(r.low, r.high, x);
+      // The nearer child goes on top.
       stack.push_back(leftFirst ? box.left + 1 : box.left);
       stack.push_back(leftFirst ? box.left : box.left + 1);
       continue;

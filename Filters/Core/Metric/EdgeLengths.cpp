@@ -13,6 +13,7 @@ double logMeanLength(double la, double lb)
   {
     return la;
   }
+  // Near r = 0 the quotient cancels. The plain mean is then right to r^2 / 12, under 1e-9.
   const double r = std::log(la / lb);
   return std::fabs(r) < 1e-4 ? 0.5 * (la + lb) : (la - lb) / r;
 }
@@ -69,9 +70,11 @@ EdgeLengths measureEdges(const SimplexMesh<D>& mesh, const NodalMetric<D>& metri
   for (const std::array<Index, 2>& e : edges)
   {
     const double l = edgeLength<D>(mesh, metric, e[0], e[1]);
+    // The usual range, from 1 / sqrt(2) to sqrt(2).
     inRange += l * l >= 0.5 && l * l <= 2.0;
     result.longest = std::max(result.longest, l);
     result.shortest = result.shortest > 0.0 ? std::min(result.shortest, l) : l;
+    // A length of 0 has no logarithm: it counts in the first bin.
     const double bin = std::floor(
       EdgeLengths::BinsPerOctave * (std::log2(l > 1e-30 ? l : 1e-30) + EdgeLengths::Octaves));
     ++result.histogram[static_cast<std::size_t>(

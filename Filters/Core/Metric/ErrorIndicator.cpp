@@ -117,8 +117,11 @@ std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double
     metric[p].values.setConstant(std::pow(density[p], 2.0 / D));
   }
   SizeLimits limits = options.limits;
+  // A size has no direction.
   limits.maximumAnisotropy = 0.0;
   MetricScaling<D> scaling(mesh, std::move(metric), limits, options.countCorrection);
+  // Where there is no error a part of it says nothing: without a wanted number, the present one is
+  // kept.
   const bool byError = options.desiredErrorFraction > 0.0 && !result.isZero;
   const ScaledMetric<D> scaled = byError
     ? scaling.withSize(sizeForError(

@@ -87,6 +87,7 @@ int limitGradation(const SimplexMesh<D>& mesh, const PointGraph& graph, double g
         const Index q = graph.ids[i];
         const Vec<D> edge = mesh.point(q) - mesh.point(p);
         const Tensor<D> wanted = grown<D>(metrics[p], edge, gradation);
+        // Most edges end here: only what is too coarse is intersected.
         if (!isAtLeast(metrics[q], wanted))
         {
           metrics[q] = intersection<D>(metrics[q], wanted);

@@ -39,6 +39,8 @@ struct BasisGradients
     this->isFlat = !(std::abs(this->volume) > 1e-14 * std::pow(this->length, D));
     if (!this->isFlat)
     {
+      // Gradient i has the product 1 with edge i, and 0 with the others: a column of the inverse.
+      // The basis functions add up to 1, so their gradients add up to 0.
       const Eigen::Matrix<double, D, D> inverse = edges.inverse();
       this->of[0].setZero();
       for (int i = 0; i < D; ++i)
@@ -140,6 +142,7 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
     Vec<D> gradient = Vec<D>::Zero();
     for (int i = 1; i <= D; ++i)
     {
+      // Differences, so that a large constant costs no digits.
       gradient += (value(i) - value(0)) * basis.of[i];
     }
     // (5.4), symmetrized: minus the integral of (du / dx_a) (dphi / dx_b), constant in the cell.

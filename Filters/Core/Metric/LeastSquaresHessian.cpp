@@ -68,6 +68,7 @@ private:
       for (Index i = this->graph_.first[q]; i < this->graph_.first[q + 1]; ++i)
       {
         const Index r = this->graph_.ids[i];
+        // The point of the patch is the mark: nothing has to be cleared for the next patch.
         if (this->seen_[r] != p)
         {
           this->seen_[r] = p;
@@ -95,6 +96,7 @@ private:
       spread += x * x.transpose() / double(n);
     }
     const Eigen::LLT<Eigen::Matrix<double, D, D>> scale(spread);
+    // The patch lies in a plane, or on a line.
     if (scale.info() != Eigen::Success)
     {
       return false;
@@ -147,6 +149,7 @@ private:
     {
       for (int b = 0; b <= a; ++b)
       {
+        // With these factors the coefficients are the second derivatives.
         this->columns_(k, column++) = (a == b ? 0.5 : 1.0) * z[a] * z[b];
       }
     }

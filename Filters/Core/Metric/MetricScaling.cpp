@@ -26,6 +26,7 @@ double findZero(F&& value, double start, double highest, double slope, double to
   int evaluations = 1;
   while (std::abs(y) > tolerance && otherY * y > 0.0)
   {
+    // Too many elements even at the end of the range: there is no zero.
     if ((y > 0.0 && x >= highest) || evaluations >= maximumNumberOfEvaluations)
     {
       return x;
@@ -123,6 +124,7 @@ Vec<D> MetricScaling<D>::limited(const Vec<D>& eigenvalues, double h) const
   }
   if (this->limits_.maximumAnisotropy >= 1.0)
   {
+    // Raises the small eigenvalues: long edges become shorter, short ones stay.
     const double ratio = this->limits_.maximumAnisotropy * this->limits_.maximumAnisotropy;
     values = values.cwiseMax(values.maxCoeff() / ratio);
   }
@@ -168,6 +170,7 @@ double MetricScaling<D>::predictGraded(double h)
 template <int D>
 void MetricScaling<D>::makeUnit(double h)
 {
+  // The search asks for the same h again at its end.
   if (h == this->unitSize_)
   {
     return;

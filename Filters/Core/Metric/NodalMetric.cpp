@@ -39,6 +39,7 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
     about = NodalValues::Tensors;
     return wrongLength("Metric tensors", tensors.size(), n);
   }
+  // All is checked before anything of the metric changes.
   std::vector<Sample> values(sizes.empty() && tensors.empty() ? 0 : mesh.numberOfPointSlots());
   for (Index p = 0; !values.empty() && p < n; ++p)
   {
@@ -91,6 +92,7 @@ std::string NodalMetric<D>::setConstant(const Tensor<D>& tensor)
     return "The metric tensor is not symmetric, finite and positive definite.";
   }
   this->hasConstant_ = true;
+  // The root of the tensor: the length of e in the metric is |map e|.
   this->constantMap_ = exponential<D>((0.5 * l).eval());
   return std::string();
 }
@@ -161,12 +163,14 @@ void NodalMetric<D>::resample(Index p, const Vec<D>& x, Index near)
   }
   this->reserve(p + 1);
   Sample& value = this->values_[p];
+  // A new point has no cell of its own yet: the search begins at that of a neighbour.
   const Index hint = near != None ? this->sample(near).hint : value.hint;
   const Location<D> at = this->background_->locate(x, hint);
   if (at.cell == None)
   {
     return;
   }
+  // The next search of this point begins here.
   value.hint = at.cell;
   if (this->hasSizes_)
   {
@@ -219,6 +223,7 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
   {
     if (mesh.isPointAlive(p))
     {
+      // The logarithm of a determinant is the trace of the logarithm.
       const double trace = this->hasTensors_ ? this->values_[p].logTensor.trace()
         : this->hasConstant_                 ? 2.0 * std::log(this->constantMap_.determinant())
                                              : 0.0;
@@ -243,6 +248,7 @@ void NodalMetric<D>::fill(const Simplex<D>& nodes, ElementMetric<D>& m) const
     {
       sum += this->values_[p].logSize;
     }
+    // The mean of logarithms: twice and half the size are equally far away.
     m.desiredSize = std::exp(sum / (D + 1));
   }
   if (this->hasTensors_)
@@ -253,6 +259,7 @@ void NodalMetric<D>::fill(const Simplex<D>& nodes, ElementMetric<D>& m) const
       sum += this->values_[nodes[i]].logTensor;
     }
     m.euclidean = false;
+    // Half of the mean: the map is the root of the tensor.
     m.map = exponential<D>((sum * (0.5 / (D + 1))).eval());
   }
   else if (this->hasConstant_)

@@ -43,6 +43,7 @@ PointGraph PointGraph::of(const SimplexMesh<D>& mesh)
   graph.first.assign(static_cast<std::size_t>(n) + 1, 0);
   for (Index p = 0; p < n; ++p)
   {
+    // Sorted: the order of neighbours does not depend on the order of cells.
     const auto begin = repeated.begin() + start[p], end = repeated.begin() + start[p + 1];
     std::sort(begin, end);
     graph.ids.insert(graph.ids.end(), begin, std::unique(begin, end));

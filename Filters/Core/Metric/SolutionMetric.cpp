@@ -45,6 +45,7 @@ template <int D>
 void scaleForNorm(const SimplexMesh<D>& mesh, const SolutionMetricOptions& options,
   std::vector<SymmetricEigen<D>>& metric)
 {
+  // The other limits come once, with the last scaling.
   SizeLimits none;
   none.maximumSize = options.limits.maximumSize;
   MetricScaling<D> scaling(mesh, metric, none, options.countCorrection);
@@ -191,6 +192,7 @@ std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>
   metric.predictedCount = scaled.predictedCount;
   metric.isCountReached = scaled.isCountReached;
   metric.tensors = std::move(scaled.unit);
+  // The scaled tensors contain h*: metric and h* are handed out apart.
   for (Tensor<D>& tensor : metric.tensors)
   {
     tensor *= scaled.desiredSize * scaled.desiredSize;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file TensorFunctions.h
-/// Exponential, logarithm and square root of symmetric tensors, for log-Euclidean interpolation.
+/// Exponential and logarithm of symmetric tensors, for log-Euclidean interpolation.
 ///
 /// Reference: Arsigny, Fillard, Pennec, Ayache, "Log-Euclidean metrics for fast and simple calculus
 /// on diffusion tensors" (2006).

@@ -12,6 +12,8 @@ namespace
 template <int D>
 void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
 {
+  // Facets and edges that several cells of the cavity share come several times. The editor only
+  // looks them up.
   p.changesKept = true;
   for (Index c : p.cavity)
   {

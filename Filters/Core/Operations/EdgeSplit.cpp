@@ -15,6 +15,7 @@ bool cellsAround(
   const MeshEditor<2>& editor, Index t, Index a, Index b, std::vector<Index>& cells, bool& isKept)
 {
   const SimplexMesh<2>& mesh = editor.mesh();
+  // Local numbers are 0, 1 and 2: what is left is the node opposite to the edge, and so its facet.
   const int i = 3 - mesh.localIndex(t, a) - mesh.localIndex(t, b);
   const Index h = mesh.adjacent(t, i);
   cells.assign(1, t);
@@ -57,6 +58,8 @@ void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<
     for (int i = 0; i <= D; ++i)
     {
       const Facet<D> f = mesh.facet(c, i);
+      // A facet between two regions comes twice, once from each side. The editor only looks facets
+      // up.
       if (mesh.isConstrained(c, i) && hasId(f, a) && hasId(f, b))
       {
         p.kept.gone.push_back(f);
@@ -68,6 +71,7 @@ void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<
   }
   if (D == 3)
   {
+    // All cells around an edge agree on whether it is kept: the first one is asked.
     p.kept.goneEdges.push_back({ a, b });
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
     {
@@ -101,6 +105,7 @@ bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index 
   }
   for (Index c : proposal.cavity)
   {
+    // Each cell falls into two. The order of the nodes stays, and with it the orientation.
     proposal.cells.push_back(exchanged(mesh.nodes(c), a, m));
     proposal.cells.push_back(exchanged(mesh.nodes(c), b, m));
     proposal.kept.regions.insert(proposal.kept.regions.end(), 2, mesh.region(c));

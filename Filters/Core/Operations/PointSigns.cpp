@@ -17,6 +17,7 @@ void PointSigns::add(const Vec<3>& x)
   this->above_.resize(Maximum * Maximum * Maximum);
   const int l = this->size_++;
   this->x_[l] = x;
+  // The table may still hold the signs of an earlier set of points.
   for (int i = 0; i <= l; ++i)
   {
     for (int j = 0; j <= l; ++j)

@@ -28,6 +28,7 @@ int sort(int& a, int& b)
 }
 }
 
+// The combinatorial number system: it numbers the sets {a < b < c < d} without a gap.
 int PolyhedronSearch::quadrupleOf(int a, int b, int c, int d)
 {
   return a + choose2(b) + choose3(c) + choose4(d);
@@ -35,6 +36,7 @@ int PolyhedronSearch::quadrupleOf(int a, int b, int c, int d)
 
 int PolyhedronSearch::sideOf(int a, int b, int c)
 {
+  // The lowest bit is the orientation: side ^ 1 is the same facet seen from behind.
   int odd = sort(a, b);
   odd ^= sort(b, c);
   odd ^= sort(a, b);
@@ -73,6 +75,7 @@ void PolyhedronSearch::loadBoundary()
 {
   const int n = this->signs_.size();
   const std::size_t pairs = choose2(n);
+  // Memory is only added: thousands of searches follow each other.
   this->states_.resize(std::max<std::size_t>(1, this->states_.size()));
   this->deadEnds_.resize(Memory);
   this->crossing_.resize(std::max(this->crossing_.size(), pairs * pairs));
@@ -90,6 +93,7 @@ void PolyhedronSearch::loadBoundary()
   for (const Triangle& f : this->boundary_)
   {
     this->open(s, f[0], f[1], f[2]);
+    // Its number plus one: 0 is no facet.
     this->facetOfSide_[s.front[s.facets - 1].side] = static_cast<std::uint8_t>(s.facets);
     s.used |= bit(f[0]) | bit(f[1]) | bit(f[2]);
   }
@@ -197,6 +201,7 @@ void PolyhedronSearch::open(State& s, int a, int b, int c)
   s.open[a * n + b] |= bit(c);
   s.open[b * n + c] |= bit(a);
   s.open[c * n + a] |= bit(b);
+  // Exclusive or: the same once more takes the facet out of the hash.
   s.hash ^= scramble(side);
   this->blockEdges(s, a, b, c);
 }
@@ -243,6 +248,7 @@ void PolyhedronSearch::place(const Front& f, int p, const State& s, State& next)
 PolyhedronSearch::Mask PolyhedronSearch::apexes(const State& s, const Front& f) const
 {
   const int n = this->signs_.size();
+  // What is open already from this side must not open again.
   return this->apex_[f.side] &
     ~(s.blocked[f.a] | s.blocked[f.b] | s.blocked[f.c] | s.third[pairOf(f.a, f.b)] |
       s.third[pairOf(f.b, f.c)] | s.third[pairOf(f.c, f.a)] | s.open[f.a * n + f.b] |
@@ -401,6 +407,7 @@ double PolyhedronSearch::search(double above, long steps)
 /// The open facet with the fewest apexes left. False if one has none.
 bool PolyhedronSearch::choose(const State& s, Front& f, Mask& apexes) const
 {
+  // Fewest choices first: dead ends show early. One choice, or none, cannot be undercut.
   int fewest = MaximumPoints + 1;
   for (int k = 0; k < s.facets && fewest > 1; ++k)
   {
@@ -433,6 +440,7 @@ bool PolyhedronSearch::descend(int level, double worst)
     }
     return true;
   }
+  // If two fronts share a tag a filling may be missed; a wrong one cannot come of it.
   const std::uint64_t tag = s.hash ^ this->salt_;
   std::uint64_t& memory = this->deadEnds_[s.hash % Memory];
   Front f{};
@@ -463,6 +471,7 @@ bool PolyhedronSearch::branch(int level, double worst, const Front& f, Mask apex
     std::sort(t.begin(), t.end());
     order[n++] = { -this->quality_[quadrupleOf(t[0], t[1], t[2], t[3])], p };
   }
+  // Equal qualities are tried in the order of their points: the same on every run.
   std::sort(order.begin(), order.begin() + n);
   for (int k = 0; k < n; ++k)
   {

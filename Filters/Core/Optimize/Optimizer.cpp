@@ -117,6 +117,7 @@ template <int D>
 std::optional<NodalMetric<D>> Optimizer<D>::attainable()
 {
   const Run<D>& run = this->run_;
+  // Asked in any case: it also reports the longest kept edge.
   auto floor = keptSizeFloor(run.mesh(), run.metric, run.surface, run.report.sizes.longestKept);
   if (floor && run.options.beta > 0.0)
   {
@@ -139,6 +140,7 @@ void Optimizer<D>::judgeByWantedSizes()
   }
   computeQualities<D>(run.editor, run.metric, run.options.measure, run.options.beta);
   const PassRecord& row = this->run_.record("sizes as wanted");
+  // The engine has reached the target with the attainable sizes, perhaps not with the wanted ones.
   if (run.report.stopReason == StopReason::TargetReached && row.worst < run.options.targetQuality)
   {
     run.report.stopReason = StopReason::NoFurtherGain;
@@ -205,6 +207,7 @@ void Optimizer<D>::giveSizesUp(
   run.report.sizes.worstWithSizes = worst;
   if (!run.clock.hasStopped())
   {
+    // Progress was at its end before: it must not go back.
     const Clock::Part part(run.clock, 1.0, 1.0);
     optimizeWorstFirst<D>(this->run_);
   }

@@ -17,6 +17,7 @@ void numberPoints(const SimplexMesh<D>& mesh, FanCluster<D>& cluster)
   {
     cluster.points.insert(cluster.points.end(), f.begin(), f.end());
   }
+  // Sorted: the numbers do not depend on the order of the facets.
   std::sort(cluster.points.begin(), cluster.points.end());
   cluster.points.erase(
     std::unique(cluster.points.begin(), cluster.points.end()), cluster.points.end());
@@ -57,6 +58,8 @@ bool gatherFanCluster(
     const Index c = cluster.cells[k];
     for (int i = 0; i <= D; ++i)
     {
+      // The cell behind facet i has all nodes but node i: the core must be among them. What is not
+      // kept has a cell on its other side.
       if (!inCore(mesh.nodes(c)[i]) && !mesh.isConstrained(c, i))
       {
         const Index next = SimplexMesh<D>::cellOf(mesh.adjacent(c, i));

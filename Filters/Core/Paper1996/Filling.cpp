@@ -8,6 +8,7 @@ namespace meshopt
 template <int D>
 void ReconnectionMemory<D>::resize(const SimplexMesh<D>& mesh)
 {
+  // Changed at 1 and failed at 0: what was never tried is fresh.
   this->time = std::max<std::uint32_t>(this->time, 1);
   this->failed.resize(mesh.numberOfCellSlots(), 0);
   this->ahead.resize(mesh.numberOfCellSlots(), 0);
@@ -48,6 +49,7 @@ void ElementClusters<D>::gather(
   {
     Part<D>& part = this->edges_[e];
     part.core = { nodes[Local<D>::edges[e][0]], nodes[Local<D>::edges[e][1]] };
+    // A change in the cluster of an edge touches both of its ends.
     part.usable = hasChanged(part.core[0]) && hasChanged(part.core[1]) &&
       gatherFanCluster<D>(editor, c, part.core.data(), 2, part.cluster);
   }

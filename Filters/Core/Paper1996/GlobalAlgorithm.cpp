@@ -63,6 +63,7 @@ bool GlobalAlgorithm<D, Shape>::solve(Index worst)
   const Cluster<D>& cluster = this->solver_.cluster();
   for (std::size_t k = 0; k < cluster.cells.size(); ++k)
   {
+    // The entries of the others in the queue are still right.
     if (cluster.quality[k] != this->solver_.oldQuality()[k])
     {
       this->queue_.push(cluster.cells[k]);

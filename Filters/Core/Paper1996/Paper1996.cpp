@@ -66,6 +66,7 @@ bool Paper1996<D>::goesOn(const char* stage, double worst)
   return this->run_.clock.goesOn(1.0 - 1.0 / (1.0 + ratio),
     [&]
     {
+      // The history begins with the input; an alternation mostly adds two rows.
       char text[96];
       std::snprintf(text, sizeof text, "%s %d: worst element %.4f", stage,
         static_cast<int>(this->run_.report.history.size() + 1) / 2, worst);
@@ -177,6 +178,7 @@ void Paper1996<D>::repositionAll()
   parameters.local.armijo = o.armijo;
 
   const SimplexMesh<D>& mesh = this->editor_.mesh();
+  // The editor tells nobody which nodes have moved: places before and after are compared.
   std::vector<Vec<D>> before(mesh.numberOfPointSlots());
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {

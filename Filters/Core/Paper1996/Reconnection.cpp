@@ -161,6 +161,7 @@ void Reconnection<D, Shape>::collectCandidates(Index worst)
     }
     return std::make_tuple(shared >= 2 ? 0 : 1, this->mesh_.quality(c), c);
   };
+  // A cell comes once for each node that it shares: sorted, these stand together.
   std::sort(this->candidates_.begin(), this->candidates_.end(),
     [&](Index a, Index b) { return rank(a) < rank(b); });
   this->candidates_.erase(

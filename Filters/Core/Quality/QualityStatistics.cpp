@@ -44,6 +44,7 @@ void QualityStatistics::add(const double* values, std::int64_t n)
   part.mean = part.count > 0 ? sum / static_cast<double>(part.count) : 0.0;
   for (std::int64_t i = 0; i < n; ++i)
   {
+    // A pass of its own: around the mean, squares do not cancel.
     const double d = values[i] - part.mean;
     part.squares += values[i] == values[i] ? d * d : 0.0;
   }
@@ -57,12 +58,14 @@ void QualityStatistics::merge(const QualityStatistics& other)
   {
     return;
   }
+  // Chan, Golub and LeVeque: squares around the common mean, from those around both means.
   const double a = static_cast<double>(this->count), b = static_cast<double>(other.count);
   const double d = other.mean - this->mean;
   this->count += other.count;
   this->inverted += other.inverted;
   this->minimum = std::min(this->minimum, other.minimum);
   this->maximum = std::max(this->maximum, other.maximum);
+  // The first part is taken over bit for bit.
   this->mean = a == 0.0 ? other.mean : this->mean + d * (b / (a + b));
   this->squares += other.squares + d * d * (a * b / (a + b));
 }
@@ -81,6 +84,7 @@ void QualityHistogram::add(double value)
   const int last = static_cast<int>(this->counts.size()) - 1;
   const double width = this->high - this->low;
   const double place = width > 0.0 ? (value - this->low) / width * (last + 1) : 0.0;
+  // Values beyond an end count in the bin there, and the upper end itself in the last one.
   ++this->counts[static_cast<int>(std::min<double>(last, std::max(0.0, std::floor(place))))];
 }
 
@@ -95,6 +99,7 @@ void QualityHistogram::merge(const QualityHistogram& other)
 double QualityHistogram::edge(int i) const
 {
   const int n = static_cast<int>(this->counts.size());
+  // The last edge exactly, not up to rounding.
   return i >= n ? this->high : this->low + (this->high - this->low) * (static_cast<double>(i) / n);
 }
 
@@ -106,6 +111,7 @@ void WorstElements::insert(const WorstElement& e)
   }
   if (this->heap_.size() == this->size_)
   {
+    // The front of the heap is the best of the worst ones: it makes room.
     std::pop_heap(this->heap_.begin(), this->heap_.end());
     this->heap_.back() = e;
   }

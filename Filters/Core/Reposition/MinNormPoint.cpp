@@ -95,6 +95,7 @@ bool MinNormPoint<D>::append(const std::vector<SparsePoint<D>>& points, int k)
     return false;
   }
   this->corral_.push_back(k);
+  // It gets its weight in reduceToCorral().
   this->weights_.push_back(0.0);
   return true;
 }
@@ -117,6 +118,7 @@ void MinNormPoint<D>::affineWeights()
 {
   const std::size_t n = this->corral_.size();
   this->affine_.assign(n, 1.0);
+  // Solves (Gram + scale ee') w = e by the factor: forward, then back.
   for (std::size_t i = 0; i < n; ++i)
   {
     for (std::size_t j = 0; j < i; ++j)
@@ -185,6 +187,7 @@ bool MinNormPoint<D>::reduceToCorral()
     {
       if (this->weights_[i]<LeastWeight&& this->corral_.size()> 1)
       {
+        // From the back, so that the places of those still to be looked at stay.
         this->drop(i);
         lowest = std::min(lowest, i);
       }

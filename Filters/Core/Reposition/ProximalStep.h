@@ -64,7 +64,7 @@ public:
           worst = k;
         }
       }
-      if (least >= level - 1e-9 || this->has(worst) || this->size_ == Room)
+      if (least >= level - Rounding || this->has(worst) || this->size_ == Room)
       {
         return least;
       }
@@ -80,6 +80,10 @@ public:
 
 private:
   static constexpr int Room = D + 2;
+  static constexpr double Rounding = 1e-9;     ///< of a quality
+  static constexpr double LeastWeight = 1e-12; ///< a function with less is not in the corral
+  static constexpr double Ridge = 1e-10;       ///< of the trace: see affine()
+  static constexpr double NotZero = 1e-300;    ///< where a divisor may be 0
 
   void push(int k, double mu)
   {
@@ -115,9 +119,9 @@ private:
       double step = 1.0;
       for (int i = 0; i < this->size_; ++i)
       {
-        if (mu[i] < 1e-12)
+        if (mu[i] < LeastWeight)
         {
-          const double reach = this->mu_[i] / std::max(this->mu_[i] - mu[i], 1e-300);
+          const double reach = this->mu_[i] / std::max(this->mu_[i] - mu[i], NotZero);
           if (reach < step || out < 0)
           {
             step = std::min(step, reach);
@@ -161,7 +165,7 @@ private:
     }
     for (int i = 0; i < s; ++i)
     {
-      a[i][i] += 1e-10 * trace + 1e-300;
+      a[i][i] += Ridge * trace + NotZero;
     }
     a[s][s] = 0.0;
     a[s][s + 1] = 1.0;

@@ -89,6 +89,7 @@ std::string Options::check(bool hasSizes) const
   {
     return "The algorithm is none of the known ones.";
   }
+  // One sentence, the first that applies: all three parts are checked whatever the algorithm.
   std::string error = checkQuality(*this, hasSizes);
   if (error.empty())
   {

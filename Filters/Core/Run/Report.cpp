@@ -45,6 +45,7 @@ std::string describeStop(const Report& report)
   std::string list;
   for (const auto& [number, place] : places)
   {
+    // Kinds without a node of the worst cell are not named.
     list += number == 0 ? "" : (list.empty() ? "" : ", ") + std::to_string(number) + " " + place;
   }
   return list.empty() || report.stopReason == StopReason::TargetReached

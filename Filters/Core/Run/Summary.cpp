@@ -15,6 +15,7 @@ void computeQualities(
   dispatch<D>(measure,
     [&](auto shape)
     {
+      // The measure is chosen here, once, and not in the loop.
       const ElementQuality<D, decltype(shape)> quality{ beta };
       const SimplexMesh<D>& mesh = editor.mesh();
       for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
@@ -46,6 +47,7 @@ PassRecord summarize(const SimplexMesh<D>& mesh, double target, long* inverted)
       ++row.cells;
     }
   }
+  // Without cells: numbers that can be shown, not infinity.
   row.worst = row.cells > 0 ? row.worst : 0.0;
   row.mean = row.cells > 0 ? sum / static_cast<double>(row.cells) : 0.0;
   row.points = mesh.countPoints();

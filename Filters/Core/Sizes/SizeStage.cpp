@@ -57,6 +57,7 @@ void SizeStage<D>::record()
     row.done[static_cast<int>(op)] += count;
     row.tried[static_cast<int>(op)] += count;
   }
+  // The next row of the history counts from here.
   this->judge().done.fill(0);
   this->judge().tried.fill(0);
   this->splits_ = this->contractions_ = this->motions_ = 0;

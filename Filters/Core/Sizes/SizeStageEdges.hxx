@@ -24,10 +24,13 @@ void SizeStage<D>::push(Index c, bool isLong)
   for (const auto& e : Local<D>::edges)
   {
     const Index p = this->mesh().nodes(c)[e[0]], q = this->mesh().nodes(c)[e[1]];
+    // Sorted ends: each of the cells at the edge must get the same length, bit for bit.
     const Index a = std::min(p, q), b = std::max(p, q);
     const double l = this->length(a, b);
     if (isLong ? l > this->longest_ : l < Shortest)
     {
+      // The queue gives the largest first: the shortest edge is the one with the largest negative
+      // length.
       this->queue_.push({ isLong ? l : -l, a, b, c });
     }
   }
@@ -41,6 +44,7 @@ void SizeStage<D>::collectQueue(bool isLong)
   {
     if (this->mesh().isAlive(c))
     {
+      // An edge comes once for each of its cells. After its change isThere() fails for the others.
       this->push(c, isLong);
     }
   }
@@ -57,6 +61,7 @@ void SizeStage<D>::swapAround(Push&& push)
   {
     const Index c = this->stack_.back();
     this->stack_.pop_back();
+    // A swap may have taken the cell while it was waiting.
     if (!this->mesh().isAlive(c))
     {
       continue;
@@ -175,6 +180,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
     Jitter * noise(a, b);
   bool isKept = false;
   const std::optional<Span> span = this->spanOf(edge, isKept);
+  // A kept edge that lies on no curve has no place for a new node.
   if (isKept && !span)
   {
     return false;
@@ -182,6 +188,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
   const double parameter = span ? span->from + t * (span->to - span->from) : 0.0;
   const Vec<D> x = span ? this->run_.surface->at(span->part, parameter)
                         : Vec<D>(this->mesh().point(a) + t * e);
+  // The new node must be there before cells with it can be measured: a refusal takes it back.
   const auto mark = this->judge().begin();
   const Index p = this->editor_.addPoint(x);
   this->editor_.movePoint(p, x, a);

@@ -54,11 +54,13 @@ bool SizeStage<D>::moveNode(Index v)
       }
     }
   }
+  // A neighbour comes once for each cell that it shares with v, but has one edge.
   std::sort(this->neighbours_.begin(), this->neighbours_.end());
   this->neighbours_.erase(
     std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
   if (static_cast<Index>(this->failedAt_.size()) <= v)
   {
+    // Nodes have come by splits since the last call.
     this->failedAt_.resize(this->mesh().numberOfPointSlots(), 0);
   }
   // Its edges also change when a neighbour moves: look at the stamps of the neighbours, too.
@@ -93,6 +95,7 @@ bool SizeStage<D>::moveSlidingNode(Index v, double worst, double energy)
   const double s = place.parameter;
   for (double part : { 0.5, 0.25 })
   {
+    // Half of the difference makes both edges equally long, if the parameter goes with the length.
     place.parameter = s + part * std::fabs(l0 - l1) / std::max(l0, l1) * (to - s);
     const Vec<D> x = this->run_.surface->at(place.part, place.parameter);
     if (this->tryPlace(v, x, place, worst, energy))
@@ -113,6 +116,7 @@ bool SizeStage<D>::moveFreeNode(Index v, double worst, double energy)
   for (Index w : this->neighbours_)
   {
     const Vec<D>& y = this->mesh().point(w);
+    // Along the same line from y, at the wanted length.
     target += y + (x - y) / this->length(v, w);
   }
   target /= static_cast<double>(this->neighbours_.size());
@@ -154,6 +158,7 @@ void SizeStage<D>::swapWhatChanged()
   for (Index c = 0; c < this->mesh().numberOfCellSlots() && this->options_.reconnect; ++c)
   {
     const auto isNew = [&](Index p) { return this->mesh().pointData(p).stamp > since; };
+    // A swap may put a new cell into this slot: look at it again.
     while (this->mesh().isAlive(c) && this->mesh().quality(c) < SwapBelow<D> &&
       std::any_of(this->mesh().nodes(c).begin(), this->mesh().nodes(c).end(), isNew) &&
       this->improver_.swap(c))

@@ -221,6 +221,7 @@ Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& 
     double middle = 0.0;
     this->curves_[g].closest(
       Vec<2>(0.5 * (mesh.point(chain.points[0]) + mesh.point(chain.points[1]))), middle);
+    // The middle counts little: it only decides between curves that are equally near.
     const double rank = std::max(worst, tolerance) + 1e-3 * middle;
     if (rank < best)
     {

@@ -24,6 +24,8 @@ void CurvePieces::join()
       const auto [entry, isNew] = this->betweenCorners_.emplace(ends, static_cast<Index>(k));
       if (!isNew)
       {
+        // Of several pieces it is not known which one an edge is on, unless one piece is a single
+        // edge.
         const Index other = entry->second;
         const bool otherIsEdge = other != None && this->pieces_[other].isEdge;
         entry->second = this->pieces_[k].isEdge ? static_cast<Index>(k)

@@ -57,6 +57,7 @@ LineNetwork keptLines(const SimplexMesh<2>& mesh)
     for (int i = 0; i < 3 && mesh.isAlive(c); ++i)
     {
       const Index h = mesh.adjacent(c, i);
+      // From the cell with the lower number.
       if (mesh.isConstrained(c, i) && (h == None || mesh.cellOf(h) > c))
       {
         result.lines.push_back(mesh.facet(c, i));
@@ -77,6 +78,7 @@ void markCorners(LineNetwork& network, double cornerAngle)
     {
       continue;
     }
+    // Where lines end or more than two meet.
     bool isCorner = lines[p].size() != 2;
     if (!isCorner)
     {
@@ -139,6 +141,7 @@ std::vector<LineChain> chains(const LineNetwork& network)
 void markKinks(LineNetwork& network)
 {
   const Lines lines = linesOfPoints(network);
+  // A copy: what is found here must not change what its neighbours are compared with.
   const std::vector<std::uint8_t> corners = network.corners;
   const auto next = [&](Index from, Index p) // None behind a corner
   {

@@ -78,6 +78,7 @@ void PlaneCurve::fit()
   Eigen::MatrixXd values(total, 2);
   for (int i = 0; i < total; ++i)
   {
+    // A closed curve is run through more than once: the same points, a period later.
     const int k = i - wrap;
     const int turns = this->isClosed_ ? static_cast<int>(std::floor(k / static_cast<double>(n)))
                                       : 0;

@@ -76,6 +76,7 @@ Vec<3> normalOf(const SurfacePiece<3>& piece)
 /// A convex polygon in the frame of a facet of the reference: (u, v, height).
 struct Polygon
 {
+  // A triangle that three lines clip has at most six corners.
   std::array<Vec<3>, 8> x;
   int size = 0;
 
@@ -204,6 +205,7 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
       }
       const Vec<3> y = nearestInTriangle(f.x, Vec<3>(this->x));
       const double d = (y - this->x).squaredNorm();
+      // Of equals the first: the order in which the tree is searched must not matter.
       if (d < this->distance || (d == this->distance && k < this->facet))
       {
         this->distance = d;
@@ -346,6 +348,7 @@ bool ReferenceSurface::covers(
   }
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(Reach * this->tolerance_);
   box = Box(box.min() - margin, box.max() + margin);
+  // Of each thread: chunks ask at the same time.
   thread_local std::vector<int> near;
   thread_local std::vector<std::uint8_t> unclear;
   this->findNear(box, None, near);

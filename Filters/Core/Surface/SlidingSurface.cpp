@@ -28,6 +28,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   this->freedom_ = division.freedom;
   this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
   this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
+  // First the patches: curves ask the reference how much room they have.
   this->addPatches(editor, division);
   this->addCurves(editor, division);
   for (const auto& [a, b] : division.bentEdges)
@@ -316,6 +317,7 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
       {
         const Vec<3>& a = mesh.point(f[0]);
         const Vec<3> n = (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
+        // Both sums are weighted by area.
         normal += mesh.region(c) == this->patches_[place.part].region ? n : Vec<3>(-n);
         bends += n * n.transpose() / std::max(n.norm(), std::numeric_limits<double>::min());
       }
@@ -415,6 +417,7 @@ bool SlidingSurface::mayDivide(
         sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]) == sortedIds(a, b);
     }
   }
+  // A facet between two regions comes from both sides, and from each cell that has it.
   std::sort(patches.begin(), patches.end());
   patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
   const bool isLocked = std::any_of(
@@ -567,6 +570,7 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
     {
       const Index patch = mesh.isConstrained(c, i) ? mesh.patch(c, i) : None;
+      // A facet between regions counts once, from the side of its patch.
       if (patch == None || mesh.region(c) != this->patches_[patch].region)
       {
         continue;

@@ -39,6 +39,7 @@ double SpaceCurve::inRange(double s) const
 
 std::size_t SpaceCurve::segmentAt(double s) const
 {
+  // Without the first and the last knot: both ends of the curve lie in a segment, too.
   const auto next = std::upper_bound(this->knots_.begin() + 1, this->knots_.end() - 1, s);
   return static_cast<std::size_t>(next - this->knots_.begin()) - 1;
 }

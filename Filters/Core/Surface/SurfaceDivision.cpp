@@ -48,6 +48,7 @@ double SurfaceDivision::cosine(double degrees)
 SurfaceDivision::SurfaceDivision(const SimplexMesh<3>& mesh, const SurfaceOptions& options)
   : mesh_(mesh)
 {
+  // The order matters: each step reads what those before it have found.
   this->tolerance = options.tolerance;
   this->measure();
   this->collectParts(options);
@@ -76,6 +77,7 @@ void SurfaceDivision::measure()
   this->diagonal = box.diagonal().norm();
   const double greatest = std::max(
     box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  // By the tolerance as it was asked for, before it is raised to rounding.
   this->isExact = this->tolerance < ExactBelow * this->diagonal;
   this->rounding = Ulps * std::numeric_limits<double>::epsilon() * greatest;
   this->tolerance = std::clamp(
@@ -215,6 +217,7 @@ bool SurfaceDivision::isFlat(const Edge& edge) const
 
 bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) const
 {
+  // The border of a sheet, or where more than two facets meet.
   if (edge.last - edge.first != 2)
   {
     return true;
@@ -250,6 +253,7 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
     edge.isCurve = this->isCurve(edge, options);
     const bool hasAngle = edge.last - edge.first == 2;
     edge.isSharp = hasAngle && this->isSharp(edge, options.featureAngle);
+    // Only near these may new sharp edges come.
     if (!hasAngle || this->isSharp(edge, 0.5 * options.featureAngle))
     {
       this->bentEdges.push_back(edge.nodes);
@@ -399,6 +403,7 @@ void SurfaceDivision::findPatches()
   }
   for (Edge& edge : this->edges_)
   {
+    // Where a bent part was divided by planes, patches also meet at edges that are no curves yet.
     edge.isCurve = edge.isCurve ||
       this->parts[this->incidences_[edge.first]].patch !=
         this->parts[this->incidences_[edge.last - 1]].patch;

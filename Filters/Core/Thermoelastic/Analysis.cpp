@@ -62,6 +62,7 @@ public:
     }
     this->d_ = discretize(this->mesh_, this->problem_, this->control_);
     this->assembleAndSolve(watch);
+    // Nothing follows from a solution that was cut short.
     if (this->solution_.solver.status != SolverStatus::Cancelled)
     {
       this->findStresses();
@@ -134,6 +135,7 @@ private:
     }
     if (this->problem_.rigidMotion == RigidMotion::Project)
     {
+      // Weighted by volume: the motion of the body counts, however its points are spread.
       removeRigidMotions(this->mesh_, this->modes_, this->pointVolumes(), u);
     }
   }

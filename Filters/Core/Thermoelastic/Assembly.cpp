@@ -21,6 +21,7 @@ ElementGeometry<D> elementGeometry(const Corners<D>& x)
   {
     edges.row(i) = (x[i + 1] - x[0]).transpose();
   }
+  // Gradient i has the product 1 with edge i, and 0 with the others. All gradients add up to 0.
   const Eigen::Matrix<double, D, D> inverse = edges.inverse();
   ElementGeometry<D> g;
   g.volume = signedVolume(x);
@@ -73,6 +74,7 @@ void findNeighbours(
     const Simplex<D>& nodes = mesh.nodes(*c);
     neighbours.insert(neighbours.end(), nodes.begin(), nodes.end());
   }
+  // In rising order: so are the columns of the rows, as Eigen needs them.
   std::sort(neighbours.begin(), neighbours.end());
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
 }
@@ -261,6 +263,7 @@ Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint
   std::vector<std::uint8_t> isFixed(n, 0);
   for (const Constraint& c : constraints)
   {
+    // The last constraint of a component holds.
     isFixed[D * c.point + c.component] = 1;
     u.prescribed[D * c.point + c.component] = c.value;
   }
@@ -292,6 +295,8 @@ LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& d,
     {
       continue;
     }
+    // The place of each row is known before any is filled: threads then need not wait for each
+    // other.
     if (offsets[row] > std::numeric_limits<int>::max() - counts[dof / D])
     {
       throw std::bad_alloc(); // 2^31 entries are 25 GB
@@ -302,6 +307,7 @@ LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   parallelRanges(control, mesh.numberOfPointSlots(),
     [&](Index begin, Index end)
     {
+      // Each thread writes rows of its own points, and nothing else.
       RowGatherer<D> gatherer(mesh, d, unknowns, forces, system);
       for (Index p = begin; p < end; ++p)
       {

@@ -148,6 +148,7 @@ SolverReport solve(const LinearSystem& system, const SolverOptions& options, con
   x = VectorXd::Zero(system.right.size());
   if (system.right.size() == 0 || system.right.squaredNorm() == 0.0)
   {
+    // Residuals are relative to the load: without one there is nothing to solve.
     SolverReport report;
     report.status = SolverStatus::Converged;
     report.history.push_back(0.0);

@@ -41,6 +41,8 @@ void addTraction(const SimplexMesh<D>& mesh, const Facet<D>& facet,
   const std::array<Vec<D>, D>& traction, std::vector<Vec<D>>& forces)
 {
   const double measure = areaVector<D>(facetCorners<D>(mesh, facet)).norm();
+  // The integral of phi_i phi_j over a facet is its measure / (D (D + 1)), and twice that for i =
+  // j.
   Vec<D> sum = Vec<D>::Zero();
   for (const Vec<D>& t : traction)
   {
@@ -57,6 +59,7 @@ void addPressure(const SimplexMesh<D>& mesh, const Facet<D>& facet,
   const std::array<double, D>& pressure, std::vector<Vec<D>>& forces)
 {
   const Vec<D> inward = areaVector<D>(facetCorners<D>(mesh, facet));
+  // Weights as in addTraction().
   double sum = 0.0;
   for (double p : pressure)
   {

@@ -31,6 +31,7 @@ std::optional<Error> checkLengths(const SimplexMesh<D>& mesh, const Problem<D>& 
   {
     return Error{ "The mesh has no elements." };
   }
+  // One material is that of all cells.
   if (problem.materials.size() != 1)
   {
     error = checkLength("Materials", problem.materials.size(), cells, "cells");
@@ -49,6 +50,7 @@ std::optional<Error> checkLengths(const SimplexMesh<D>& mesh, const Problem<D>& 
 template <int D>
 std::optional<Error> checkMaterials(const Problem<D>& problem)
 {
+  // With one material for all, no cell is to blame.
   const bool one = problem.materials.size() == 1;
   for (std::size_t c = 0; c < problem.materials.size(); ++c)
   {
@@ -71,6 +73,7 @@ std::optional<Error> checkPoints(const SimplexMesh<D>& mesh, const Problem<D>& p
   }
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
+    // Points that no cell uses may carry anything.
     if (!mesh.isPointAlive(p))
     {
       continue;
@@ -106,6 +109,7 @@ std::optional<Error> checkConstraints(const SimplexMesh<D>& mesh, const Problem<
           std::to_string(c.component) + ", but there are " + std::to_string(D) + ".",
         None, c.point };
     }
+    // Where no cell is, a constraint has no effect.
     if (!std::isfinite(c.value) && mesh.isPointAlive(c.point))
     {
       return Error{ "The prescribed displacement at point " + std::to_string(c.point) +
@@ -125,6 +129,7 @@ double shape(const Corners<D>& x)
   {
     perimeter += (x[e[1]] - x[e[0]]).norm();
   }
+  // The regular element has 1.
   const double scale = D == 3 ? 1296.0 * std::sqrt(2.0) : 36.0 / std::sqrt(3.0);
   return scale * signedVolume(x) / std::pow(perimeter, D);
 }
@@ -135,6 +140,7 @@ std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     const Corners<D> x = mesh.corners(c);
+    // By shape and not by volume: the limit does not depend on units.
     const double s = shape<D>(x);
     if (s > FlatShape)
     {
@@ -201,6 +207,7 @@ double freeAxialStrain(const SimplexMesh<D>& mesh, const Problem<D>& problem)
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     const Material& m = problem.material(c);
+    // Weighted by stiffness: the stress along the axis then adds up to no force.
     const double w = m.youngsModulus * signedVolume(mesh.corners(c));
     strain += w * m.thermalExpansion * meanTemperatureRise(mesh, problem, c);
     weight += w;

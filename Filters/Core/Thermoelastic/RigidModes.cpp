@@ -34,6 +34,7 @@ MotionMatrix<3> motionMatrix(const Vec<3>& r)
 template <class Group, class Point>
 auto motionMatrix(const Group& group, const Point& x)
 {
+  // In units of the group: rotations then displace about as much as translations.
   return motionMatrix(Point((x - group.centre) / group.length));
 }
 
@@ -53,6 +54,7 @@ struct Groups
   {
     while (this->parent[i] != i)
     {
+      // Halves the path for later calls.
       i = this->parent[i] = this->parent[this->parent[i]];
     }
     return i;
@@ -173,6 +175,7 @@ private:
     this->bodyOfCell_.assign(n, None);
     for (Index c = 0; c < n; ++c)
     {
+      // Leaders come before their followers: bodies are numbered by their first cells.
       const Index leader = joined.find(c); // <= c
       if (leader == c)
       {
@@ -198,6 +201,7 @@ private:
         }
         else if (bodyOf[p] != this->bodyOfCell_[c])
         {
+          // A hinge may come several times: the same condition twice leaves the same motions free.
           this->hinges_.push_back({ p, bodyOf[p], this->bodyOfCell_[c] });
         }
       }
@@ -358,6 +362,7 @@ std::string describeMotion(const Vec<3>& t, const Vec<3>& w, const Vec<3>& centr
     return "translate along " + list<3>(t.normalized(), 1.0);
   }
   const Vec<3> axis = w.normalized();
+  // The point of the axis nearest to the centre: w x t / |w|^2.
   const Vec<3> r = Vec<3>(w[1] * t[2] - w[2] * t[1], w[2] * t[0] - w[0] * t[2],
                      w[0] * t[1] - w[1] * t[0]) /
     w.squaredNorm();

@@ -82,6 +82,7 @@ void removeRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
     {
       continue;
     }
+    // Normal equations: the motion that is nearest to the displacement, by weighted squares.
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(free.cols(), free.cols());
     Eigen::VectorXd part = Eigen::VectorXd::Zero(free.cols());
     for (Index p : points[g])
@@ -110,6 +111,7 @@ std::string findImbalance(const SimplexMesh<D>& mesh, const RigidModes<D>& modes
     double sum = 0.0;
     for (Index p : points[g])
     {
+      // Virtual work: a load in balance does none in a free motion.
       resultant += modes.displacements(mesh, p, named).transpose() * forces[p];
       sum += forces[p].norm();
     }

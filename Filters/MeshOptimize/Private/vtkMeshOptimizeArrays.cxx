@@ -88,6 +88,7 @@ std::string CheckArraysAreThere(
     [](vtkUnstructuredGrid* grid) { return grid->GetNumberOfCells() > 0; });
   for (int i = 0; i < NumberOfInputArrays && hasCells; ++i)
   {
+    // A block may lack what others have: only an array that none has is an error.
     const auto hasArray = [&](vtkUnstructuredGrid* grid)
     {
       vtkMeshBridge::ArrayRole role;

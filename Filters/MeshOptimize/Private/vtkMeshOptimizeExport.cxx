@@ -118,10 +118,12 @@ void ExportPoints(const Model<D>& model, const OutputMap& map, vtkUnstructuredGr
   vtkUnstructuredGrid* grid = model.Grid;
   const vtkIdType n = static_cast<vtkIdType>(map.PointToSlot.size());
   vtkNew<vtkPoints> points;
+  // What has been optimized is not rounded to floats; what has not changed keeps its type.
   points->SetDataType(map.SampledPoints.empty() ? grid->GetPoints()->GetDataType() : VTK_DOUBLE);
   points->SetNumberOfPoints(n);
   for (vtkIdType id = 0; id < map.NumberOfOldPoints; ++id)
   {
+    // From the grid, bit for bit: the way through a tilted plane and back would round.
     double x[3];
     grid->GetPoint(map.PointToSlot[id], x);
     points->SetPoint(id, x);

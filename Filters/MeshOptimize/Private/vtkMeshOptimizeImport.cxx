@@ -53,6 +53,7 @@ void KeepTriangle(const vtkIdType* ids, MeshInput<3>& input)
 template <int D>
 void ImportKept(vtkUnstructuredGrid* grid, const Cells& cells, MeshInput<D>& input)
 {
+  // Every cell is a simplex of the mesh: none passes through.
   if (cells.IsIdentity())
   {
     return;

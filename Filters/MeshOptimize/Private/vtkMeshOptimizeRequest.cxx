@@ -67,6 +67,7 @@ void Outcome::Add(const Outcome& other)
   const bool isFirst = this->NumberOfCellsBefore == 0;
   meshopt::Report& mine = this->Report;
   const meshopt::Report& its = other.Report;
+  // A grid without simplices has no qualities: its zeros must not count.
   if (other.NumberOfCellsBefore > 0)
   {
     mine.worstBefore = isFirst ? its.worstBefore : std::min(mine.worstBefore, its.worstBefore);

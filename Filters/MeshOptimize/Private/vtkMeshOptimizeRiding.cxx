@@ -93,6 +93,7 @@ Riding FacesAmong(const Riding& triangles, const Model<3>& model)
     for (int i = 0; i < 4; ++i)
     {
       const vtkIdType face[3] = { ids[(i + 1) % 4], ids[(i + 2) % 4], ids[(i + 3) % 4] };
+      // Most faces have a point that no triangle uses: they need no search.
       const bool mayBe = std::all_of(face, face + 3,
         [&](vtkIdType p) { return (model.Cells.PointUse[p] & vtkMeshBridge::UsedByOther) != 0; });
       if (mayBe)
@@ -181,6 +182,7 @@ void FindRiding(Model<3>& model)
   {
     rides[c] = 1;
   }
+  // Triangles that ride do not hold their points; all other cells do.
   for (std::uint8_t& use : model.Cells.PointUse)
   {
     use &= std::uint8_t(~vtkMeshBridge::UsedByOther);
@@ -218,6 +220,7 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
   {
     arrays.push_back(model.Arrays.Patch);
   }
+  // Triangles whose data differ lie in different patches: their border stays.
   std::map<std::vector<double>, Index> numbers;
   std::vector<std::pair<Facet<3>, Index>> labels;
   for (const auto& [key, cell] : model.Riding)

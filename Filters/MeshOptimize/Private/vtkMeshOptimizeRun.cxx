@@ -131,6 +131,7 @@ void Export(const Request& request, const typename SurfaceOf<D>::type& surface, 
     TransferNodeSets(model, surface, map, output->GetPointData());
   }
   TransferCellData(input->GetCellData(), map, output->GetCellData());
+  // For the array of qualities alone: the run must not have seen values of ghosts.
   SetMetricOfGhosts(request, model);
   AddMeshQuality(model, map, request.Options, output);
   if (request.Slide)

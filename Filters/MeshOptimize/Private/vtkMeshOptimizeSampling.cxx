@@ -108,6 +108,7 @@ template <int D>
 std::vector<Sample> SampleInput(const Model<D>& model, const OutputMap& map)
 {
   const SimplexMesh<D>& mesh = model.Mesh;
+  // Points that have moved or come lie where cells have changed: the others are not searched.
   const std::vector<Index> changed = ListChangedSimplices(model, map);
   const Background<D> background = MakeBackground(model, changed);
   std::vector<Sample> samples;

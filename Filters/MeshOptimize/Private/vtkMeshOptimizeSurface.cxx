@@ -316,6 +316,7 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
   }
   if (!request.ToleranceIsAbsolute && box.IsValid())
   {
+    // Of all blocks together: the same tolerance everywhere.
     request.Surface.tolerance *= box.GetDiagonalLength();
     request.ToleranceIsAbsolute = true;
   }

@@ -37,6 +37,11 @@ enum Reason
   NumberOfReasons
 };
 
+using Kind = SurfaceFault<3>::Kind;
+static_assert(NoArea == static_cast<int>(Kind::NoArea));
+static_assert(Folded == static_cast<int>(Kind::Folded));
+static_assert(Crossing == static_cast<int>(Kind::Crossing));
+
 /**
  * Cells of the output with the same reason.
  */
@@ -141,6 +146,7 @@ template <int D>
 Reason FindReason(const SimplexMesh<D>& mesh, const meshopt::Report& report, Index slot)
 {
   using meshopt::StopReason;
+  // First: of a run that was ended early nothing else can be said.
   if (report.stopReason == StopReason::Aborted || report.stopReason == StopReason::TimeLimit ||
     report.stopReason == StopReason::IterationLimit)
   {
@@ -217,6 +223,7 @@ std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
   for (std::size_t c = 0; c < map.CellToSlot.size(); ++c)
   {
     const Index slot = map.CellToSlot[c];
+    // Written so that a quality that is not a number counts, too.
     if (slot != meshopt::None && !(mesh.quality(slot) > 0.0))
     {
       bad.push_back(c);

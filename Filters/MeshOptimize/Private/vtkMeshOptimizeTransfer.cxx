@@ -149,6 +149,7 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
     }
     if (IsNamed(source, vtkDataSetAttributes::GhostArrayName()))
     {
+      // A new point is no ghost, whatever it was made from.
       FillNew(array, map.NumberOfOldPoints, 0.0);
     }
     AddArray(input, i, array, output);
@@ -177,7 +178,7 @@ void TransferCellData(
   for (int i = 0; i < input->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* source = input->GetAbstractArray(i);
-    // of the input's cells, which are others
+    // Those of the input's cells, which are others; the filter adds new ones.
     if (IsNamed(source, "MeshQuality") || IsNamed(source, "MinimumDihedralAngle"))
     {
       continue;

@@ -117,6 +117,7 @@ std::vector<char> MarkZone(
   bool grows = false;
   for (Index k = 0; k < model.Mesh.numberOfInputCells(); ++k)
   {
+    // What is outside passes through as the grid numbers it: cells that were renumbered are inside.
     isInside[k] = qualities[k] < request.OptimizeBelow ||
       IsReversed<D>(model.Grid, model.Cells.Simplices[k], model.Mesh.nodes(k));
     grows |= isInside[k] != 0;
@@ -173,6 +174,7 @@ void BuildZone(const std::vector<char>& isInside, Model<D>& model)
       input.cells[next++] = model.Mesh.nodes(k);
     }
   }
+  // The whole mesh has been oriented. The volume of a part alone may mislead.
   input.isOriented = true;
   SimplexMesh<D>::build(input, model.Mesh); // cannot fail: the whole mesh was built before
 }
@@ -248,6 +250,7 @@ void AddLeftOut(const LeftOut& rest, Outcome& outcome)
   lower(report.worstAfter, outcome.NumberOfCells);
   average(report.meanBefore, outcome.NumberOfCellsBefore);
   average(report.meanAfter, outcome.NumberOfCells);
+  // What is left out stays: nothing can lift the whole above its worst.
   report.bound = std::min(report.bound, rest.Worst);
   outcome.NumberOfCellsBefore += rest.NumberOfCells;
   outcome.NumberOfCells += rest.NumberOfCells;

@@ -173,7 +173,7 @@ void Grid::ReadRegions(vtkDataArray* array)
 
 //------------------------------------------------------------------------------
 /**
- * Reads the metric of the cells that count.
+ * Points of the simplices that count: ghosts do not.
  */
 std::vector<bool> Grid::FindUsedPoints() const
 {
@@ -215,6 +215,9 @@ std::string Grid::ReadSizes(vtkDataArray* array)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Only tensors of cells that count must be usable. Those of the others become NaN if they are not.
+ */
 template <int D>
 std::string Grid::ReadMetric(
   vtkDataArray* array, const vtkMeshBridge::Frame<D>& frame, std::vector<meshopt::Tensor<D>>& logs)
@@ -231,6 +234,7 @@ std::string Grid::ReadMetric(
         const meshopt::Tensor<D> m = vtkMeshBridge::ReadTensor(array, p, frame);
         if (!meshopt::logarithm<D>(m, logs[p]) && used[p])
         {
+          // The lowest id: the message must not depend on the threads.
           vtkIdType known = firstBad.load();
           while (p < known && !firstBad.compare_exchange_weak(known, p))
           {

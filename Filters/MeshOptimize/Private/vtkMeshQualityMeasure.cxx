@@ -112,6 +112,7 @@ private:
     {
       const ElementMetric<3> metric = this->MetricOf<3>(ids, 3);
       size.desiredSize = metric.desiredSize;
+      // The first corner last: the others are taken relative to it.
       for (int i = 2; !metric.euclidean && i >= 0; --i)
       {
         x[i] = metric.map * (x[i] - x[0]);
@@ -210,6 +211,7 @@ template <class Shape>
 std::vector<Chunk> MeasureChunks(
   const Grid& grid, const Options& options, std::int64_t part, double* quality)
 {
+  // Chunks of one length, added up in their order: the same bits for any number of threads.
   const vtkIdType length = meshopt::StatisticsChunk;
   const vtkIdType n = grid.GetNumberOfCells();
   std::vector<Chunk> chunks((n + length - 1) / length);

@@ -131,10 +131,12 @@ bool Reduce(vtkMultiProcessController* controller, bool failed, std::size_t numb
   {
     return !failed;
   }
+  // Processes that have failed take part, too: the others would wait for them for ever.
   vtkMultiProcessStream mine;
   mine << failed;
   Put(mine, figures);
   std::vector<vtkMultiProcessStream> all;
+  // Everybody gets all, and adds up in the order of ranks: the same bits everywhere.
   controller->AllGather(mine, all);
   figures = Figures(numberOfWorstCells);
   bool anyFailed = false;
@@ -263,6 +265,7 @@ void FillWorstCells(const Options& options, const std::vector<meshopt::WorstElem
   {
     const auto block = std::find_if(
       blocks.begin(), blocks.end(), [&e](const Block& b) { return b.Part == e.part; });
+    // A cell of another rank: it is in the output there.
     if (block == blocks.end())
     {
       continue;

@@ -11,6 +11,7 @@
  */
 #include "vtkMeshQualityMeasure.h"
 
+#include "Base/Scramble.h"
 #include "Bound/SurfaceBound.h"
 
 #include "vtkSMPTools.h"
@@ -30,17 +31,6 @@ using meshopt::Vec;
 
 using Key = std::uint64_t;
 constexpr vtkIdType Length = 16384;
-
-/**
- * A pseudo-random number for a number (the finalizer of splitmix64).
- */
-Key Scramble(Key x)
-{
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
 
 /**
  * A facet at a point of the surface.
@@ -116,12 +106,15 @@ private:
     {
       return false;
     }
-    Key sum = this->Mesh.HasRegions() ? Scramble(~static_cast<Key>(this->Mesh.GetRegion(cell))) : 0;
+    // The region is part of the key: a facet between two regions has two keys, and does not cancel.
+    Key sum = this->Mesh.HasRegions()
+      ? meshopt::scramble(~static_cast<Key>(this->Mesh.GetRegion(cell)))
+      : 0;
     Key keys[D + 1];
     f.Opposite = 0;
     for (int i = 0; i <= D; ++i)
     {
-      keys[i] = Scramble(static_cast<Key>(ids[i]));
+      keys[i] = meshopt::scramble(static_cast<Key>(ids[i]));
       sum += keys[i];
       f.Opposite = ids[i] < ids[f.Opposite] ? i : f.Opposite;
     }
@@ -129,7 +122,8 @@ private:
     f.Next = -1;
     for (int i = 0; i <= D; ++i)
     {
-      f.Keys[i] = Scramble(sum - keys[i]);
+      // A sum does not depend on the order in which a cell lists its points.
+      f.Keys[i] = meshopt::scramble(sum - keys[i]);
       f.Next = i != f.Opposite && (f.Next < 0 || ids[i] < f.Next) ? ids[i] : f.Next;
     }
     return true;

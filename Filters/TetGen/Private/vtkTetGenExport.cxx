@@ -31,6 +31,7 @@ void ExportPoints(
   const vtkIdType fresh = static_cast<vtkIdType>(mesh.Points.size() / 3) - used;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
+  // All points of the input stay, used or not: their ids are those of the input.
   points->SetNumberOfPoints(old + fresh);
   for (vtkIdType p = 0; p < old; ++p)
   {
@@ -127,6 +128,7 @@ double Side(const double* a, const double* b, const double* c, const double* x)
 std::ptrdiff_t FindTetrahedron(const Mesh& mesh, const double* x)
 {
   static const int faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
+  // One after the other: there are few region points.
   for (std::size_t t = 0; t < mesh.Regions.size(); ++t)
   {
     const int* corners = mesh.Tetrahedra.data() + 4 * t;

@@ -138,6 +138,7 @@ vtkSmartPointer<vtkPolyData> CutIntoTriangles(vtkPolyData* input)
   ids->SetName(CellIdName);
   ids->SetNumberOfTuples(input->GetNumberOfCells());
   std::iota(ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfTuples(), vtkIdType(0));
+  // Cell data go along: each triangle knows the cell that it was cut from.
   numbered->GetCellData()->AddArray(ids);
   vtkNew<vtkTriangleFilter> cut;
   cut->PassVertsOff();
@@ -270,6 +271,7 @@ std::string CheckClosed(const Surface& surface)
     for (next = i + 1; next < edges.size() && edges[next].first == edges[i].first; ++next)
     {
     }
+    // Three and more facets at an edge are no fault: walls between compartments meet the hull so.
     if (next - i == 1)
     {
       first = open++ == 0 ? i : first;

@@ -130,6 +130,8 @@ std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
   std::map<Facet<D>, Facet<D>> oriented;
   for (const Facet<D>& facet : surface)
   {
+    // A pressure acts inwards: the mesh tells where that is, the numbering of the facet's cell does
+    // not.
     oriented[sorted(facet)] = facet;
   }
   for (vtkIdType c = 0; c < model.Grid->GetNumberOfCells(); ++c)

@@ -47,6 +47,7 @@ std::string CheckCellTypes(vtkUnstructuredGrid* grid, int dimension)
     {
       continue;
     }
+    // Asked once for each type: a generic cell is made for it.
     if (dimensions[type] < 0)
     {
       dimensions[type] = DimensionOf(type);

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tetrahedra as arrays, from and to the files that the tools of peers.py read and write."""
 import meshio
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """gmsh_optimize.py IN.vtu OUT.vtu METHOD [THRESHOLD]: Gmsh on a mesh whose surface is kept; prints the seconds.
 
 METHOD: default (Gmsh's own), Netgen, or hxt: HXT makes the interior anew, within the same surface, and optimizes it.

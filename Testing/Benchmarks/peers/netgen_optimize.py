@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """netgen_optimize.py IN.vtu OUT.vtu: Netgen's optimization of a volume mesh, its surface kept; prints the seconds."""
 import sys
 import time

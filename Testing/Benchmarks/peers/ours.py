@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """ours.py IN.vtu OUT.vtu quick|default|best|paper: vtkMeshOptimizeFilter on one thread; prints its seconds."""
 import sys
 
