@@ -293,6 +293,7 @@ std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
 std::vector<vtkUnstructuredGrid*> GridsOf(const std::vector<Task>& tasks)
 {
   std::vector<vtkUnstructuredGrid*> grids;
+  grids.reserve(tasks.size());
   for (const Task& task : tasks)
   {
     grids.push_back(task.Input);

@@ -138,7 +138,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
       around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
     const bool isFixed = isMarked || isLocked || touching[p];
     this->freedom[p] = isFixed || this->isExact ? Freedom::Fixed : Freedom::Corner;
-    if (isFixed || (curves.size() != 0 && curves.size() != 2) || this->isPinched(p, around, curves))
+    if (isFixed || (!curves.empty() && curves.size() != 2) || this->isPinched(p, around, curves))
     {
       continue;
     }

@@ -226,6 +226,7 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
   for (const auto& [key, cell] : model.Riding)
   {
     std::vector<double> values;
+    values.reserve(arrays.size());
     for (vtkDataArray* array : arrays)
     {
       values.push_back(array->GetComponent(cell, 0));
