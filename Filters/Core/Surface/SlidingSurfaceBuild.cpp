@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a sliding surface is made from the division of a mesh: patches, curves, node sets.
+#include "Mesh/Ids.h"
+#include "Surface/SlidingSurface.h"
+
+#include <algorithm>
+
+namespace meshopt
+{
+void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
+{
+  *this = SlidingSurface();
+  const SurfaceDivision division(editor.mesh(), options);
+  this->isExact_ = division.isExact;
+  this->tolerance_ = division.tolerance;
+  this->freedom_ = division.freedom;
+  this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
+  this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
+  // First the patches: curves ask the reference how much room they have.
+  this->addPatches(editor, division);
+  this->addCurves(editor, division);
+  for (const auto& [a, b] : division.bentEdges)
+  {
+    this->bent_.add(editor.mesh().point(a), editor.mesh().point(b));
+  }
+  this->bent_.finish();
+  this->corners_.resize(division.freedom.size());
+  for (std::size_t p = 0; p < division.freedom.size(); ++p)
+  {
+    const auto id = static_cast<Index>(p);
+    if (division.freedom[p] == Freedom::Patch)
+    {
+      editor.setPlace(id, { Freedom::Patch, division.patchOfPoint[p], 0.0 });
+    }
+    else if (division.freedom[p] == Freedom::Corner)
+    {
+      this->corners_[p] = editor.mesh().point(id);
+      editor.setPlace(id, { Freedom::Corner, id, 0.0 });
+    }
+  }
+  if (!options.sets.empty())
+  {
+    this->addSets(editor, division, options.sets);
+  }
+}
+
+void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
+{
+  const SimplexMesh<3>& mesh = editor.mesh();
+  this->patches_.resize(division.numberOfPatches);
+  for (Index k = 0; k < division.numberOfPatches && this->isExact_; ++k)
+  {
+    Patch& patch = this->patches_[k];
+    patch.plane = division.planes[k];
+    const Vec<3>& n = patch.plane.normal;
+    // A plane along axes gets a basis along axes: coordinates that are equal then stay so.
+    int axis = 0;
+    n.cwiseAbs().minCoeff(&axis);
+    patch.basis[0] = n.cross(Vec<3>(Vec<3>::Unit(axis))).normalized();
+    patch.basis[1] = n.cross(patch.basis[0]);
+  }
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    editor.setPatch(mesh.cellOf(part.handle), mesh.facetOf(part.handle), part.patch);
+    if (part.patch == None)
+    {
+      continue;
+    }
+    Patch& patch = this->patches_[part.patch];
+    patch.region = part.region;
+    patch.isSigned = part.region != part.other;
+    patch.label = part.label;
+    this->reference_.add(
+      { mesh.point(part.nodes[0]), mesh.point(part.nodes[1]), mesh.point(part.nodes[2]) },
+      part.patch, patch.isSigned, part.other == None);
+    this->inputFacets_.push_back(sortedIds(part.nodes));
+  }
+  this->reference_.finish(this->tolerance_, division.rounding);
+}
+
+void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& division)
+{
+  const SimplexMesh<3>& mesh = editor.mesh();
+  for (const SurfaceDivision::Chain& chain : division.chains)
+  {
+    if (chain.isFixed)
+    {
+      continue; // its edge is kept like the others, but belongs to no curve that may change
+    }
+    std::vector<Vec<3>> points;
+    for (Index p : chain.points)
+    {
+      points.push_back(mesh.point(p));
+    }
+    std::vector<double> rooms;
+    for (std::size_t k = 0; k < points.size() && !this->isExact_; ++k)
+    {
+      rooms.push_back(this->reference_.clearance(points[k]));
+    }
+    SpaceCurve curve(std::move(points), chain.isClosed);
+    curve.setRooms(std::move(rooms));
+    const auto number = static_cast<Index>(this->curves_.size());
+    CurvePiece piece;
+    piece.curve = number;
+    if (chain.isClosed)
+    {
+      piece.period = curve.length();
+    }
+    else
+    {
+      piece.ends = { chain.points.front(), chain.points.back() };
+      piece.range = { 0.0, curve.length() };
+      piece.isEdge = chain.points.size() == 2;
+    }
+    for (std::size_t k = 0; k < chain.points.size(); ++k)
+    {
+      if (division.freedom[chain.points[k]] == Freedom::Curve)
+      {
+        editor.setPlace(chain.points[k], { Freedom::Curve, number, curve.parameter(k) });
+      }
+    }
+    this->pieces_.add(piece);
+    this->curves_.push_back(curve);
+    this->isSharp_.push_back(chain.isSharp);
+  }
+  this->pieces_.join();
+  const auto isOnCurve = [&](Index a, Index b)
+  {
+    return std::binary_search(
+      division.curveEdges.begin(), division.curveEdges.end(), sortedIds(a, b));
+  };
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    const Index handles[2] = { part.handle,
+      mesh.adjacent(mesh.cellOf(part.handle), mesh.facetOf(part.handle)) };
+    for (Index h : handles)
+    {
+      for (int i = 0; i < 3 && h != None; ++i)
+      {
+        const Index a = part.nodes[i], b = part.nodes[(i + 1) % 3];
+        if (isOnCurve(a, b))
+        {
+          editor.keepEdge(mesh.cellOf(h), a, b);
+        }
+      }
+    }
+  }
+}
+
+void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
+  const std::vector<std::uint32_t>& sets)
+{
+  const SimplexMesh<3>& mesh = editor.mesh();
+  constexpr std::uint32_t all = ~std::uint32_t(0);
+  for (Patch& patch : this->patches_)
+  {
+    patch.sets = all;
+  }
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    for (int i = 0; i < 3 && part.patch != None; ++i)
+    {
+      this->patches_[part.patch].sets &= sets[part.nodes[i]];
+    }
+  }
+  // A curve is in the sets of the patches beside it.
+  this->setsOfCurve_.assign(this->curves_.size(), 0);
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    for (int i = 0; i < 3 && part.patch != None; ++i)
+    {
+      const auto span = this->span(mesh, part.nodes[i], part.nodes[(i + 1) % 3]);
+      if (span)
+      {
+        this->setsOfCurve_[span->part] |= this->patches_[part.patch].sets;
+      }
+    }
+  }
+  this->sets_ = all;
+  for (std::size_t p = 0; p < sets.size(); ++p)
+  {
+    const Place place = mesh.place(static_cast<Index>(p));
+    if (place.freedom == Freedom::Curve)
+    {
+      this->sets_ &= ~(sets[p] & ~this->setsOfCurve_[place.part]);
+    }
+    else if (place.freedom == Freedom::Patch)
+    {
+      this->sets_ &= ~(sets[p] & ~this->patches_[place.part].sets);
+    }
+  }
+  this->setsOfPoint_ = sets;
+}
+}
