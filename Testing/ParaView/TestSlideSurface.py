@@ -5,6 +5,7 @@ import runpy
 import sys
 
 import numpy as np
+from paraview import servermanager, simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -44,5 +45,19 @@ def measures(points, tetrahedra):
 (_, before, cells_before), (after_grid, after, cells_after) = read(pellet), read(path)
 (volume, area), (new_volume, new_area) = measures(before, cells_before), measures(after, cells_after)
 check(abs(new_volume / volume - 1) < 1e-13 and abs(new_area / area - 1) < 1e-13, "volume and area", new_volume / volume, new_area / area)
+# The patch array may be chosen at points or on cells, with the association or by name alone: none of these is an error.
+# (What it does is tested in C++.)
+box = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-3, 3, -3, 3, -3, 3]))
+held = simple.Calculator(Input=box, ResultArrayName="Held", Function="if(coordsZ < -2.9 & coordsX < 0.1, 1, 0)")
+numbered = simple.Calculator(Input=held, AttributeType="Cell Data", ResultArrayName="Number", ResultArrayType="Int", Function="1")
+for chosen in (["POINTS", "Held"], "Held", ["CELLS", "Number"], "Number"):
+    riding = simple.MeshOptimize(Input=numbered, BoundaryMode="Slide", SurfaceTolerance=0, PatchArray=chosen)
+    riding.UpdatePipeline()
+    riding.UpdatePropertyInformation()
+    check(riding.WorstQualityAfter >= riding.WorstQualityBefore > 0, "patch array", chosen, riding.WorstQualityAfter)
+    grid = servermanager.Fetch(riding)
+    nodes, x = vtk_to_numpy(grid.GetPointData().GetArray("Held")), vtk_to_numpy(grid.GetPoints().GetData())
+    where = x[nodes != 0]
+    check((where[:, 2] == -3).all() and where[:, 0].max() < 0.1, "nodes of the set", chosen, where.max(axis=0))
 places = vtk_to_numpy(after_grid.GetPointData().GetArray("BoundaryPlace"))
 check(set(np.unique(places)) == {0, 1, 2, 3}, "places", np.bincount(places))

@@ -124,16 +124,9 @@ Riding FacesAmong(const Riding& triangles, const Model<3>& model)
 std::vector<std::pair<Facet<3>, Index>> ListFacets(const SimplexMesh<3>& mesh)
 {
   std::vector<std::pair<Facet<3>, Index>> facets;
-  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
-  {
-    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
-    {
-      if (mesh.isConstrained(c, i) && mesh.adjacent(c, i) < mesh.handle(c, i))
-      {
-        facets.emplace_back(meshopt::sortedIds(mesh.facet(c, i)), mesh.patch(c, i));
-      }
-    }
-  }
+  ForKeptFacets(mesh,
+    [&](Index c, int i)
+    { facets.emplace_back(meshopt::sortedIds(mesh.facet(c, i)), mesh.patch(c, i)); });
   std::sort(facets.begin(), facets.end());
   return facets;
 }

@@ -15,6 +15,24 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
+ * Calls f(cell, facet) for each kept facet of the mesh, from one of its sides.
+ */
+template <class F>
+void ForKeptFacets(const meshopt::SimplexMesh<3>& mesh, F&& f)
+{
+  for (meshopt::Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
+    {
+      if (mesh.isConstrained(c, i) && mesh.adjacent(c, i) < mesh.handle(c, i))
+      {
+        f(c, i);
+      }
+    }
+  }
+}
+
+/**
  * Finds these triangles, and notes them in the model. Their points are then used by tetrahedra
  * only. A face with two triangles has none that rides.
  */

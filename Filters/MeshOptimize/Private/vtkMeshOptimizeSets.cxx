@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMeshOptimizeSets.h"
 
+#include "vtkMeshOptimizeRiding.h"
 #include "vtkMeshOptimizeTransfer.h"
 
 #include "vtkDataArray.h"
@@ -55,21 +56,6 @@ Values ValueOf(vtkDataArray* array, vtkIdType p)
     return {};
   }
   return IsInteger(array) ? values : Values{ 1.0 };
-}
-
-template <class F>
-void ForKeptFacets(const SimplexMesh<3>& mesh, F&& f)
-{
-  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
-  {
-    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
-    {
-      if (mesh.isConstrained(c, i) && mesh.adjacent(c, i) < mesh.handle(c, i))
-      {
-        f(c, i);
-      }
-    }
-  }
 }
 
 std::vector<Index> ListSurfacePoints(const SimplexMesh<3>& mesh)
