@@ -10,7 +10,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
 {
   this->bound_ = 1.0;
   this->largest_ = -1.0;
-  this->hasTiny_ = false;
+  this->isAtTiny_.clear();
   this->facets_.clear();
   this->edges_.clear();
   if (!known)
@@ -29,7 +29,14 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
     if (surface.sideCaps[k] < limit)
     {
       this->facets_[sortedIds(surface.sides[k].nodes)] = surface.sideCaps[k];
-      this->hasTiny_ |= surface.sideCaps[k] < Tiny;
+      if (surface.sideCaps[k] < Tiny)
+      {
+        this->isAtTiny_.resize(mesh.numberOfPointSlots(), 0);
+        for (Index p : surface.sides[k].nodes)
+        {
+          this->isAtTiny_[p] = 1;
+        }
+      }
       this->largest_ = std::max(this->largest_, surface.sideCaps[k]);
     }
   }
@@ -46,13 +53,8 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
 }
 
 template <int D>
-double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
+double Caps<D>::find(const Facet<D>& f) const
 {
-  // Most facets have a point inside: they need no look into the table.
-  if (std::any_of(f.begin(), f.end(), [&](Index p) { return !mesh.isBoundary(p); }))
-  {
-    return 1.0;
-  }
   const auto found = this->facets_.find(sortedIds(f));
   return found == this->facets_.end() || found->second >= Tiny
     ? 1.0
@@ -60,7 +62,7 @@ double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
 }
 
 template <int D>
-double Caps<D>::weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) const
+double Caps<D>::greatestWeight(const Simplex<D>& nodes) const
 {
   double weight = 1.0;
   for (int i = 0; i <= D; ++i)
@@ -68,7 +70,7 @@ double Caps<D>::weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) cons
     Facet<D> f;
     std::copy_n(nodes.begin(), i, f.begin());
     std::copy(nodes.begin() + i + 1, nodes.end(), f.begin() + i);
-    weight = std::max(weight, this->weight(mesh, f));
+    weight = std::max(weight, this->weight(f));
   }
   return weight;
 }
@@ -77,7 +79,7 @@ template <int D>
 bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 {
   // Stored qualities may be weighed; caps never are.
-  const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh, mesh.nodes(c)) : 1.0);
+  const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh.nodes(c)) : 1.0);
   // The caps are looked up only for cells that may be at one: most are above the largest cap.
   if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))
   {

@@ -35,11 +35,14 @@ public:
   /// Rounding are mostly rounding errors and would allow gains without end, so no weight is greater
   /// than full / Rounding.
   static constexpr double Tiny = 0.2, Rounding = 1e-6;
-  bool hasTiny() const { return this->hasTiny_; }
+  bool hasTiny() const { return !this->isAtTiny_.empty(); }
   void setFull(double quality) { this->full_ = quality; }
   /// The weight of a facet (1 unless its cap is tiny), and the greatest weight of a cell's facets.
-  double weight(const SimplexMesh<D>& mesh, Facet<D> f) const;
-  double weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) const;
+  double weight(const Facet<D>& f) const { return this->numberAtTiny(f) < D ? 1.0 : this->find(f); }
+  double weight(const Simplex<D>& nodes) const
+  {
+    return this->numberAtTiny(nodes) < D ? 1.0 : this->greatestWeight(nodes);
+  }
   /// Says whether the qualities stored in the mesh are weighted.
   void setWeighed(bool on) { this->weighed_ = on; }
 
@@ -57,13 +60,28 @@ private:
     }
   };
 
+  /// How many of the points lie at some facet with a tiny cap. Hardly any do: most facets and cells
+  /// need no look into the table.
+  template <std::size_t N>
+  int numberAtTiny(const std::array<Index, N>& points) const
+  {
+    int n = 0;
+    for (Index p : points)
+    {
+      n += static_cast<std::size_t>(p) < this->isAtTiny_.size() && this->isAtTiny_[p];
+    }
+    return n;
+  }
+  double find(const Facet<D>& f) const;
+  double greatestWeight(const Simplex<D>& nodes) const;
   bool isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const;
 
   double reached_ = 0.998;
   double bound_ = 1.0;
   double largest_ = -1.0; // of all caps
   double full_ = 1.0;     // see setFull()
-  bool hasTiny_ = false, weighed_ = false;
+  bool weighed_ = false;
+  std::vector<std::uint8_t> isAtTiny_; ///< by point: it lies at a facet with a tiny cap
   std::unordered_map<Facet<D>, double, Hash> facets_;
   std::unordered_map<std::array<Index, 2>, double, Hash> edges_;
 };

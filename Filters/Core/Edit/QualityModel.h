@@ -53,7 +53,7 @@ struct QualityModel
   }
   double weight(const Facet<D>& f) const
   {
-    return this->weights ? this->weights->weight(*this->mesh, f) : 1.0;
+    return this->weights ? this->weights->weight(f) : 1.0;
   }
 
 private:
@@ -64,7 +64,7 @@ private:
   }
   [[gnu::noinline]] double weighted(const Simplex<D>& nodes, double q) const
   {
-    return q * this->weights->weight(*this->mesh, nodes);
+    return q * this->weights->weight(nodes);
   }
 };
 }

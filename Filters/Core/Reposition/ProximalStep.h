@@ -34,46 +34,29 @@ public:
   /// The step d for m >= 1 functions and tau > 0; returns the linearized minimum at d.
   double solve(const std::vector<Function>& f, double tau, Vec<D>& d)
   {
-    const int m = static_cast<int>(f.size());
+    const auto isWorse = [](const Function& a, const Function& b) { return a.q < b.q; };
     this->size_ = 0;
-    int first = 0;
-    for (int k = 1; k < m; ++k)
-    {
-      first = f[k].q < f[first].q ? k : first;
-    }
-    this->push(first, 1.0);
-    double level = f[first].q;
+    this->push(static_cast<int>(std::min_element(f.begin(), f.end(), isWorse) - f.begin()), 1.0);
+    double least = 0.0;
     // The limit guards against cycles from rounding: D + 2 functions at most are active.
     for (int iteration = 0; iteration < 4 * (D + 2); ++iteration)
     {
-      this->settle(f, tau, level);
-      d.setZero();
-      for (int i = 0; i < this->size_; ++i)
+      this->settle(f, tau);
+      Vec<D> sum = this->mu_[0] * f[this->id_[0]].g;
+      for (int i = 1; i < this->size_; ++i)
       {
-        d += tau * this->mu_[i] * f[this->id_[i]].g;
+        sum += this->mu_[i] * f[this->id_[i]].g;
       }
+      d = tau * sum;
+      // All functions of the corral have about this value.
+      const double level = at(f[this->id_[0]], d);
       // The function that the step makes the worst joins the corral.
-      int worst = 0;
-      double least = f[0].q + f[0].g.dot(d);
-      for (int k = 1; k < m; ++k)
-      {
-        const double value = f[k].q + f[k].g.dot(d);
-        if (value < least)
-        {
-          least = value;
-          worst = k;
-        }
-      }
+      const int worst = worstAt(f, d, least);
       if (least >= level - Rounding || this->has(worst) || this->size_ == Room)
       {
-        return least;
+        break;
       }
       this->push(worst, 0.0);
-    }
-    double least = f[0].q + f[0].g.dot(d);
-    for (const Function& k : f)
-    {
-      least = std::min(least, k.q + k.g.dot(d));
     }
     return least;
   }
@@ -106,15 +89,41 @@ private:
     }
   }
 
-  /// Minimizes over the affine hull of the corral. If the result is outside of the simplex, walks
-  /// to its border and drops the weight that is zero there. `level` is the common value of the
-  /// corral.
-  void settle(const std::vector<Function>& f, double tau, double& level)
+  static double at(const Function& f, const Vec<D>& d) { return f.q + f.g.dot(d); }
+
+  /// The function with the least value after step d, the first of several; and that value. Two
+  /// searches side by side: each waits for its last comparison.
+  static int worstAt(const std::vector<Function>& f, const Vec<D>& d, double& least)
   {
-    while (true)
+    const int m = static_cast<int>(f.size());
+    int even = 0, odd = 0;
+    double low = at(f[0], d), other = low;
+    for (int k = 1; k + 1 < m; k += 2)
+    {
+      const double a = at(f[k], d), b = at(f[k + 1], d);
+      odd = a < other ? k : odd;
+      other = std::min(a, other);
+      even = b < low ? k + 1 : even;
+      low = std::min(b, low);
+    }
+    if (m % 2 == 0 && at(f[m - 1], d) < other)
+    {
+      odd = m - 1;
+      other = at(f[m - 1], d);
+    }
+    const bool isOdd = other < low || (other == low && odd < even);
+    least = isOdd ? other : low;
+    return isOdd ? odd : even;
+  }
+
+  /// Minimizes over the affine hull of the corral. If the result is outside of the simplex, walks
+  /// to its border and drops the weight that is zero there.
+  void settle(const std::vector<Function>& f, double tau)
+  {
+    while (this->size_ > 1)
     {
       double mu[Room];
-      this->affine(f, tau, mu, level);
+      this->affine(f, tau, mu);
       int out = -1;
       double step = 1.0;
       for (int i = 0; i < this->size_; ++i)
@@ -138,76 +147,85 @@ private:
         return;
       }
       this->drop(out);
-      if (this->size_ == 1)
-      {
-        this->mu_[0] = 1.0;
-      }
     }
+    this->mu_[0] = 1.0;
   }
 
-  /// Solves q_i + tau g_i . sum mu_j g_j = level, sum mu = 1 over the corral. A corral of D + 2
-  /// functions is never independent. The tiny ridge makes the system solvable, so that one of them
-  /// is dropped correctly.
-  void affine(const std::vector<Function>& f, double tau, double* mu, double& level) const
+  /// Solves q_i + tau g_i . sum mu_j g_j = level, sum mu = 1 over the corral. The first equation
+  /// is subtracted from the others, and its weight is 1 less the others: what remains is
+  /// symmetric, with the products of the differences of the gradients. A corral of D + 2 functions
+  /// is never independent. The tiny ridge makes the system solvable, so that one of them is dropped
+  /// correctly.
+  void affine(const std::vector<Function>& f, double tau, double* mu) const
   {
-    const int s = this->size_;
-    double a[Room + 1][Room + 2];
-    double trace = 0.0;
-    for (int i = 0; i < s; ++i)
+    constexpr int most = Room - 1;
+    const int n = this->size_ - 1;
+    const Function& first = f[this->id_[0]];
+    Vec<D> h[most];
+    double a[most][most], b[most];
+    double trace = first.g.squaredNorm();
+    for (int i = 0; i < n; ++i)
     {
+      const Function& other = f[this->id_[i + 1]];
+      trace += other.g.squaredNorm();
+      h[i] = other.g - first.g;
+      b[i] = first.q - other.q - tau * h[i].dot(first.g);
       for (int j = 0; j <= i; ++j)
       {
-        a[i][j] = a[j][i] = tau * f[this->id_[i]].g.dot(f[this->id_[j]].g);
+        a[i][j] = tau * h[i].dot(h[j]);
       }
-      trace += a[i][i];
-      a[i][s] = a[s][i] = 1.0;
-      a[i][s + 1] = -f[this->id_[i]].q;
     }
-    for (int i = 0; i < s; ++i)
+    const double ridge = Ridge * tau * trace + NotZero;
+    for (int i = 0; i < n; ++i)
     {
-      a[i][i] += Ridge * trace + NotZero;
+      b[i] += ridge;
+      a[i][i] += ridge;
+      for (int j = 0; j <= i; ++j)
+      {
+        a[i][j] += ridge;
+      }
     }
-    a[s][s] = 0.0;
-    a[s][s + 1] = 1.0;
-    eliminate(a, s + 1);
-    for (int i = 0; i < s; ++i)
+    solveSymmetric(a, b, n);
+    mu[0] = 1.0;
+    for (int i = 0; i < n; ++i)
     {
-      mu[i] = a[i][s + 1];
+      mu[i + 1] = b[i];
+      mu[0] -= b[i];
     }
-    level = -a[s][s + 1];
   }
 
-  static void eliminate(double a[][Room + 2], int n)
+  /// By the factors L D L^T of a positive matrix, of which the lower half is given. The result
+  /// replaces b.
+  template <int N>
+  static void solveSymmetric(double (&a)[N][N], double (&b)[N], int n)
   {
-    // Gauss with partial pivoting, at most D + 3 equations.
-    for (int k = 0; k < n; ++k)
+    double inverse[N];
+    for (int i = 0; i < n; ++i)
     {
-      int pivot = k;
-      for (int i = k + 1; i < n; ++i)
+      for (int j = 0; j < i; ++j)
       {
-        pivot = std::fabs(a[i][k]) > std::fabs(a[pivot][k]) ? i : pivot;
-      }
-      if (pivot != k)
-      {
-        std::swap_ranges(a[k], a[k] + n + 1, a[pivot]);
-      }
-      const double inverse = a[k][k] != 0.0 ? 1.0 / a[k][k] : 0.0;
-      for (int i = k + 1; i < n; ++i)
-      {
-        const double factor = a[i][k] * inverse;
-        for (int j = k + 1; j <= n; ++j)
+        // a[i][k], k < j, holds L[i][k] D[k] until the row is done.
+        for (int k = 0; k < j; ++k)
         {
-          a[i][j] -= factor * a[k][j];
+          a[i][j] -= a[i][k] * a[j][k];
         }
       }
-    }
-    for (int k = n; k-- > 0;)
-    {
-      for (int j = k + 1; j < n; ++j)
+      for (int j = 0; j < i; ++j)
       {
-        a[k][n] -= a[k][j] * a[j][n];
+        const double factor = a[i][j] * inverse[j];
+        a[i][i] -= factor * a[i][j];
+        b[i] -= factor * b[j];
+        a[i][j] = factor;
       }
-      a[k][n] = a[k][k] != 0.0 ? a[k][n] / a[k][k] : 0.0;
+      inverse[i] = a[i][i] > 0.0 ? 1.0 / a[i][i] : 0.0;
+    }
+    for (int i = n; i-- > 0;)
+    {
+      b[i] *= inverse[i];
+      for (int k = i + 1; k < n; ++k)
+      {
+        b[i] -= a[k][i] * b[k];
+      }
     }
   }
 

@@ -63,7 +63,7 @@ private:
       if (mesh.isAlive(c))
       {
         const Simplex<D>& nodes = mesh.nodes(c);
-        if (this->caps_.weight(mesh, nodes) > 1.0)
+        if (this->caps_.weight(nodes) > 1.0)
         {
           this->editor_.setQuality(c, this->model_(nodes));
         }

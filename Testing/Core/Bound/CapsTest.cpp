@@ -88,11 +88,11 @@ TEST(Caps, WeighWhatLiesOnTinyFacets)
       std::sort(f.begin(), f.end());
       do
       {
-        EXPECT_NEAR(caps.weight(mesh, f), expected, 1e-6 * expected);
+        EXPECT_NEAR(caps.weight(f), expected, 1e-6 * expected);
       } while (std::next_permutation(f.begin(), f.end()));
     }
-    EXPECT_NEAR(caps.weight(mesh, nodes), greatest, 1e-6 * greatest);
-    EXPECT_EQ(weighed(nodes), plain(nodes) * caps.weight(mesh, nodes));
+    EXPECT_NEAR(caps.weight(nodes), greatest, 1e-6 * greatest);
+    EXPECT_EQ(weighed(nodes), plain(nodes) * caps.weight(nodes));
     weighed.floor = 2 * plain(nodes); // it is worse: it has to be seen as what it is
     EXPECT_EQ(weighed(nodes), plain(nodes));
     weighed.floor = 0.0;
@@ -127,7 +127,7 @@ TEST(Caps, WithoutTinyFacetsAllWeighTheSame)
   EXPECT_FALSE(caps.hasTiny());
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
-    EXPECT_EQ(caps.weight(mesh, mesh.nodes(c)), 1.0);
+    EXPECT_EQ(caps.weight(mesh.nodes(c)), 1.0);
   }
 }
 

@@ -131,10 +131,10 @@ TEST(Model3D, WeightsCountFromTheFloorOn)
   model.weights = &caps;
   EXPECT_FALSE(model.fast());
   EXPECT_NEAR(model.weight(Facet<3>{ 0, 1, 2 }), 0.6 / cap, 1e-6 * 0.6 / cap);
-  EXPECT_EQ(model(nodes), q * caps.weight(mesh, nodes));
+  EXPECT_EQ(model(nodes), q * caps.weight(nodes));
   EXPECT_NEAR(model(nodes), 0.6, 1e-6); // at its cap it has what is full
   model.floor = q;
-  EXPECT_EQ(model(nodes), q * caps.weight(mesh, nodes));
+  EXPECT_EQ(model(nodes), q * caps.weight(nodes));
   model.floor = std::nextafter(q, 1.0);
   EXPECT_EQ(model(nodes), q); // worse than the floor: seen as what it is
 }

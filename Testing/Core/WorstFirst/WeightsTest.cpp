@@ -57,7 +57,7 @@ TEST(Weights, OnIsTimesTheWeightButNotUnderTheFloor)
   int raised = 0;
   for (Index c = 0; c < w.bench.mesh.numberOfCellSlots(); ++c)
   {
-    const double weight = w.caps.weight(w.bench.mesh, w.bench.mesh.nodes(c));
+    const double weight = w.caps.weight(w.bench.mesh.nodes(c));
     EXPECT_EQ(w.bench.mesh.quality(c), plain[c] * weight)
       << c; // the worst is at the floor, not under
     EXPECT_LE(w.bench.mesh.quality(c), std::max(Full, plain[c]) + 1e-6);
@@ -80,14 +80,14 @@ TEST(Weights, TheFloorIsWhatIsTheWorst)
   Index flat = None; // a cell on a tiny facet that is not the worst of all
   for (Index c = 0; c < w.bench.mesh.numberOfCellSlots(); ++c)
   {
-    const double weight = w.caps.weight(w.bench.mesh, w.bench.mesh.nodes(c));
+    const double weight = w.caps.weight(w.bench.mesh.nodes(c));
     flat = weight > 1.0 ? c : flat;
   }
   ASSERT_NE(flat, None);
   // all but that cell are good now: the floor rises to it
   for (Index c = 0; c < w.bench.mesh.numberOfCellSlots(); ++c)
   {
-    if (w.caps.weight(w.bench.mesh, w.bench.mesh.nodes(c)) == 1.0)
+    if (w.caps.weight(w.bench.mesh.nodes(c)) == 1.0)
     {
       w.bench.editor.setQuality(c, 0.8);
     }
