@@ -8,6 +8,7 @@
 #include "Metric/NodalMetric.h"
 #include "Quality/EdgeSum.h"
 #include "Quality/ElementQuality.h"
+#include "Quality/Evaluations.h"
 
 namespace meshopt
 {
@@ -38,6 +39,7 @@ struct QualityModel
   /// The quality of a cell if its nodes were at the places x.
   double at(const Simplex<D>& nodes, const Corners<D>& x) const
   {
+    ++evaluationsOfThread;
     const double q = this->plain ? Shape::value(x) : this->inMetric(nodes, x);
     const bool weigh = this->weights && !(q < this->floor);
     return weigh ? this->weighted(nodes, q) : q;

@@ -144,6 +144,7 @@ double Cavity<D, Shape>::plainQuality(const int* numbers) const
 {
   const PointData &a = this->points_[numbers[0]], &b = this->points_[numbers[1]];
   const Vec<D> u = b.x - a.x, w = this->x_ - a.x;
+  ++evaluationsOfThread;
   const double sum = a.weight + b.weight + EdgeSum<Shape>::weight(u.squaredNorm());
   if constexpr (D == 3)
   {

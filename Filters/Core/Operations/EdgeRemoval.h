@@ -294,10 +294,12 @@ double EdgeRemoval<D, Shape>::pair(
         const double base = this->weight_[i][k] + this->weight_[k][j] + this->weight_[i][j];
         const double high = EdgeSum<Shape>::quality(normal.dot(this->xHigh_ - this->x_[i]),
           base + this->weightHigh_[i] + this->weightHigh_[k] + this->weightHigh_[j]);
+        ++evaluationsOfThread;
         if (!(high > above))
         {
           return high;
         }
+        ++evaluationsOfThread;
         const double low = EdgeSum<Shape>::quality(normal.dot(this->x_[i] - this->xLow_),
           base + this->weightLow_[i] + this->weightLow_[k] + this->weightLow_[j]);
         return std::min(high, low);

@@ -37,6 +37,7 @@ template <class Shape>
 double SmallPolyhedron<Shape>::quality(const PolyhedronSearch::Tetrahedron& t) const
 {
   const auto [a, b, c, d] = t;
+  ++evaluationsOfThread;
   if constexpr (QualityModel<3, Shape>::HasSum)
   {
     // Weights of edges are computed once for each pair of points, when a point comes: a cell costs
@@ -53,6 +54,7 @@ double SmallPolyhedron<Shape>::quality(const PolyhedronSearch::Tetrahedron& t) c
   {
     return Shape::value(Corners<3>{ this->x_[a], this->x_[b], this->x_[c], this->x_[d] });
   }
+  --evaluationsOfThread; // the model counts it
   return (*this->model_)(Simplex<3>{ this->ids_[a], this->ids_[b], this->ids_[c], this->ids_[d] });
 }
 

@@ -2,6 +2,7 @@
 #include "Optimize/Optimizer.h"
 
 #include "Paper1996/Paper1996.h"
+#include "Quality/Evaluations.h"
 #include "Run/Run.h"
 #include "Sizes/SizeStage.h"
 #include "Surface/KeptSizes.h"
@@ -263,7 +264,9 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   report.history.push_back(input);
 
   Run<D> run{ editor, metric, surface, options, control, clock, report };
+  const EvaluationCount count;
   Optimizer<D>(run).optimize();
+  report.evaluations += count.get(); // of this thread, without those of chunks
 
   const PassRecord output = summarize(mesh, options.targetQuality, &report.invertedAfter);
   report.worstAfter = output.worst;

@@ -14,6 +14,7 @@
 
 #include "Mesh/Cluster.h"
 #include "Quality/ElementQuality.h"
+#include "Quality/Evaluations.h"
 #include "Reposition/Directions.h"
 #include "Reposition/MinNormPoint.h"
 #include "Reposition/TrustRegion.h"
@@ -95,6 +96,7 @@ private:
       }
       this->functions_.push_back(f);
     }
+    evaluationsOfThread += static_cast<std::int64_t>(this->functions_.size());
     this->worst_ = worst;
   }
 
@@ -151,6 +153,7 @@ private:
         c[i] = this->x_[cluster.nodes[k][i]];
       }
       this->values_[k] = ascent.quality.value(c, ascent.metric(k));
+      ++evaluationsOfThread;
       worst = std::min(worst, this->values_[k]);
       if (!(this->values_[k] > required))
       {

@@ -12,6 +12,7 @@
 #include "Mesh/LocalNumbers.h"
 #include "Quality/EdgeSum.h"
 #include "Quality/ElementQuality.h"
+#include "Quality/Evaluations.h"
 #include "Reposition/Directions.h"
 #include "Reposition/ProximalStep.h"
 #include "Reposition/TrustRegion.h"
@@ -95,6 +96,7 @@ public:
   double evaluate(const Vec<D>& x)
   {
     this->values_.resize(this->facets_.size());
+    evaluationsOfThread += static_cast<std::int64_t>(this->facets_.size());
     double worst = std::numeric_limits<double>::infinity();
     if (this->fast())
     {
@@ -215,6 +217,7 @@ private:
           { this->values_[k], this->directions_.along(this->gradient(k, x)) });
       }
     }
+    evaluationsOfThread += static_cast<std::int64_t>(this->active_.size());
   }
 
   Vec<D> gradient(std::size_t k, const Vec<D>& x) const

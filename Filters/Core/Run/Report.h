@@ -8,6 +8,7 @@
 #include "Mesh/Place.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,9 @@ struct Report
   std::array<int, NumberOfFreedoms> worstNodes{};
   SizeReport sizes;
   std::vector<PassRecord> history; ///< first row: the input
+  /// Qualities and gradients computed by the passes: what the run cost, whatever the machine. The
+  /// same for any number of threads.
+  std::int64_t evaluations = 0;
   double seconds = 0.0;
 };
 

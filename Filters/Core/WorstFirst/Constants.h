@@ -40,7 +40,7 @@ inline constexpr std::size_t MostBelowBound = 40;
 /// What that must gain to be repeated, relative to the worst quality; and how often polishing and
 /// repair follow each other if it does, by effort.
 inline constexpr double WideGain = 0.05;
-inline constexpr int PolishCycles[] = { 1, 4, 4 };
+inline constexpr int PolishCycles[] = { 2, 4, 4 };
 /// Up to the target, so many look-aheads are spent on polishing in a run: 1 for so many cells, but
 /// at least FewestLooks. Each takes as long as a pass over thousands of cells.
 inline constexpr Index CellsPerLook = 150;
@@ -87,8 +87,9 @@ inline constexpr long Creeping = 5;
 /// rounds, by effort.
 inline constexpr long CreepingPart = 2, CreepingTries = 100, CreepingLift = 10;
 inline constexpr int CreepingRounds[] = { 0, 8, 20 };
-/// A quick run that creeps gives up the many if they are more than this fraction of the cells.
-inline constexpr double ManyStuck = 0.05;
+/// A run that creeps gives up the many if they are more than this fraction of the cells; a quick run
+/// also if they are fewer, after the first stage.
+inline constexpr double ManyStuck = 0.5, ManyStuckQuick = 0.05;
 /// A stage ends if many cells are bad, and a pass leaves more than this fraction of them and does
 /// not lift the worst one.
 inline constexpr double HardlyFewer = 0.99;

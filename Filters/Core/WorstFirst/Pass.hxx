@@ -52,7 +52,13 @@ void Schedule<D, Shape>::drain(const Task& task, const std::vector<Index>& bad, 
   this->chunks_.open(n, n > 1 ? Shifts[this->variant_++ % std::size(Shifts)] : 0.0, bad);
   this->instruct(task);
   this->chunks_.run(
-    this->run_.control, [&](Worker& w) { this->work(w, task); },
+    this->run_.control,
+    [&](Worker& w)
+    {
+      EvaluationCount count;
+      this->work(w, task);
+      w.evaluations += count.take();
+    },
     [&] { return this->goesOn(task.target); });
   this->chunks_.close();
   this->gather();
@@ -129,6 +135,7 @@ void Schedule<D, Shape>::gather()
     {
       this->surface_[i] += std::exchange(judge.surfaceChanges[i], 0);
     }
+    this->run_.report.evaluations += std::exchange(w.evaluations, 0);
     this->looks_ += this->guard_ ? 0 : judge.tried[static_cast<int>(Operation::LookAhead)];
     for (int op = 0; op < NumberOfOperations; ++op)
     {

@@ -28,9 +28,22 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
     again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
       now > before * (1.0 + WideGain) && this->isFarBelowBound();
     this->reserve_ = isLast && !again ? 0 : this->reserve_;
-    const long bad = this->run_.report.history.back().belowTarget;
-    const bool onlyWorst = again || this->isQuickEnough(bad);
-    more = this->weighedStage(onlyWorst ? std::min(Stages[0], target) : target);
+    const bool many = this->run_.report.history.back().belowTarget > this->fewCells();
+    // The best effort polishes finely in any case, at the end of the run.
+    const bool finely = many && isLast && this->options_.effort != Effort::Best;
+    if (more && !again && finely && this->isFarBelowBound())
+    {
+      more = this->polish(target, true);
+    }
+    // Where many are bad, the worst of the cells that were made worse come first.
+    if (more && (many || again))
+    {
+      more = this->weighedStage(std::min(Stages[0], target));
+    }
+    if (more && !again && !(many && this->leavesMany_))
+    {
+      more = this->weighedStage(target);
+    }
   }
   return more;
 }

@@ -37,6 +37,7 @@ private:
   struct Worker : ChunkWorker<D>
   {
     Improver<D, Shape> improver;
+    std::int64_t evaluations = 0;
     long kept = 0, tries = 0; // in this pass
     long limit = 0;           // of the tries above the lowest level
     long looks = 0;           // the most look-aheads
@@ -100,12 +101,13 @@ private:
   {
     return this->caps_.bound() < 1.0 && this->worst() < NearBound * this->caps_.bound();
   }
-  /// Whether a quick run leaves the many bad cells as they are: a pass over them creeps, and the
+  /// Whether the many bad cells are left as they are from now on: a pass over them creeps, and the
   /// surface, that holds most of such cells, is kept. Only the worst get more effort.
-  bool isQuickEnough(long bad) const
+  bool givesUpMany(double target, long bad) const
   {
-    return this->options_.effort == Effort::Quick && this->guard_ && this->creeps_ &&
-      !this->slides() && bad > ManyStuck * static_cast<double>(this->mesh().countCells());
+    const bool isQuick = this->options_.effort == Effort::Quick && target > Stages[0];
+    return this->guard_ && this->creeps_ && !this->slides() &&
+      bad > (isQuick ? ManyStuckQuick : ManyStuck) * static_cast<double>(this->mesh().countCells());
   }
   /// How hard a try is, to compare with an earlier failure. Tries without guard are the hardest.
   int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }
@@ -141,6 +143,7 @@ private:
   bool isShort_ = false;              ///< a change was left out for lack of growth budget
   long kept_ = 0;                     ///< accepted changes of the pass
   bool creeps_ = false;               ///< the pass: see watch()
+  bool leavesMany_ = false;           ///< see givesUpMany()
   long looks_ = 0;                    ///< look-aheads of polish() up to now
   std::array<long, NumberOfOperations> tried_{}, done_{};
   std::array<long, 2> surface_{}; ///< the same for changes of the surface
@@ -247,6 +250,10 @@ void Schedule<D, Shape>::optimize()
   int idle = 0;
   for (std::size_t k = 0; k < stages.size() && more && idle < MostIdle; ++k)
   {
+    if (this->leavesMany_ && stages[k] < this->options_.targetQuality)
+    {
+      continue;
+    }
     const bool past = this->isPast(stages[k]);
     this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
     const double before = this->worst();

@@ -59,7 +59,9 @@ bool Schedule<D, Shape>::stage(double target)
     }
     const bool isSpent = !this->guard_ && !this->isPast(this->polishTarget_) &&
       this->looks_ >= this->mostLooks();
-    if (isSpent || (target > Stages[0] && this->isQuickEnough(below)))
+    const bool leavesMany = this->givesUpMany(target, below);
+    this->leavesMany_ |= leavesMany;
+    if (isSpent || leavesMany)
     {
       break;
     }
