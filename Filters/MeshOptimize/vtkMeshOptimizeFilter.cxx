@@ -87,6 +87,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "VolumeChange: " << this->VolumeChange << "\n";
   os << indent << "StopReason: " << this->GetStopReasonAsString() << "\n";
   os << indent << "NumberOfOperations: " << this->NumberOfOperations << "\n";
+  os << indent << "NumberOfEvaluations: " << this->NumberOfEvaluations << "\n";
   os << indent << "OptimizeSeconds: " << this->OptimizeSeconds << "\n";
 }
 
@@ -428,6 +429,7 @@ void vtkMeshOptimizeFilter::StoreResults(const Results& results)
   this->StopReason = static_cast<int>(report.stopReason);
   this->StopReasonText = meshopt::describeStop(report);
   this->NumberOfOperations = outcome.NumberOfOperations;
+  this->NumberOfEvaluations = report.evaluations;
   this->EdgeLengthShare = outcome.Lengths.share;
   this->SurfaceDistance = outcome.SurfaceDistance;
   this->VolumeChange = outcome.VolumeChange();

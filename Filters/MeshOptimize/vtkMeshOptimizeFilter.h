@@ -35,7 +35,8 @@
  *   here. Pedigree ids are not interpolated either, but a moved point keeps its own.
  * - field data: kept; added are `WorstQualityBefore`, `WorstQualityAfter`, `MeanQualityBefore`,
  *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfInvertedCellsBefore`,
- *   `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`, `NumberOfOperations`, `StopReason`.
+ *   `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`, `NumberOfOperations`,
+ *   `NumberOfEvaluations`, `StopReason`.
  * - the cell array `MeshQuality` (double): quality by the chosen measure, also of ghost cells; NaN
  *   for other cells. It is the active scalars, unless another cell array of the input is.
  *   `MinimumDihedralAngle`, which vtkMeshQualityMinMax adds, is of other cells and left out.
@@ -513,13 +514,16 @@ public:
    * of edges in the output that are 1/sqrt(2) to sqrt(2) times as long as wanted at their place, in
    * the metric if there is one; 0 if neither a size nor a metric was given. It is also in the field
    * data of the output, as is the histogram `EdgeLengthHistogram`. NumberOfOperations: of all kinds
-   * together. OptimizeSeconds: time in the optimizer, without import and export. It is in no output
+   * together. NumberOfEvaluations: qualities, and gradients of qualities, that the passes computed.
+   * It tells what a run cost, whatever the machine, and is the same for any number of threads.
+   * OptimizeSeconds: time in the optimizer, without import and export. It is in no output
    * array: outputs are the same bit for bit.
    */
   vtkGetMacro(EdgeLengthShare, double);
   vtkGetMacro(SurfaceDistance, double);
   vtkGetMacro(VolumeChange, double);
   vtkGetMacro(NumberOfOperations, vtkIdType);
+  vtkGetMacro(NumberOfEvaluations, vtkIdType);
   vtkGetMacro(OptimizeSeconds, double);
   ///@}
 
@@ -571,7 +575,7 @@ private:
   vtkIdType NumberOfInvertedCellsBefore = 0, NumberOfInvertedCellsAfter = 0;
   int StopReason = NotRun;
   std::string StopReasonText = "not run";
-  vtkIdType NumberOfOperations = 0;
+  vtkIdType NumberOfOperations = 0, NumberOfEvaluations = 0;
   double EdgeLengthShare = 0.0, SurfaceDistance = 0.0, VolumeChange = 0.0;
   double OptimizeSeconds = 0.0;
 };

@@ -123,6 +123,7 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkIdTypeArray>(fields, "NumberOfInvertedCellsAfter", report.invertedAfter);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
+  AddFigure<vtkIdTypeArray>(fields, "NumberOfEvaluations", report.evaluations);
   if (outcome.HasSurfaceDistance)
   {
     AddFigure<vtkDoubleArray>(fields, "SurfaceDistance", outcome.SurfaceDistance);

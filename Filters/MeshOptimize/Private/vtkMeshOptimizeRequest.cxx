@@ -93,6 +93,7 @@ void Outcome::Add(const Outcome& other)
   this->NumberOfReorientedCells += other.NumberOfReorientedCells;
   this->NumberOfQuadraticSimplices += other.NumberOfQuadraticSimplices;
   this->NumberOfOperations += other.NumberOfOperations;
+  mine.evaluations += its.evaluations;
   this->Seconds += other.Seconds;
   this->SurfaceDistance = std::max(this->SurfaceDistance, other.SurfaceDistance);
   this->HasSurfaceDistance |= other.HasSurfaceDistance;

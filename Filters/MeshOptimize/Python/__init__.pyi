@@ -36,6 +36,7 @@ class OptimizeReport(_Report):
     inverted_before: int
     inverted_after: int
     operations: int
+    evaluations: int
     surface_distance: float
     volume_change: float
     edge_length_share: float

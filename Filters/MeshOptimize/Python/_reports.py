@@ -63,6 +63,8 @@ class OptimizeReport(_Report):
     cells_before, cells_after, points_before, points_after : int
         Of the whole grid, cells that pass through among them.
     capped_cells, inverted_before, inverted_after, operations : int
+    evaluations : int
+        Qualities and gradients that were computed: what the run cost, whatever the machine.
     surface_distance : float
         A length: how far the surface may be from where it was, proved; 0 unless tetrahedra slide.
     volume_change, edge_length_share : float
@@ -90,6 +92,7 @@ class OptimizeReport(_Report):
     inverted_before: int
     inverted_after: int
     operations: int
+    evaluations: int
     surface_distance: float
     volume_change: float
     edge_length_share: float
@@ -173,7 +176,8 @@ def report_of_run(algorithm, interrupted, before, after, histogram_before, histo
         capped_cells=algorithm.GetNumberOfCappedCells(),
         inverted_before=algorithm.GetNumberOfInvertedCellsBefore(),
         inverted_after=algorithm.GetNumberOfInvertedCellsAfter(),
-        operations=algorithm.GetNumberOfOperations(), surface_distance=algorithm.GetSurfaceDistance(),
+        operations=algorithm.GetNumberOfOperations(), evaluations=algorithm.GetNumberOfEvaluations(),
+        surface_distance=algorithm.GetSurfaceDistance(),
         volume_change=algorithm.GetVolumeChange(), edge_length_share=algorithm.GetEdgeLengthShare(),
         history=columns(algorithm.GetOutputDataObject(1)),
         histogram_before=histogram_before, histogram_after=histogram_after)

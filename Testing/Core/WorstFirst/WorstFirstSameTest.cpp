@@ -34,6 +34,7 @@ TEST(WorstFirstSame3D, SameBitsForAnyNumberOfThreads)
     EXPECT_GT(report.worstAfter, 0.3);
     EXPECT_TRUE(copy.audit(true).empty());
     MeshBits<3> bits = bitsOf(copy);
+    long tries = 0;
     for (const PassRecord& row : report.history)
     {
       bits.coordinates.push_back(row.worst);
@@ -43,8 +44,13 @@ TEST(WorstFirstSame3D, SameBitsForAnyNumberOfThreads)
       {
         bits.ids.push_back(Index(row.tried[op]));
         bits.ids.push_back(Index(row.done[op]));
+        tries += row.tried[op];
       }
     }
+    // A try computes some qualities; hardly any take 10 000.
+    EXPECT_GT(report.evaluations, tries);
+    EXPECT_LT(report.evaluations, 10000 * tries);
+    bits.coordinates.push_back(static_cast<double>(report.evaluations));
     return bits;
   };
   int parallel = 0;
