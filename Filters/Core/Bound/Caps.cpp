@@ -59,6 +59,7 @@ double Caps<D>::weight(const SimplexMesh<D>& mesh, Facet<D> f) const
     : this->full_ / std::max(found->second, Rounding);
 }
 
+/// Facet i is the cell without its node i. The facet with the lowest cap decides.
 template <int D>
 double Caps<D>::weight(const SimplexMesh<D>& mesh, const Simplex<D>& nodes) const
 {

@@ -52,6 +52,7 @@ std::vector<Rim> collectRims(const std::vector<KeptSide<3>>& sides)
   return rims;
 }
 
+/// In 2D a side begins at its first node and ends at its second one.
 std::vector<Rim> collectRims(const std::vector<KeptSide<2>>& sides)
 {
   std::vector<Rim> rims;
@@ -205,6 +206,8 @@ void BoundBuilder<D>::capSides()
   this->result_.bound = bound;
 }
 
+/// Finds the end of the wedge that begins at `from`: the first side that is met when turning into
+/// it. False if rounding leaves open which one that is.
 template <int D>
 bool BoundBuilder<D>::findWedge(
   const Rim& from, const Rim* begin, const Rim* end, Wedge& wedge) const
@@ -282,6 +285,7 @@ bool BoundBuilder<D>::findWedges(const Rim* begin, const Rim* end, std::vector<W
   return 2 * static_cast<std::ptrdiff_t>(wedges.size()) == end - begin;
 }
 
+/// Rims of one edge and one region stand together. They bound the wedges there by turns.
 template <int D>
 void BoundBuilder<D>::capWedges()
 {

@@ -6,6 +6,8 @@
 
 namespace meshopt
 {
+/// An edge counts once for each of its cells, so edges inside weigh more than those at the rim. The
+/// result is only a scale of length, so this does not matter.
 template <int D>
 double Cluster<D>::meanEdge() const
 {
@@ -21,6 +23,8 @@ double Cluster<D>::meanEdge() const
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// The number of the point in the cluster; a new point gets the next one. Numbers come in the order
+/// of asking, so whoever asks for the moving nodes first gets 0 to numberOfMoving - 1.
 template <int D>
 int ClusterGatherer<D>::localNumber(const SimplexMesh<D>& mesh, Index p, Cluster<D>& cluster)
 {

@@ -28,6 +28,8 @@ struct Audit
     }
   }
 
+  /// Flat and inverted cells are legal before the mesh is untangled: `requirePositive` says whether
+  /// they are a fault.
   void cell(Index c, bool requirePositive)
   {
     const std::string name = "cell " + std::to_string(c);
@@ -49,6 +51,7 @@ struct Audit
     }
   }
 
+  /// A facet is stored on both its sides: each must lead to the other and say the same about it.
   void facet(Index c, int i, const std::string& name)
   {
     const Index h = this->mesh.adjacent(c, i);
@@ -123,6 +126,8 @@ struct Audit
     }
   }
 
+  /// A point is alive if and only if a cell uses it. Its cell may be any of those that do: stars
+  /// are walked from there.
   void points()
   {
     std::vector<bool> used(this->mesh.numberOfPointSlots(), false);

@@ -71,6 +71,7 @@ void MeshEditor<D>::growPatches(bool isFirst)
   }
 }
 
+/// All that is stored per point gets as long as the array of points.
 template <int D>
 void MeshEditor<D>::growAttachments()
 {
@@ -112,6 +113,8 @@ void MeshEditor<D>::growPoints(Index n)
   }
 }
 
+/// True if n cells can be taken. The editor of the whole mesh may always grow it. That of a chunk
+/// must not: other editors read the same arrays.
 template <int D>
 bool MeshEditor<D>::reserveCells(std::size_t n)
 {
@@ -121,6 +124,8 @@ bool MeshEditor<D>::reserveCells(std::size_t n)
   return room;
 }
 
+/// A slot for a new cell, which create() fills. Taken from the back of the pool, where freeCell()
+/// puts slots: new cells get the slots of the cavity they replace.
 template <int D>
 Index MeshEditor<D>::takeCell()
 {
@@ -215,6 +220,8 @@ Index MeshEditor<D>::addPoint(const Vec<D>& x)
 
 // --- journal
 
+/// Saves the cell as a whole. It may be saved several times in one transaction: undo goes in
+/// reverse and ends with the oldest record, so nobody has to look for an earlier one.
 template <int D>
 void MeshEditor<D>::saveCell(Index c)
 {
@@ -239,6 +246,7 @@ void MeshEditor<D>::savePoint(Index p)
   }
 }
 
+/// Apart from savePoint(), since few meshes have places and few edits change them.
 template <int D>
 void MeshEditor<D>::savePlace(Index p)
 {
@@ -249,6 +257,7 @@ void MeshEditor<D>::savePlace(Index p)
   }
 }
 
+/// One entry for all attachments: their journals save and undo in step with each other.
 template <int D>
 void MeshEditor<D>::saveAttachments(Index p)
 {
@@ -302,6 +311,7 @@ void MeshEditor<D>::rollback(std::size_t place)
   this->commit(place);
 }
 
+/// Undoes one entry. Records lie on a stack for each kind, so the kind alone tells what to pop.
 template <int D>
 void MeshEditor<D>::undo(Entry entry)
 {
@@ -410,6 +420,8 @@ void MeshEditor<D>::setQuality(Index c, double q)
   this->mesh_->cellData_[c].quality = q;
 }
 
+/// Algorithms compare stamps of points with the time of their failed tries. A new stamp says that a
+/// new try around the point may succeed.
 template <int D>
 void MeshEditor<D>::stamp(const std::vector<Index>& cells)
 {

@@ -12,6 +12,8 @@
 
 namespace meshopt
 {
+/// The facets that the new cells must fill, each with what lies behind it: its outer neighbour, the
+/// input cell whose data are inherited, and its patch.
 template <int D>
 void MeshEditor<D>::collectOpenFacets(
   const std::vector<Index>& cavity, std::uint32_t inCavity, const KeptChange<D>* change)
@@ -154,6 +156,7 @@ void MeshEditor<D>::killPoints(const std::vector<Index>& cavity)
   }
 }
 
+/// Points of the cavity that are still dead belong to no new cell: their slots may be used again.
 template <int D>
 void MeshEditor<D>::buryPoints()
 {
@@ -175,6 +178,7 @@ void MeshEditor<D>::buryPoints()
   }
 }
 
+/// Linear probing. The table keeps its memory from one replacement to the next.
 template <int D>
 void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
 {
@@ -198,6 +202,7 @@ void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
   }
 }
 
+/// A new cell without neighbours. linkFacet() finds them once all new cells have their slots.
 template <int D>
 void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region)
 {

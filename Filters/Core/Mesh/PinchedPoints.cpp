@@ -8,6 +8,7 @@ namespace meshopt
 template <int D>
 std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh, bool freeOnly)
 {
+  // Counted without walking over facets, so that the walk below can be compared with it.
   std::vector<std::size_t> uses(static_cast<std::size_t>(mesh.numberOfPointSlots()), 0);
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {

@@ -32,6 +32,8 @@ Index SimplexMesh<D>::countPoints() const
     [](const Point& p) { return (p.flags & PointAlive) != 0; }));
 }
 
+/// The cells are found over facets, breadth first from any cell of the point. The order depends on
+/// that cell and on the numbering only, so that it is the same in each run.
 template <int D>
 void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
 {

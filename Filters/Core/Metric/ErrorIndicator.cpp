@@ -17,6 +17,8 @@ template <int D>
 std::vector<double> densities(
   const SimplexMesh<D>& mesh, const std::vector<double>& errors, double greatest, double power)
 {
+  // Elements of size h in place of one of size h_K have the squared error e^2 (h / h_K)^(2 order +
+  // D) each. It is the same for all of them if h = h* h_K e^-power.
   std::vector<double> sum(mesh.numberOfPointSlots(), 0.0), volume(sum);
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
@@ -33,6 +35,7 @@ std::vector<double> densities(
   }
   for (std::size_t p = 0; p < sum.size(); ++p)
   {
+    // The mean of the densities around the point, weighted by volume.
     sum[p] = volume[p] > 0.0 ? sum[p] / volume[p] : 0.0;
   }
   return sum;
@@ -42,6 +45,8 @@ std::vector<double> densities(
 double sizeForError(
   const std::vector<double>& errors, double greatest, double fraction, double power, double order)
 {
+  // The new elements in place of an old one have the squared error e^2 (h / h_K)^(2 order)
+  // together, with h / h_K = h* e^-power as above.
   double now = 0.0, then = 0.0; // squares: now, and of the new mesh with h* = 1
   for (double error : errors)
   {
@@ -104,6 +109,7 @@ std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double
     return error;
   }
   const double greatest = *std::max_element(errors.begin(), errors.end());
+  // From (h / h_K)^(2 order + D) in densities().
   const double power = 2.0 / (2.0 * options.convergenceOrder + D);
   result.isZero = greatest == 0.0;
   std::vector<SymmetricEigen<D>> metric(mesh.numberOfPointSlots());
@@ -114,6 +120,7 @@ std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double
   }
   for (std::size_t p = 0; p < metric.size(); ++p)
   {
+    // A density is h^-D, an eigenvalue of a metric h^-2.
     metric[p].values.setConstant(std::pow(density[p], 2.0 / D));
   }
   SizeLimits limits = options.limits;

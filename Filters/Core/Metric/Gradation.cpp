@@ -37,6 +37,8 @@ bool isAtLeast(const Tensor<3>& a, const Tensor<3>& b)
 }
 }
 
+/// The unit ball of the result is the largest ellipsoid within those of a and b: both metrics are
+/// reduced to diagonal form at once, and the greater eigenvalue is taken in each direction.
 template <int D>
 Tensor<D> intersection(const Tensor<D>& a, const Tensor<D>& b)
 {
@@ -55,6 +57,8 @@ Tensor<D> intersection(const Tensor<D>& a, const Tensor<D>& b)
   return 0.5 * (m + m.transpose());
 }
 
+/// What the metric at one end of an edge permits at the other: sizes may grow by the factor 1 + l
+/// ln(gradation) over the length l of the edge in that metric.
 template <int D>
 Tensor<D> grown(const Tensor<D>& m, const Vec<D>& edge, double gradation)
 {
@@ -63,6 +67,7 @@ Tensor<D> grown(const Tensor<D>& m, const Vec<D>& edge, double gradation)
   return m / (factor * factor);
 }
 
+/// In place and in a fixed order of points, so that the same input gives the same bits.
 template <int D>
 int limitGradation(const SimplexMesh<D>& mesh, const PointGraph& graph, double gradation,
   std::vector<Tensor<D>>& metrics)

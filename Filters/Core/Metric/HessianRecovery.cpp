@@ -103,6 +103,7 @@ private:
   Index numberOfUnknowns_ = 0;
 };
 
+/// For now any number but None says that the point is on the boundary.
 template <int D>
 void LumpedMassRecovery<D>::markBoundary()
 {
@@ -121,6 +122,7 @@ void LumpedMassRecovery<D>::markBoundary()
   }
 }
 
+/// Adds the part of one cell to the sums of its nodes.
 template <int D>
 void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
 {
@@ -287,6 +289,7 @@ void LumpedMassRecovery<D>::extrapolate()
   }
 }
 
+/// In the order in which addCell() has written the numbers: the rows of the lower triangle.
 template <int D>
 void LumpedMassRecovery<D>::unpack(std::vector<Tensor<D>>& hessians) const
 {

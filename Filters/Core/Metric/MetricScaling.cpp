@@ -51,6 +51,7 @@ double findZero(F&& value, double start, double highest, double slope, double to
     }
     else
     {
+      // The same end stays a second time: half its value draws the next step towards it.
       otherY *= 0.5;
     }
     x = next;
@@ -112,6 +113,7 @@ MetricScaling<D>::MetricScaling(const SimplexMesh<D>& mesh, std::vector<Symmetri
   }
 }
 
+/// The eigenvalues of a metric over h^2, with the limits on sizes and on anisotropy.
 template <int D>
 Vec<D> MetricScaling<D>::limited(const Vec<D>& eigenvalues, double h) const
 {
@@ -120,6 +122,8 @@ Vec<D> MetricScaling<D>::limited(const Vec<D>& eigenvalues, double h) const
   if (this->limits_.minimumSize > 0.0)
   {
     const double most = 1.0 / (this->limits_.minimumSize * this->limits_.minimumSize);
+    // Where both contradict each other, because the diagonal stands in for a maximum, the minimum
+    // size wins.
     values = values.cwiseMin(most).cwiseMax(std::min(least, most));
   }
   if (this->limits_.maximumAnisotropy >= 1.0)
@@ -144,6 +148,7 @@ double MetricScaling<D>::uniformCount(double h) const
   return this->countFromVolume(this->volume_ / std::pow(h, D));
 }
 
+/// Without gradation determinants do: no tensor is composed.
 template <int D>
 double MetricScaling<D>::predict(double h) const
 {
@@ -155,6 +160,7 @@ double MetricScaling<D>::predict(double h) const
   return this->countFromVolume(metricVolume<D>(this->mesh_, half));
 }
 
+/// With gradation, which has to compose all tensors and sweep over the mesh: far dearer.
 template <int D>
 double MetricScaling<D>::predictGraded(double h)
 {

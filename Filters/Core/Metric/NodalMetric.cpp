@@ -78,6 +78,7 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
       values[p].hint = this->background_->cellOfPoint(static_cast<Index>(p));
     }
   }
+  // One copy stays as given. The other follows the points of the mesh.
   this->backgroundValues_ = values;
   this->values_ = std::move(values);
   return std::string();
@@ -115,6 +116,7 @@ NodalMetric<D> NodalMetric<D>::raised(
   }
   else if (!this->hasSizes_)
   {
+    // So far tensors vary, and one size holds everywhere: now it is stored per point, too.
     for (std::vector<Sample>* values : { &result.values_, &result.backgroundValues_ })
     {
       for (Sample& value : *values)
@@ -135,6 +137,7 @@ NodalMetric<D> NodalMetric<D>::raised(
   return result;
 }
 
+/// The floor only raises: where it is lower the wanted size stays.
 template <int D>
 void NodalMetric<D>::raise(Index p, const Vec<D>& x)
 {
@@ -238,6 +241,7 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
   return regularElementsPerVolume<D> * inUnits;
 }
 
+/// Means of logarithms over the nodes, so that the result is positive definite whatever they are.
 template <int D>
 void NodalMetric<D>::fill(const Simplex<D>& nodes, ElementMetric<D>& m) const
 {

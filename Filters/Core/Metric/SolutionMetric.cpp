@@ -177,6 +177,7 @@ std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>
   metric.isLinear = isLinearField(mesh, values, components, g, options.precision);
   if (metric.isLinear)
   {
+    // A linear field asks for no size anywhere: the mesh becomes uniform.
     SymmetricEigen<D> euclidean;
     euclidean.values.setOnes();
     std::fill(g.begin(), g.end(), euclidean);

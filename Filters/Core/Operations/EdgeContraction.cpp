@@ -77,6 +77,7 @@ bool proposeContraction(
     }
   }
   proposal.oldWorst = mesh.worstQuality(proposal.cavity);
+  // Without cells the star as a whole would vanish.
   return !proposal.cells.empty();
 }
 

@@ -71,6 +71,7 @@ bool PolyhedronSearch::setBoundary(const std::vector<Triangle>& facets)
   return true;
 }
 
+/// Makes the first state: the boundary as the front, with all that its facets and edges block.
 void PolyhedronSearch::loadBoundary()
 {
   const int n = this->signs_.size();
@@ -257,6 +258,7 @@ PolyhedronSearch::Mask PolyhedronSearch::apexes(const State& s, const Front& f) 
 
 // --- candidates
 
+/// Each triple once, in rising order, with all its fourth points at a time, as a set.
 void PolyhedronSearch::findCandidates()
 {
   this->loadBoundary();
@@ -386,6 +388,7 @@ bool PolyhedronSearch::strike()
 
 // --- branch and bound
 
+/// Without steps, if offer() shows that a facet of the boundary cannot be filled.
 double PolyhedronSearch::search(double above, long steps)
 {
   this->solution_.clear();

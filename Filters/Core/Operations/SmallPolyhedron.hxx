@@ -4,6 +4,7 @@
 
 namespace meshopt
 {
+/// All lists keep their memory: propose() is called for thousands of cells.
 template <class Shape>
 void SmallPolyhedron<Shape>::start(
   const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, const Limits& limits)
@@ -317,6 +318,8 @@ void SmallPolyhedron<Shape>::rate()
   }
 }
 
+/// Searches for a filling of the present polyhedron. Never if there is none better than `above`, or
+/// if there are too many facets.
 template <class Shape>
 double SmallPolyhedron<Shape>::fill(double above)
 {
@@ -390,6 +393,7 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
     int bare = -1;
     do
     {
+      // By more than rounding, or two fillings of equal quality could replace each other for ever.
       const double bound = std::max(above, this->worst_) + Rounding;
       // Cheap test first: a facet for which no point is good enough rules out every filling.
       bare = this->worstFace(bound);

@@ -81,6 +81,8 @@ void BoundaryCurves::markWhereSplinesOvershoot(
   }
 }
 
+/// First the corners that the geometry has by its angles, then those that only splines need: a
+/// spline depends on where its chain ends.
 void BoundaryCurves::build(
   MeshEditor<2>& editor, const CurveOptions& options, const std::vector<std::uint8_t>& corners)
 {
@@ -212,6 +214,7 @@ Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& 
       this->curves_[g].closest(mesh.point(p), d);
       at = d > worst ? p : at;
       worst = std::max(worst, d);
+      // Too far away already to be the nearest one.
       if (worst > best)
       {
         break;

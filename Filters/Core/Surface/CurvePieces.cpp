@@ -83,6 +83,8 @@ std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const P
   return span;
 }
 
+/// On a closed piece span() takes the shorter way round. It is the right one as long as neighbours
+/// are well under half of the piece apart.
 bool CurvePieces::mayBeNeighbours(const Span& s) const
 {
   const CurvePiece& piece = this->pieces_[s.part];

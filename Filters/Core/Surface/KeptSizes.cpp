@@ -45,6 +45,7 @@ std::shared_ptr<const SizeFloor<2>> keptSizeFloor<2>(const SimplexMesh<2>& mesh,
       e.size = std::sqrt((e.b - e.a).dot(e.metric * (e.b - e.a)));
       longest = std::max(longest, e.size / m.desiredSize);
       least = std::min(least, m.desiredSize);
+      // The floor of a shorter edge is below the wanted size everywhere.
       if (e.size > m.desiredSize)
       {
         edges.push_back(e);

@@ -110,6 +110,7 @@ std::vector<LineChain> chains(const LineNetwork& network)
       {
         break;
       }
+      // No corner, so exactly two lines meet here.
       line = lines[p][0] == line ? lines[p][1] : lines[p][0];
     }
     if (!network.corners[start]) // closed: back at the start
@@ -171,6 +172,7 @@ void markKinks(LineNetwork& network)
     }
     const Index a = otherEnd(network, lines[k][0], p), b = otherEnd(network, lines[k][1], p);
     const double here = turn(a, p, b);
+    // Walked backwards from p, the turn at a has the other sign.
     const double before = -turn(p, a, next(p, a)), after = turn(p, b, next(p, b));
     network.corners[k] = std::fabs(here) > LeastKink && !(before / here > KinkShare) &&
       !(after / here > KinkShare);

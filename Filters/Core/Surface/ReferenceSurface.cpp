@@ -68,6 +68,7 @@ Vec<3> nearestInTriangle(const std::array<Vec<3>, 3>& t, const Vec<3>& x)
   return t[0] + ab * (vb / sum) + ac * (vc / sum);
 }
 
+/// Not of unit length: twice the area.
 Vec<3> normalOf(const SurfacePiece<3>& piece)
 {
   return (piece.x[1] - piece.x[0]).cross(piece.x[2] - piece.x[0]);
@@ -147,6 +148,7 @@ void ReferenceSurface::finish(double tolerance, double least)
     boxes.push_back(box);
   }
   this->tree_.init(ids.begin(), ids.end(), boxes.begin(), boxes.end());
+  // The tree comes first: room() searches it.
   std::vector<int> near;
   for (Facet& f : this->facets_)
   {
@@ -157,6 +159,7 @@ void ReferenceSurface::finish(double tolerance, double least)
 /// What the next sheet of the surface leaves, behind the facet or in front of it.
 double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
 {
+  // A sheet farther away than this leaves room for the whole tolerance.
   const Vec<3> reach = f.normal * (this->tolerance_ / RoomOfWalls);
   Box box;
   for (const Vec<3>& x : f.x)
@@ -224,6 +227,7 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
   return search.facet;
 }
 
+/// Only facets that face x are in its way, not those beside it.
 double ReferenceSurface::clearance(const Vec<3>& x) const
 {
   constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
@@ -278,11 +282,14 @@ void ReferenceSurface::findNear(const Box& box, Index patch, std::vector<int>& f
   }
 }
 
+/// q is the height over the longest edge, which is l.
 bool ReferenceSurface::isNeedle(const Facet& r) const
 {
   return r.q < Needle * this->tolerance_ && r.q < NeedleShape * r.l;
 }
 
+/// Clips the piece to the prism of r. Heights are linear on what is left, so its corners have the
+/// extremes.
 ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece& piece) const
 {
   Polygon polygon;
@@ -292,6 +299,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
     const Vec<3> d = x - r.origin;
     polygon.x[polygon.size++] = Vec<3>(r.along.dot(d), r.across.dot(d), r.normal.dot(d));
   }
+  // The edges of r as lines: inside of it a u + b v + c >= 0.
   const std::array<Vec<3>, 3> sides{ Vec<3>(0.0, 1.0, 0.0), Vec<3>(r.q, -r.p, 0.0),
     Vec<3>(-r.q, r.p - r.l, r.q * r.l) };
   for (const Vec<3>& s : sides) // most are out of the prism: this is cheaper than to clip them
@@ -328,6 +336,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
     result.least = std::min(result.least, std::fabs(h));
     result.most = std::max(result.most, std::fabs(h));
   }
+  // Where it passes through r the height is 0, although no corner has it.
   result.least = above && below ? 0.0 : result.least;
   return result;
 }
@@ -415,6 +424,7 @@ bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
     const Heights h = this->heights(r, piece);
     before += stands(h, r.tolerance) ? h.area : 0.0;
   }
+  // Areas are doubled, and so is the strip along the border that may be missing.
   constexpr double rounding = 1e-9;
   return after >= before - (rounding * r.q + 2.0 * sideways) * r.l;
 }
@@ -525,6 +535,7 @@ double ReferenceSurface::height(const Piece& piece) const
     isClear = isClear &&
       (stands || h.most < 0.0 || h.least > Reach * r.tolerance || !(h.cosine > 0.0));
   }
+  // Found by doubling: at most twice too great, down to this part of what is allowed.
   constexpr double first = 1.0 / 64.0;
   double part = isClear ? 0.0 : first;
   while (part > 0.0 && part < 1.0 && !this->isNear(piece, near, part))

@@ -19,6 +19,7 @@ namespace
 constexpr double CurveShare = 0.6;
 }
 
+/// Points that slide ask their patch or curve: new points have no entry of their own.
 std::uint32_t SlidingSurface::sets(const SimplexMesh<3>& mesh, Index v) const
 {
   if (this->setsOfPoint_.empty())
@@ -95,6 +96,7 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   there = off > room ? Vec<3>(foot + (room / off) * (x - foot)) : x;
   if (place.freedom == Freedom::Patch)
   {
+    // distance() reads from it how far the node is off its patch.
     result.parameter = std::min(off, room);
   }
   return result;
@@ -313,6 +315,7 @@ bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
 bool SlidingSurface::allows(const SurfaceChange<3>& change) const
 {
   const auto isLocked = [](const SurfacePiece<3>& piece) { return piece.patch == None; };
+  // A facet with all its nodes in a set must belong to a patch of that set.
   const auto growsASet = [&](const SurfacePiece<3>& piece)
   { return (piece.sets & ~this->patches_[piece.patch].sets) != 0; };
   if (std::any_of(change.gone.begin(), change.gone.end(), isLocked) ||

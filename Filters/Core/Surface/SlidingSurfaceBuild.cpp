@@ -131,6 +131,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
   };
   for (const SurfaceDivision::Part& part : division.parts)
   {
+    // From each facet and from both its sides: not all cells at an edge need be reachable from one.
     const Index handles[2] = { part.handle,
       mesh.adjacent(mesh.cellOf(part.handle), mesh.facetOf(part.handle)) };
     for (Index h : handles)
@@ -176,6 +177,7 @@ void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision&
       }
     }
   }
+  // A set with a node that slides where the set does not go says nothing about the surface.
   this->sets_ = all;
   for (std::size_t p = 0; p < sets.size(); ++p)
   {

@@ -101,6 +101,7 @@ double SpaceCurve::closest(const Vec<3>& x, double s) const
       }
     }
   }
+  // On a closed curve s may be some turns away from r. The result stays on the turn of s.
   return (this->isClosed_ ? s : r) + nearest;
 }
 

@@ -171,6 +171,7 @@ void SurfaceDivision::collectEdges()
       all.push_back({ sortedIds(f[(i + 1) % 3], f[(i + 2) % 3]), static_cast<Index>(k), i });
     }
   }
+  // Incidences of one edge stand together, in the order of their parts.
   std::sort(all.begin(), all.end(),
     [](const Incidence& a, const Incidence& b)
     { return a.nodes != b.nodes ? a.nodes < b.nodes : a.part < b.part; });
@@ -331,6 +332,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
   double sum = 0.0, count = 0.0;
   for (Index k : numbers)
   {
+    // By area: needles, whose normals are uncertain, hardly count.
     normal += this->normal(this->parts[k]);
   }
   plane.normal = normal.normalized();
@@ -393,6 +395,7 @@ void SurfaceDivision::findPatches()
       if (!this->fits(this->filled_, plane))
       {
         release();
+        // Not even that: the seed alone, which lies in its own plane.
         this->filled_.assign(1, seed);
         this->parts[seed].patch = this->numberOfPatches;
         this->fits(this->filled_, plane);

@@ -137,6 +137,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
     const bool isLocked = std::any_of(
       around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
     const bool isFixed = isMarked || isLocked || touching[p];
+    // It stays, unless it proves below to be inside of a patch or of a curve.
     this->freedom[p] = isFixed || this->isExact ? Freedom::Fixed : Freedom::Corner;
     if (isFixed || (!curves.empty() && curves.size() != 2) || this->isPinched(p, around, curves))
     {
@@ -268,6 +269,7 @@ void SurfaceDivision::straighten()
     }
     for (std::size_t from = 0; from + 1 < chain.points.size();)
     {
+      // As far as it goes, tested as a whole each time: small turns cannot add up unseen.
       std::size_t to = from + 1;
       while (to + 1 < chain.points.size() && isStraight(chain.points, from, to + 1))
       {

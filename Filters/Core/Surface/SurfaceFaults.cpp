@@ -69,6 +69,7 @@ std::vector<Kept<D>> keptFacets(const SimplexMesh<D>& mesh, const std::vector<ch
       }
     }
   }
+  // Stable: of the two sides of a facet, that of the lower cell stays.
   std::stable_sort(facets.begin(), facets.end());
   facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
   return facets;
@@ -147,6 +148,7 @@ double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
     c = SimplexMesh<D>::cellOf(next);
     w = mesh.nodes(c)[SimplexMesh<D>::facetOf(next)];
   }
+  // The walk has not come to an end: nothing is known.
   return 1e9;
 }
 
@@ -176,6 +178,7 @@ bool pierces(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b,
   {
     return false;
   }
+  // One sign of 0 is a hit on an edge, two are a hit on a node.
   const int s[3] = { orient(p, q, a, b), orient(p, q, b, c), orient(p, q, c, a) };
   const int sum = s[0] + s[1] + s[2];
   const bool agree = *std::min_element(s, s + 3) * *std::max_element(s, s + 3) >= 0;
@@ -196,6 +199,7 @@ bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
     for (int i = 0; i < 3; ++i)
     {
       const Index p = edges[i], q = edges[(i + 1) % 3];
+      // An edge with a node of the face meets it there: this is no crossing.
       const bool shared = std::find(face.begin(), face.end(), p) != face.end() ||
         std::find(face.begin(), face.end(), q) != face.end();
       if (!shared &&
@@ -321,6 +325,8 @@ double shareOfDirections(const std::array<Vec<3>, 3>& e)
   return half / (2.0 * std::acos(-1.0));
 }
 
+/// Cells that fill more than all directions around a point overlap there. Points of the surface
+/// have fewer directions to fill, so that not all overlaps show.
 template <int D>
 bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
 {
