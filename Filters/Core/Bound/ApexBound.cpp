@@ -245,6 +245,7 @@ void angleCapLevel(double c, double& low, double& high, double width)
   high = crossing(pi, 0.0, best, 1.0, c, width, angleCap);
 }
 
+/// In units of the edge, which both facets there share.
 EdgeView::EdgeView(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& apex)
 {
   const Vec<3> u = b - a, v = c - a;
@@ -331,6 +332,7 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
 }
 }
 
+/// From the cheapest test to the dearest: most edges forbid nothing and leave early.
 bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
   double spanned, double slack, double width)
 {

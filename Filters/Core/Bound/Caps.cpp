@@ -110,6 +110,7 @@ double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
                                       : std::max(mesh.quality(c), this->reached_ * found->second);
 }
 
+/// In 2D no edge is stored: what has a cap there is a node.
 template <int D>
 bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
 {

@@ -410,6 +410,7 @@ SurfaceBound<D> surfaceBound(
   return result;
 }
 
+/// Each kept facet from both its sides, as each side has cells of its own.
 template <int D>
 SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptions& options)
 {

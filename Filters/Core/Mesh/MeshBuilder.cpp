@@ -462,6 +462,8 @@ struct MeshBuilder
   }
 };
 
+/// The order matters. Orientation needs the adjacency. Kept facets are marked after it, since
+/// reverse() exchanges facets, but not their marks.
 template <int D>
 std::optional<MeshError> SimplexMesh<D>::build(const MeshInput<D>& input, SimplexMesh<D>& mesh)
 {

@@ -197,6 +197,7 @@ Index MeshEditor<D>::takePoint()
   return this->mesh_->numberOfPointSlots() - 1;
 }
 
+/// The point is dead until replace() makes a cell with it.
 template <int D>
 Index MeshEditor<D>::addPoint(const Vec<D>& x)
 {

@@ -290,6 +290,8 @@ Index MeshEditor<D>::parentIn(Index region) const
   return this->parents_[0][1];
 }
 
+/// Takes from the cavity all that the new cells need, frees its slots, makes the new cells, and
+/// links them.
 template <int D>
 bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
   const std::vector<double>& qualities, const KeptChange<D>* change)

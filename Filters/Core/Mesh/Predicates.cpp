@@ -165,6 +165,7 @@ int exactOrient(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>&
 int signOf(double x) { return x > 0.0 ? 1 : -1; }
 }
 
+/// Floating point decides nearly always. Only a doubtful sign is computed exactly.
 int orient(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c)
 {
   const double left = (b[0] - a[0]) * (c[1] - a[1]);

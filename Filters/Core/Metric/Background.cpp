@@ -199,6 +199,8 @@ Location<D> Background<D>::nearestInCell(Index c, const Vec<D>& x) const
   return best;
 }
 
+/// First a walk, since the hint is mostly next to x. The tree is for walks that leave the mesh or
+/// do not end.
 template <int D>
 Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
 {

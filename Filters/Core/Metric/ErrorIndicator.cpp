@@ -98,6 +98,7 @@ std::string ErrorIndicatorOptions::check() const
   return text.str().empty() ? this->limits.check() : text.str();
 }
 
+/// Densities become a metric of spheres, so that limits and h* are found as for a solution.
 template <int D>
 std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double>& errors,
   const ErrorIndicatorOptions& options, ErrorIndicatorSizes& result)

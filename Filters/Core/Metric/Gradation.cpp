@@ -24,6 +24,7 @@ bool isAtLeast(const Tensor<2>& a, const Tensor<2>& b)
   return d(0, 0) > 0.0 && d(0, 0) * d(1, 1) > d(0, 1) * d(0, 1);
 }
 
+/// All pivots of the factorization must be positive.
 bool isAtLeast(const Tensor<3>& a, const Tensor<3>& b)
 {
   const Tensor<3> d = (1.0 + slack) * a - b;

@@ -61,6 +61,7 @@ double findZero(F&& value, double start, double highest, double slope, double to
 }
 }
 
+/// Conditions are written as !(x >= 0), so that NaN is refused, too.
 std::string SizeLimits::check() const
 {
   std::ostringstream text;

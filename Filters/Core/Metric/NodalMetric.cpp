@@ -98,6 +98,7 @@ std::string NodalMetric<D>::setConstant(const Tensor<D>& tensor)
   return std::string();
 }
 
+/// Sizes are stored per point from here on, since the floor differs from point to point.
 template <int D>
 NodalMetric<D> NodalMetric<D>::raised(
   const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const

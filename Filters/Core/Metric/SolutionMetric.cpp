@@ -92,6 +92,7 @@ SymmetricEigen<D> absoluteValue(const Tensor<D>& hessian)
   return combinedHessian<D>(&hessian, 1);
 }
 
+/// (5.2): the root of the sum of squares. Of one field alone this is the absolute value.
 template <int D>
 SymmetricEigen<D> combinedHessian(const Tensor<D>* hessians, int components)
 {
@@ -155,6 +156,7 @@ std::string SolutionMetricOptions::check() const
   return text.str().empty() ? this->limits.check() : text.str();
 }
 
+/// Hessians, their combination (5.2), the scaling for the norm, and h* by (5.3).
 template <int D>
 std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>& values,
   int components, const SolutionMetricOptions& options, SolutionMetric<D>& metric)

@@ -37,6 +37,8 @@ void numberPoints(const SimplexMesh<D>& mesh, FanCluster<D>& cluster)
 }
 }
 
+/// First the cells, over facets that contain the core. Then the facets: those with cells of the
+/// cluster on both sides are inside.
 template <int D>
 bool gatherFanCluster(
   MeshEditor<D>& editor, Index cell, const Index* core, int n, FanCluster<D>& cluster)
@@ -95,6 +97,7 @@ bool gatherFanCluster(
       if (kept || !inside)
       {
         cluster.facets.push_back(mesh.facet(c, i));
+        // A facet contains the core, unless it is opposite to one of its nodes.
         cluster.closed = cluster.closed && inCore(mesh.nodes(c)[i]);
       }
     }

@@ -41,6 +41,7 @@ private:
   std::vector<std::uint8_t> movable_;
 };
 
+/// What is not free never moves. Others lose the right to move in step 2.
 template <int D, class Shape>
 void GlobalAlgorithm<D, Shape>::initialize()
 {
@@ -53,6 +54,7 @@ void GlobalAlgorithm<D, Shape>::initialize()
   this->queue_.fill();
 }
 
+/// Steps 3 and 4 for the cluster of the worst cell; then its cells go into the queue again.
 template <int D, class Shape>
 bool GlobalAlgorithm<D, Shape>::solve(Index worst)
 {
@@ -72,6 +74,7 @@ bool GlobalAlgorithm<D, Shape>::solve(Index worst)
   return true;
 }
 
+/// The six steps of the paper, in its order.
 template <int D, class Shape>
 RepositionResult GlobalAlgorithm<D, Shape>::run(
   const KeepGoing& keepGoing, std::vector<Index>* sequence)

@@ -74,6 +74,7 @@ bool Paper1996<D>::goesOn(const char* stage, double worst)
     });
 }
 
+/// The time of a row is the time since the row before.
 template <int D>
 void Paper1996<D>::record(const char* stage, const Counts& tried, const Counts& done)
 {
@@ -84,6 +85,7 @@ void Paper1996<D>::record(const char* stage, const Counts& tried, const Counts& 
   row.seconds = now - std::exchange(this->passBegin_, now);
 }
 
+/// What the history calls the fillings of the paper: the names of today's operations.
 Operation operationOf(Filling kind)
 {
   switch (kind)
@@ -102,6 +104,7 @@ Operation operationOf(Filling kind)
   }
 }
 
+/// Section 2.3 once over the mesh, as far as the caller's switches allow it.
 template <int D>
 void Paper1996<D>::reconnectAll(int lookAhead)
 {
@@ -110,6 +113,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   parameters.target = this->target_;
   parameters.naiveSearch = o.naiveSearch;
   parameters.growth = this->run_.growth;
+  // A look-ahead moves nodes: it needs that switch, too.
   parameters.lookAhead = o.moveNodes && this->lookAhead_ ? lookAhead : 0;
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
@@ -165,6 +169,7 @@ void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
   }
 }
 
+/// Section 2.2 once over the mesh.
 template <int D>
 void Paper1996<D>::repositionAll()
 {
@@ -229,6 +234,7 @@ void Paper1996<D>::countCapped()
   }
 }
 
+/// All cells under the target are held by the surface: that is why nothing gained any more.
 template <int D>
 StopReason Paper1996<D>::optimize()
 {
@@ -246,6 +252,7 @@ template <int D>
 StopReason Paper1996<D>::iterate()
 {
   const Options& o = this->options_;
+  // A guess, which only progress needs.
   this->expectedSteps_ = std::max(1L, 4 * this->run_.report.history.back().belowTarget);
   bool rises = true; // in the last alternation
   for (int k = 0; k < o.maximumNumberOfAlternations; ++k)

@@ -168,6 +168,7 @@ void Reconnection<D, Shape>::collectCandidates(Index worst)
     std::unique(this->candidates_.begin(), this->candidates_.end()), this->candidates_.end());
 }
 
+/// The first filling that gains ends the turn: after it another cell may be the worst.
 template <int D, class Shape>
 void Reconnection<D, Shape>::improveAround(Index worst)
 {

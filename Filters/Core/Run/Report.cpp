@@ -9,6 +9,7 @@ namespace
 {
 const char* toString(StopReason reason)
 {
+  // Without a default, so that the compiler names a reason that has no sentence.
   switch (reason)
   {
     case StopReason::TargetReached:

@@ -18,6 +18,7 @@ double SizeStage<D>::length(Index a, Index b) const
     this->scale_;
 }
 
+/// Queues the edges of the cell that are too long, or those that are too short.
 template <int D>
 void SizeStage<D>::push(Index c, bool isLong)
 {
@@ -169,6 +170,7 @@ std::optional<Span> SizeStage<D>::spanOf(const Edge& edge, bool& isKept) const
                                       : std::nullopt;
 }
 
+/// Splits the edge near its middle in the metric, if the judge agrees.
 template <int D>
 bool SizeStage<D>::splitEdge(const Edge& edge)
 {

@@ -38,6 +38,7 @@ bool SizeStage<D>::tryPlace(
   return this->judge().acceptIf(p, [&] { return this->energyAround(v) < WorthMoving * energy; });
 }
 
+/// Moves v, unless nothing has changed at its edges since that last failed.
 template <int D>
 bool SizeStage<D>::moveNode(Index v)
 {

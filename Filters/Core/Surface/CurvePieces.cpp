@@ -36,6 +36,7 @@ void CurvePieces::join()
   }
 }
 
+/// Two corners are on no curve themselves: join() has found the piece between them.
 std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const Place& pb) const
 {
   const auto isOnCurve = [](const Place& place) { return place.freedom == Freedom::Curve; };

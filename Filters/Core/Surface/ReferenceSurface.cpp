@@ -186,6 +186,7 @@ double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
   return room;
 }
 
+/// Branch and bound over the boxes of the tree.
 int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
 {
   struct Search

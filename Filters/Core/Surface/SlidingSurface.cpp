@@ -211,6 +211,7 @@ bool SlidingSurface::follows(const Span& span) const
     std::min(CurveShare * this->tolerance_, this->curves_[span.part].room(span.from, span.to));
 }
 
+/// Inside a patch, or where the edge is on one known curve; never beside a facet that stays.
 bool SlidingSurface::mayDivide(
   const SimplexMesh<3>& mesh, const std::vector<Index>& cells, Index a, Index b) const
 {

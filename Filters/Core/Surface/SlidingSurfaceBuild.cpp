@@ -78,6 +78,8 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
   this->reference_.finish(this->tolerance_, division.rounding);
 }
 
+/// A curve for each chain that may change, and the places of its nodes. After that all edges on
+/// curves are kept, also of chains that stay.
 void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& division)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
@@ -148,6 +150,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
   }
 }
 
+/// A patch is in a set if all its nodes are.
 void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
   const std::vector<std::uint32_t>& sets)
 {

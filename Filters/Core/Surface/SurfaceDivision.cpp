@@ -84,6 +84,7 @@ void SurfaceDivision::measure()
     this->tolerance, this->rounding, std::max(this->rounding, Most * this->diagonal));
 }
 
+/// Each kept facet once: from the side with the lower region, or with the lower handle.
 void SurfaceDivision::collectParts(const SurfaceOptions& options)
 {
   for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)

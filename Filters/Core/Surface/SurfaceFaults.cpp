@@ -185,6 +185,7 @@ bool pierces(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b,
   return agree && (sum >= 2 || sum <= -2);
 }
 
+/// An end that lies on the other edge is a touch, not a crossing.
 bool cross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
 {
   const Vec<2>&a = mesh.point(f[0]), &b = mesh.point(f[1]), &c = mesh.point(g[0]),

@@ -128,6 +128,7 @@ private:
     this->solution_.solveSeconds = watch.lap();
     std::vector<Vec<D>>& u = this->solution_.displacement;
     u.assign(this->mesh_.numberOfPointSlots(), Vec<D>::Zero());
+    // Component i of point p is number D p + i.
     for (std::size_t dof = 0; dof < unknowns.numbers.size(); ++dof)
     {
       const Index number = unknowns.numbers[dof];
@@ -140,6 +141,7 @@ private:
     }
   }
 
+  /// As weights of the points: only their ratios count.
   std::vector<double> pointVolumes() const
   {
     std::vector<double> volumes(this->mesh_.numberOfPointSlots(), 0.0);
@@ -153,6 +155,7 @@ private:
     return volumes;
   }
 
+  /// In the order of the cells, so that the energy has the same bits in each run.
   void findStresses()
   {
     Solution<D>& s = this->solution_;

@@ -13,6 +13,7 @@ namespace meshopt::fem
 {
 namespace
 {
+/// Gradients of the shape functions are constant in a linear element, and so is its strain.
 template <int D>
 ElementGeometry<D> elementGeometry(const Corners<D>& x)
 {
@@ -135,6 +136,7 @@ public:
   }
 
 private:
+  /// A block for each neighbour of p, and the load at p.
   void gather(Index p)
   {
     this->blocks_.assign(this->neighbours_.size(), Tensor<D>::Zero());
@@ -155,6 +157,7 @@ private:
     }
   }
 
+  /// Row a of point p, into the place that assemble() has given to it.
   void write(Index p, int a)
   {
     const Index row = this->unknowns_.numbers[D * p + a];
@@ -239,6 +242,8 @@ Discretization<D> discretize(
       for (Index c = begin; c < end; ++c)
       {
         d.elements[c] = elementGeometry<D>(mesh.corners(c));
+        // One temperature per element, the mean of its nodes: the thermal strain is then constant,
+        // as the strain is.
         double sum = 0.0;
         for (int i = 0; i <= D && !problem.temperature.empty(); ++i)
         {

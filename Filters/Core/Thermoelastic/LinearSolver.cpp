@@ -49,6 +49,8 @@ double fractionDone(double residual, double tolerance)
   return std::isfinite(f) ? std::min(1.0, std::max(0.0, f)) : 0.0;
 }
 
+/// `first` and `last`: progress at the begin and at the end. The residual comes from the
+/// recurrence, as in Eigen; it is not computed again.
 template <class Preconditioner>
 SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& options,
   const Control& control, double first, double last, VectorXd& x)
@@ -102,6 +104,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
   return report;
 }
 
+/// There are no steps: the history has the residual before and after.
 SolverReport factorize(const LinearSystem& system, const SolverOptions& options, VectorXd& x)
 {
   SolverReport report;

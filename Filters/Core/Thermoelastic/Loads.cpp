@@ -22,6 +22,7 @@ std::vector<Facet<D>> surfaceFacets(const SimplexMesh<D>& mesh)
   return facets;
 }
 
+/// A quarter turn to the left, where the body lies.
 template <>
 Vec<2> areaVector<2>(const std::array<Vec<2>, 2>& x)
 {

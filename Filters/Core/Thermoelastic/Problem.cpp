@@ -157,6 +157,7 @@ std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
   return std::nullopt;
 }
 
+/// Of a temperature that is linear in the cell the mean over the nodes is that over the cell.
 template <int D>
 double meanTemperatureRise(const SimplexMesh<D>& mesh, const Problem<D>& problem, Index cell)
 {
@@ -173,6 +174,7 @@ double meanTemperatureRise(const SimplexMesh<D>& mesh, const Problem<D>& problem
 }
 }
 
+/// Lengths come first: all other checks index the arrays.
 template <int D>
 std::optional<Error> check(const SimplexMesh<D>& mesh, const Problem<D>& problem)
 {

@@ -157,6 +157,7 @@ private:
   using Group = typename RigidModes<D>::Group;
   static constexpr int M = MotionSize<D>;
 
+  /// Cells that hang together over facets.
   void findBodies()
   {
     const Index n = this->mesh_.numberOfCellSlots();
@@ -187,6 +188,7 @@ private:
     }
   }
 
+  /// Points in cells of several bodies. bodyOfPoint is the first of these.
   void findHinges()
   {
     std::vector<Index>& bodyOf = this->modes_.bodyOfPoint;
@@ -208,6 +210,7 @@ private:
     }
   }
 
+  /// Bodies that hang together over hinges.
   void findGroups()
   {
     std::vector<Body>& bodies = this->modes_.bodies;
@@ -241,6 +244,7 @@ private:
     }
   }
 
+  /// The centre and the size of each group: the origin and the unit of length of its motions.
   void measureGroups()
   {
     std::vector<Group>& groups = this->modes_.groups;

@@ -43,6 +43,8 @@ struct Fit
   Stress<D> at(const Vec<D>& x) const { return this->mean + this->slope * (x - this->centre); }
 };
 
+/// The linear polynomial nearest to the stresses at the centroids, by least squares. It is not
+/// valid with fewer than `leastCells` cells, or if these lie in a plane (2D: on a line).
 template <int D>
 Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D>>& stress,
   const Index* begin, const Index* end, Index leastCells)
@@ -122,6 +124,7 @@ public:
     }
   }
 
+  /// For the nodes [begin, end): different threads write different fits.
   void fitOwn(Index begin, Index end)
   {
     for (Index n = begin; n < end; ++n)
@@ -147,6 +150,7 @@ public:
   }
 
 private:
+  /// The mean of what the fits of the nodes around say at x.
   Stress<D> byNeighbours(Index node, const Vec<D>& x) const
   {
     Stress<D> sum = Stress<D>::Zero();
@@ -177,6 +181,7 @@ private:
     return around;
   }
 
+  /// By the smallest enlarged patch that determines a polynomial.
   Stress<D> byEnlargedPatch(Index node, const Vec<D>& x) const
   {
     const Rows& cells = this->nodes_.cellsOfNode;
