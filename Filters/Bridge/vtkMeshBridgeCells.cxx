@@ -48,6 +48,9 @@ private:
   vtkNew<vtkGenericCell> Cell;
 };
 
+/**
+ * Whoever reads arrays later trusts that each has a value for each point or cell.
+ */
 std::string CheckArrayLengths(vtkDataSetAttributes* attributes, vtkIdType wanted, const char* kind)
 {
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
@@ -140,6 +143,7 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
         return CellName(grid, cell) + " uses point " + std::to_string(ids[i]) + " twice.";
       }
     }
+    // Looked at already, with an earlier cell.
     if (use[ids[i]] & UsedBySimplex)
     {
       continue;
@@ -224,6 +228,9 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
   return {};
 }
 
+/**
+ * The core counts the cells of its mesh, while the user knows those of the grid.
+ */
 std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells)
 {
   if (cell == meshopt::None || cells.IsIdentity())

@@ -49,6 +49,9 @@ const T* PointerOf(vtkDataArray* array)
   return vtkAOSDataArrayTemplate<T>::SafeDownCast(array)->GetPointer(0);
 }
 
+/**
+ * For arrays of another type or layout, which are rare: slow, but right for all.
+ */
 std::vector<vtkTypeInt64> CopyOf(vtkDataArray* array)
 {
   std::vector<vtkTypeInt64> copy(array->GetNumberOfValues());
@@ -91,6 +94,9 @@ GridView::GridView(vtkUnstructuredGrid* grid)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Points into the arrays of the grid where their layout allows it, and copies them otherwise.
+ */
 void GridView::ReadCells(vtkUnstructuredGrid* grid)
 {
   vtkUnsignedCharArray* types = grid->GetCellTypesArray();

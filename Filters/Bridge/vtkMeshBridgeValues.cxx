@@ -121,6 +121,7 @@ Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame
   const Tensor<3> difference = m - m.transpose();
   if (difference.cwiseAbs().maxCoeff() > Skew * m.cwiseAbs().maxCoeff())
   {
+    // Not symmetric: NaN makes whoever checks the tensors name the point.
     return Tensor<D>::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   const Tensor<3> symmetric = 0.5 * (m + m.transpose());

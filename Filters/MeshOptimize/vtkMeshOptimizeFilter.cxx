@@ -134,6 +134,9 @@ void vtkMeshOptimizeFilter::SetGeometryData(vtkPolyData* geometry)
 const char* vtkMeshOptimizeFilter::GetStopReasonAsString() { return this->StopReasonText.c_str(); }
 
 //------------------------------------------------------------------------------
+/**
+ * The base class would always make a grid as output; the input may also be a tree.
+ */
 vtkTypeBool vtkMeshOptimizeFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {

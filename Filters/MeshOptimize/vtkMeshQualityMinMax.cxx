@@ -101,6 +101,9 @@ int vtkMeshQualityMinMax::FillOutputPortInformation(int port, vtkInformation* in
 }
 
 //------------------------------------------------------------------------------
+/**
+ * The output has the type of the input: a grid, or composite data.
+ */
 vtkTypeBool vtkMeshQualityMinMax::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -283,6 +286,9 @@ std::string vtkMeshQualityMinMax::Run::Measure()
 }
 
 //------------------------------------------------------------------------------
+/**
+ * A second pass over the values: the range of the bins is known only when all ranks have measured.
+ */
 void vtkMeshQualityMinMax::Run::CountInBins(meshopt::QualityHistogram& histogram)
 {
   for (const quality::Block& block : this->Blocks)
@@ -305,6 +311,7 @@ void vtkMeshQualityMinMax::StoreFigures(const Run& run)
 {
   const quality::Sums& total = run.Figures.Total;
   const meshopt::QualityStatistics& q = total.Quality;
+  // No cell was measured.
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   this->MinimumQuality = q.count ? q.minimum : nothing;
   this->MaximumQuality = q.count ? q.maximum : nothing;

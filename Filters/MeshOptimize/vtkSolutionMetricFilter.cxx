@@ -50,6 +50,9 @@ void vtkSolutionMetricFilter::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Without a name: the active scalars, as all VTK filters have it.
+ */
 void vtkSolutionMetricFilter::SetSolutionArray(const char* name)
 {
   if (name && *name)

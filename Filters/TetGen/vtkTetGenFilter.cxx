@@ -112,6 +112,7 @@ std::string vtkTetGenFilter::CheckOptions()
         " has a value that is not finite.";
     }
   }
+  // Five numbers per region: a point, its attribute, its greatest volume.
   for (std::size_t i = 3; i < this->Regions.size(); i += 5)
   {
     const double attribute = this->Regions[i];
@@ -217,6 +218,7 @@ std::string vtkTetGenFilter::ExplainFailure(const bridge::Surface& surface, brid
   {
     return outside;
   }
+  // The surface alone: nothing else may make this second run fail.
   job.OnlyFindIntersections = true;
   job.Regions.clear();
   job.Holes.clear();
@@ -267,6 +269,7 @@ std::string vtkTetGenFilter::Run(
       ? "TetGen found nothing inside the surface."
       : "No tetrahedron remains: hole points lie in all compartments of the surface.";
   }
+  // Without holes every triangle must be a face; a hole takes its triangles away.
   const int lost = job.KeepSurface && job.Holes.empty()
     ? bridge::FindLostTriangle(surface, mesh.Tetrahedra)
     : -1;

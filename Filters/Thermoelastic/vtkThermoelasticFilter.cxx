@@ -194,6 +194,7 @@ std::string CheckDistribution(vtkMultiProcessController* controller, bool hasCel
   {
     return {};
   }
+  // Collective: a process that left before this call would make the others wait for ever.
   const int mine = hasCells ? 1 : 0;
   int all = 0;
   controller->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);

@@ -63,6 +63,7 @@ void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name)
 
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays)
 {
+  // In the order of ArrayIndex.
   vtkDataArray** targets[NumberOfInputArrays] = { &arrays.Region, &arrays.FixedPoints, &arrays.Size,
     &arrays.Metric, &arrays.Corners, &arrays.Patch };
   arrays = InputArrays();

@@ -21,6 +21,9 @@ using meshopt::SimplexMesh;
 namespace
 {
 
+/**
+ * Compared in the core: on the way back to the grid a tilted plane would round.
+ */
 template <int D>
 bool HasMoved(const Model<D>& model, Index p)
 {

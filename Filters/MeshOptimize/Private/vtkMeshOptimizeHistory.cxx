@@ -84,6 +84,7 @@ void AppendHistory(const meshopt::Report& report, int block, vtkTable* table)
 {
   for (const meshopt::PassRecord& row : report.history)
   {
+    // StartHistory() has decided which columns there are.
     if (table->GetColumnByName("Block"))
     {
       Append<vtkIntArray>(table, "Block", block);

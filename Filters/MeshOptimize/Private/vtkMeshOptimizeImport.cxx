@@ -32,6 +32,9 @@ void ImportFixedPoints(const Cells& cells, vtkDataArray* mask, MeshInput<D>& inp
   }
 }
 
+/**
+ * An edge of a plane mesh is a facet.
+ */
 void KeepEdge(Index a, Index b, MeshInput<2>& input)
 {
   input.constrainedFacets.push_back({ a, b });
@@ -39,6 +42,9 @@ void KeepEdge(Index a, Index b, MeshInput<2>& input)
 
 void KeepEdge(Index a, Index b, MeshInput<3>& input) { input.constrainedEdges.push_back({ a, b }); }
 
+/**
+ * A triangle is a cell of a plane mesh, not a facet.
+ */
 void KeepTriangle(const vtkIdType*, MeshInput<2>&) {}
 
 void KeepTriangle(const vtkIdType* ids, MeshInput<3>& input)

@@ -153,6 +153,8 @@ Sample SampleFacet(
   {
     model.Grid->GetPoint(facet[i], corners[i].data());
   }
+  // Barycentric weights as seen along the normal. A point beside the facet has a negative one,
+  // which becomes 0.
   const Vec<3> n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   Sample sample;
   double sum = 0.0;

@@ -71,6 +71,7 @@ std::string SetMetric(const Request& request, Model<D>& model)
   {
     return {};
   }
+  // The core knows points, not arrays: it says which of the two the sentence is about.
   meshopt::NodalValues blamed;
   const std::string error = model.Metric.set(model.Mesh, vtkMeshBridge::ReadSizes(sizes),
     vtkMeshBridge::ReadTensors(tensors, model.Frame), &blamed);

@@ -193,6 +193,7 @@ std::string ReadLines(
         const Index from = ids[points[k - 1]], to = ids[points[k]];
         if (from != to)
         {
+          // Lower end first, so that both sides of a crack become the same line.
           network.lines.push_back({ std::min(from, to), std::max(from, to) });
         }
       }
@@ -281,6 +282,7 @@ Place PlaceOf(vtkUnstructuredGrid* grid, const meshopt::Facet<3>& face)
   {
     grid->GetPoint(face[i], x[i].data());
   }
+  // Different blocks number the corners differently.
   std::sort(x.begin(), x.end());
   Place place;
   for (int i = 0; i < 9; ++i)

@@ -123,6 +123,7 @@ private:
   {
     for (const SurfaceFault<D>& fault : this->Faults)
     {
+      // Faults are sorted by kind: those without area come first.
       if (fault.kind != SurfaceFault<D>::NoArea)
       {
         break;

@@ -49,6 +49,9 @@ void Put(vtkMultiProcessStream& stream, const Sums& s)
   stream << q.minimum << q.maximum << q.mean << q.squares << s.Bound;
 }
 
+/**
+ * In the order in which Put() has written.
+ */
 Sums TakeSums(vtkMultiProcessStream& stream)
 {
   Sums s;
@@ -177,6 +180,7 @@ meshopt::QualityHistogram MakeHistogram(
   const Options& options, const Figures& figures, int numberOfBins)
 {
   const meshopt::QualityStatistics& q = figures.Total.Quality;
+  // From 0, or from the worst inverted cell.
   const double low = std::min(0.0, q.minimum);
   const double high = std::max(GreatestQuality(options, figures), q.maximum);
   return meshopt::QualityHistogram(low, high, numberOfBins);
@@ -279,6 +283,7 @@ void FillWorstCells(const Options& options, const std::vector<meshopt::WorstElem
     {
       double x[3];
       block->Mesh->GetPoint(nodes->GetId(k), x);
+      // Points that several cells share come once.
       const auto at = known.emplace(nodes->GetId(k), points->GetNumberOfPoints());
       if (at.second)
       {

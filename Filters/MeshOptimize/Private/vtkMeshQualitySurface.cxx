@@ -148,6 +148,7 @@ private:
   void Add(vtkIdType point, Key key, bool alone)
   {
     std::atomic<Key>& number = this->Numbers[point];
+    // One thread needs no atomic exchange, which is slower.
     if (alone)
     {
       number.store(number.load(std::memory_order_relaxed) ^ key, std::memory_order_relaxed);
@@ -256,6 +257,7 @@ void MeasureSurfaceOf(
 {
   const std::vector<Candidate> facets = SurfaceFinder<D>(grid).Find();
   SurfacePoints<D> points(grid);
+  // Region by region, since each has a bound of its own.
   std::vector<std::vector<KeptSide<D>>> sides(std::max<std::size_t>(1, grid.GetRegions().size()));
   for (const Candidate& facet : facets)
   {
@@ -271,6 +273,7 @@ void MeasureSurfaceOf(
       side.nodes[k] = points.Number(ids[meshopt::Local<D>::facets[facet.Facet][k]]);
     }
     side.cell = static_cast<Index>(facet.Cell);
+    // On which side of a flat or inverted cell the mesh lies is not known.
     side.oriented = quality[facet.Cell] > 0.0;
     sides[grid.GetRegion(facet.Cell)].push_back(side);
   }

@@ -129,6 +129,7 @@ std::string ReadSolution(
   for (std::size_t p = 0; p < cells.PointUse.size(); ++p)
   {
     double* tuple = &values[p * components];
+    // Elsewhere the solution may have any value.
     if (!(cells.PointUse[p] & bridge::UsedBySimplex))
     {
       continue;
@@ -189,6 +190,9 @@ Tensor<3> ToGrid(const Tensor<2>& m, const bridge::Frame<2>& frame)
     std::sqrt(m.determinant()) * n * n.transpose();
 }
 
+/**
+ * From 1 / length^2 to lengths.
+ */
 template <int D>
 Tensor<D> InverseRoot(const Tensor<D>& m)
 {

@@ -82,6 +82,9 @@ private:
 };
 
 //------------------------------------------------------------------------------
+/**
+ * A pipe takes as much as it has room for: the rest goes with the next calls.
+ */
 bool WriteAll(int file, const void* data, std::size_t bytes)
 {
   auto from = static_cast<const char*>(data);
@@ -240,6 +243,7 @@ bool Listen(int textFile, int meshFile, const ChildProgress& progress, TextReade
     {
       files[1].fd = -1;
     }
+    // Asked at least every PollMilliseconds, so that an abort does not wait for TetGen.
     if (!progress(text.Current.Fraction, text.Current.Text))
     {
       return false;

@@ -13,6 +13,9 @@ namespace vtkTetGenBridge
 namespace
 {
 
+/**
+ * TetGen's structure owns its arrays and deletes them.
+ */
 double* NewArray(const std::vector<double>& values)
 {
   double* array = new double[values.size()];

@@ -46,6 +46,9 @@ std::string Coordinates(const double* x)
   return text.str();
 }
 
+/**
+ * With the id that the user knows, and the place.
+ */
 std::string DescribePoint(const Surface& surface, int point)
 {
   return "point " + std::to_string(surface.PointIds[point]) + " " + Coordinates(At(surface, point));
@@ -149,6 +152,9 @@ vtkSmartPointer<vtkPolyData> CutIntoTriangles(vtkPolyData* input)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * TetGen cannot start from points in one plane.
+ */
 std::string CheckCoordinates(const Surface& surface)
 {
   double lower[3], upper[3];
@@ -179,6 +185,10 @@ std::string CheckCoordinates(const Surface& surface)
   return {};
 }
 
+/**
+ * Sorted by place: points at the same place stand together. Of several pairs the one with the
+ * lowest id is named.
+ */
 std::string CheckDuplicatePoints(const Surface& surface)
 {
   std::vector<int> order(surface.PointIds.size());
@@ -250,6 +260,9 @@ std::string CheckTriangles(const Surface& surface)
   return {};
 }
 
+/**
+ * Every edge must have facets on two sides, or the inside would leak out.
+ */
 std::string CheckClosed(const Surface& surface)
 {
   std::vector<std::pair<Edge, int>> edges;
@@ -452,6 +465,9 @@ std::string DescribeIntersections(
   return text + (pairs.size() > shown ? "; ..." : ".");
 }
 
+/**
+ * Compared as sorted triples: the mesh numbers its faces in another order.
+ */
 int FindLostTriangle(const Surface& surface, const std::vector<int>& tetrahedra)
 {
   std::vector<Triangle> faces;

@@ -36,6 +36,7 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
   for (int i = 0; i < NumberOfInputArrays; ++i)
   {
     vtkAbstractArray* found = vtkMeshBridge::FindArray(filter, grid, i, Roles[i]);
+    // Only an array that was chosen must be there: the default names are offers.
     if (!found && vtkMeshBridge::IsWanted(filter, i))
     {
       return vtkMeshBridge::DescribeMissing(

@@ -38,6 +38,9 @@ Vec<3> VectorToGrid(const Frame<2>& frame, const Vec<2>& u)
 }
 
 Tensor<3> StressToGrid(const Frame<3>&, const Stress<3>& s) { return meshopt::fem::toTensor<3>(s); }
+/**
+ * From the axes of the plane and its normal to those of the grid.
+ */
 Tensor<3> StressToGrid(const Frame<2>& frame, const Stress<2>& s)
 {
   Tensor<3> axes;
@@ -111,6 +114,9 @@ void ExportPointStress(
   }
 }
 
+/**
+ * The solution counts simplices; other cells of the grid have no value.
+ */
 template <int D>
 void ExportCellValues(const Model<D>& model, const std::vector<double>& values, const char* name,
   vtkUnstructuredGrid* output)

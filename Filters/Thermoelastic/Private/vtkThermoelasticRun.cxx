@@ -120,6 +120,7 @@ std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnst
   if (solution.solver.status != SolverStatus::Cancelled)
   {
     output->ShallowCopy(input);
+    // A temperature by formula is shown, too; one from an array is there already.
     if (request.TemperatureMode != vtkThermoelasticFilter::PointArray)
     {
       ExportTemperature(model.Problem.temperature, output);
