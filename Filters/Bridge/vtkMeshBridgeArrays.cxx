@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Which array of a grid a filter is to use, and what is wrong with it. All filters find and check
+// their arrays here, so that the same fault gets the same sentence everywhere.
 #include "vtkMeshBridgeArrays.h"
 
 #include "vtkAlgorithm.h"

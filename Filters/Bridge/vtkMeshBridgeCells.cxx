@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Reads the cells of a grid once, with all checks that later steps rely on. Nothing behind this
+// file looks for a bad id, a point twice, or a coordinate that is not finite.
 #include "vtkMeshBridgeCells.h"
 
 #include "vtkMeshBridgeGridView.h"

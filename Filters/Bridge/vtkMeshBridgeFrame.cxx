@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The plane of triangles, and how their coordinates get into it and back. A plane parallel to two
+// axes only leaves out a coordinate, and so does not round; a tilted one turns, and rounds.
 #include "vtkMeshBridgeFrame.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A grid seen through plain pointers, which many threads may read. Arrays of a layout that is not
+// known here are copied once.
 #include "vtkMeshBridgeGridView.h"
 
 #include "vtkAOSDataArrayTemplate.h"

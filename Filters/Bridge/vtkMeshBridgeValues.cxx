@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Values at points and cells in the core's form: regions as 32-bit numbers, sizes, and tensors in
+// the core's coordinates. What is unusable becomes NaN, and whoever uses it says where.
 #include "vtkMeshBridgeValues.h"
 
 #include "vtkAOSDataArrayTemplate.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, ports and errors. The work is done by the functions of Private, one grid at a time.
 #include "vtkMeshOptimizeFilter.h"
 
 #include "vtkMeshBridgeArrays.h"

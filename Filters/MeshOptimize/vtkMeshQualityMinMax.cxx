@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, ports and blocks. Each block is measured by the functions of Private; ranks meet once
+// for figures and once for the histogram.
 #include "vtkMeshQualityMinMax.h"
 
 #include "vtkMeshBridgeGridView.h"

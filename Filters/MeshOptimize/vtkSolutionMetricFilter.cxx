@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties and errors; the work is done in Private/vtkSolutionMetricRun.
 #include "vtkSolutionMetricFilter.h"
 
 #include "vtkSolutionMetricRun.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, the call of TetGen, and what its failures mean.
 #include "vtkTetGenFilter.h"
 
 #include "vtkMeshBridgeVTKCompat.h"

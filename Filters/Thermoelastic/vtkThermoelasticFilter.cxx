@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, ports and errors; the work is done in Private.
 #include "vtkThermoelasticFilter.h"
 
 #include "vtkMeshBridgeControl.h"

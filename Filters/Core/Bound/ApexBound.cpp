@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// All bounds here come from one kind of maximum, ApexProblem, which Newton's method solves. What is
+// left when it ends is added, never neglected: a bound that is too low would be wrong, one that is
+// a little too high is only weaker.
 #include "Bound/ApexBound.h"
 
 #include "Bound/PairBound.h"

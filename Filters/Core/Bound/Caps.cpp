@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Keeps the caps of a bound in tables by facet and by edge, since the engine asks for them with
+// each try. The caps themselves come from SurfaceBound.
 #include "Bound/Caps.h"
 
 #include <algorithm>

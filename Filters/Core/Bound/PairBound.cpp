@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The case in which the angle at an edge is filled by two cells. Both share one free node, so the
+// maximum is over a single place, for a weighted mean of both; bisection finds the weight.
 #include "Bound/PairBound.h"
 
 #include "Quality/Shape.h"

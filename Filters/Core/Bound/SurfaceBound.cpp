@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// First the cap of each facet by itself, then the wedges between neighbouring sides of one region.
+// Whatever rounding leaves in doubt is left out: it must not lower the bound.
 #include "Bound/SurfaceBound.h"
 
 #include "Bound/ApexBound.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Gathers the cells around a few nodes, with numbers of their own, so that a local problem can be
+// solved without the mesh.
 #include "Mesh/Cluster.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Slots, the journal and single edits; replace() is in MeshEditorReplace.hxx. Whatever changes the
+// mesh first saves what it overwrites: that is all that undo needs.
 #include "Mesh/MeshEditor.h"
 
 #include "Mesh/MeshEditorReplace.hxx"

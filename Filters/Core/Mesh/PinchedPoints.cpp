@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Compares two counts of the cells at each point: all of them, and those that a walk over facets
+// finds.
 #include "Mesh/PinchedPoints.h"
 
 #include <algorithm>

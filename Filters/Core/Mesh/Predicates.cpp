@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A filter in floating point, then expansions without rounding. The order of operations is what
+// makes them exact: nothing may be regrouped.
 #include "Mesh/Predicates.h"
 
 #include <cmath>

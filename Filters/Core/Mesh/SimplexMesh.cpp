@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Walks over the mesh. There is no table of edges or of stars: both are found over facets.
 #include "Mesh/SimplexMesh.h"
 
 #include "Mesh/LocalNumbers.h"

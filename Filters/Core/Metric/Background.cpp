@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Locates points in the mesh of the input. A walk from a hint finds nearly all; a tree of boxes
+// finds the rest, and the nearest cell for points outside.
 #include "Metric/Background.h"
 
 #include "Mesh/SimplexGeometry.h"

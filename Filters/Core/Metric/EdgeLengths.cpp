@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Lengths of edges in the wanted sizes, and how many of them are near 1.
 #include "Metric/EdgeLengths.h"
 
 #include <algorithm>

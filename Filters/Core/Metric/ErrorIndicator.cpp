@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From errors in the present cells to sizes of a new mesh in which all cells have the same error.
+// It assumes that an error falls with a power of the size, the order of convergence.
 #include "Metric/ErrorIndicator.h"
 
 #include "Metric/MetricVolume.h"

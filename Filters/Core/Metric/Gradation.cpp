@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Sweeps over the points until no metric is coarser than its neighbours permit. A sweep looks only
+// at points whose own metric has changed.
 #include "Metric/Gradation.h"
 
 #include "Metric/SymmetricEigen.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Recovery by the paper's (5.4), with the boundary as a second step: the weak form says nothing
+// there, so values are carried from the inside to the boundary as smoothly as possible.
 #include "Metric/HessianRecovery.h"
 
 #include "Metric/LeastSquaresHessian.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Recovery by a quadratic polynomial around each point. The patch grows ring by ring until its
+// points determine all coefficients.
 #include "Metric/LeastSquaresHessian.h"
 
 #include <Eigen/Cholesky>

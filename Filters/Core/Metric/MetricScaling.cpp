@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Finds h* for a wanted number of elements. The number falls with h*, but limits on sizes and the
+// gradation bend the curve, so that the zero has to be searched.
 #include "Metric/MetricScaling.h"
 
 #include "Metric/Gradation.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Values of sizes and tensors are kept as logarithms. Means of logarithms stay positive definite,
+// and twice and half a size are equally far away.
 #include "Metric/NodalMetric.h"
 
 #include "Metric/MetricVolume.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A grid of bins holds the edges that have a say at a place. Bins are half as wide as
+// the boxes that edges reach on average.
 #include "Metric/SizeFloor.h"
 
 #include "Metric/SymmetricEigen.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The steps of section 5 of the paper in their order, from nodal values to a metric and h*.
 #include "Metric/SolutionMetric.h"
 
 #include "Metric/TensorFunctions.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Logarithm and exponential of symmetric tensors. The exponential is called for each cell that is
+// tried in a metric, and is written for speed; the logarithm is called once per point.
 #include "Metric/TensorFunctions.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Contraction as a change of topology only. What it does to kept facets and edges is written down
+// for the editor; whether it is good, the judge says.
 #include "Operations/EdgeContraction.h"
 
 #include "Mesh/Ids.h"

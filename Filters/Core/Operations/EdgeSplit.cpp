@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Division of an edge as a change of topology only: the same division of labour as in
+// EdgeContraction.cpp.
 #include "Operations/EdgeSplit.h"
 
 #include "Mesh/Ids.h"

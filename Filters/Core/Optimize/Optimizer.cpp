@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The order of a whole run: untangle, follow the sizes, raise the worst cells; and what to do if
+// following the sizes has made the worst cell worse.
 #include "Optimize/Optimizer.h"
 
 #include "Paper1996/Paper1996.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The cells around a node or an edge, walked over facets that contain it. The walk stops early if
+// the cell that asks is not the worst of them: another cell will ask.
 #include "Paper1996/FanCluster.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What is remembered from try to try, so that nothing is tried twice while nothing has changed.
 #include "Paper1996/Filling.h"
 
 #include <algorithm>

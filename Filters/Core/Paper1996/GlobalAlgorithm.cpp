@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The loop of section 2.2 around the Local Algorithm. Names in capitals in comments are those of
+// the paper: KWORST, PREV, NL, M.
 #include "Paper1996/GlobalAlgorithm.h"
 
 #include "Paper1996/ClusterSolver.h"

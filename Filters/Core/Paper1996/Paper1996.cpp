@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The loop around both halves of the paper, with what it leaves open: when to stop, and when
+// look-ahead is worth its price.
 #include "Paper1996/Paper1996.h"
 
 #include "Bound/Caps.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The loop of section 2.3: the worst cell and those around it, each with its clusters. A cell that
+// fails is set aside until something changes at one of its nodes.
 #include "Paper1996/Reconnection.h"
 
 #include "Mesh/PinchedPoints.h"

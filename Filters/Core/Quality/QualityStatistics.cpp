@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Sums over many cells that can be merged from parts: by chunk for threads, by rank for processes.
+// All are exact but for rounding, and the order of merging is the caller's.
 #include "Quality/QualityStatistics.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Wolfe's method. The corral is a set of points whose affine hull is looked at; a Cholesky factor
+// of their products is kept up to date, row by row.
 #include "Reposition/MinNormPoint.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks options before a run, so that no later step has to doubt them.
 #include "Run/Options.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The stop reason in words for the user.
 #include "Run/Report.h"
 
 #include <utility>

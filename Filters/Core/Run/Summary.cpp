@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One pass over all cells each: qualities, and their summary. Both are serial, so that sums have
+// the same bits in each run.
 #include "Run/Summary.h"
 
 #include "Quality/ElementQuality.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The rounds of the size stage: contract, split, contract, smooth, until few edges change; then h*
+// is corrected if the number of cells is not the predicted one.
 #include "Sizes/SizeStage.h"
 
 #include "Sizes/SizeStageRun.h"

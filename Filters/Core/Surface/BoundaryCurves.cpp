@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The curves of a plane boundary. Either they are made from the boundary itself, or each chain of
+// it is put on the nearest curve of a given geometry.
 #include "Surface/BoundaryCurves.h"
 
 #include <algorithm>

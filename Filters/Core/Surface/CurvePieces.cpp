@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Which piece of curve an edge is on. Places tell this for all nodes but corners, which several
+// pieces share.
 #include "Surface/CurvePieces.h"
 
 #include <algorithm>

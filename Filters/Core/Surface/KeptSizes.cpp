@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Plane meshes only: finds the kept edges that are too long for the wanted sizes.
 #include "Surface/KeptSizes.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Lines in the plane, divided into chains at corners. A corner is found by its angle, or because
+// its neighbours do not turn.
 #include "Surface/LineNetwork.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A polyline, or a B-spline through its points. A closed spline is fitted as an open one that runs
+// on for some points beyond both ends: their influence has faded where it is used.
 #include "Surface/PlaneCurve.h"
 
 #include "Base/GoldenSection.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The proof that the header gives, in computations: prisms over the facets of the reference,
+// clipped polygons, and heights at their corners. Whatever cannot be proved is refused.
 #include "Surface/ReferenceSurface.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A tree of boxes around edges, and a line that is halved until each part is near one edge.
 #include "Surface/SharpEdges.h"
 
 #include <Eigen/Geometry>

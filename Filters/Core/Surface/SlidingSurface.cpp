@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What the engine asks of a surface that takes part: where nodes may go, and which changes are
+// allowed. How the surface is made stands in SlidingSurfaceBuild.cpp.
 #include "Surface/SlidingSurface.h"
 
 #include "Mesh/Ids.h"

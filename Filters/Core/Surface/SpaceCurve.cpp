@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A polyline in space with its length as parameter. Parameters of closed curves may be any number
+// of turns away: neighbours then have parameters near each other.
 #include "Surface/SpaceCurve.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The first half of the division: kept facets, their edges, which of these are curves, and patches.
+// Corners and curves follow in SurfaceDivisionCurves.cpp.
 #include "Surface/SurfaceDivision.h"
 
 #include "Mesh/Ids.h"

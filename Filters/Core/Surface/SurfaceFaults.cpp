@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Pairs of kept facets that fold or cross, found by a sweep along x with exact signs; and the test
+// whether cells can overlap.
 #include "Surface/SurfaceFaults.h"
 
 #include "Mesh/Ids.h"

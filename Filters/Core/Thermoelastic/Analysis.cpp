@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The analysis step by step. What the steps share is in Analyst, so that each is a short function.
 #include "Thermoelastic/Analysis.h"
 
 #include "Thermoelastic/RigidModes.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The matrix, row by row, from the cells around a point: each thread writes rows of its own.
 #include "Thermoelastic/Assembly.h"
 
 #include "Thermoelastic/Parallel.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Three solvers behind one function. Conjugate gradients are written out, since Eigen's report
+// nothing between start and end.
 #include "Thermoelastic/LinearSolver.h"
 
 #include "Base/Progress.h"

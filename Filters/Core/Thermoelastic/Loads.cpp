@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Forces at points that do the same work as loads on facets, for loads that are linear on a facet.
 #include "Thermoelastic/Loads.h"
 
 #include <Eigen/Geometry>

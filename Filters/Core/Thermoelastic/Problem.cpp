@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks a problem before it is assembled, and prepares generalised plane strain.
 #include "Thermoelastic/Problem.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Rigid motions as a small eigenproblem: what must not move is a row, the sum of squared rows is a
+// matrix, and its null space are the motions that are free.
 #include "Thermoelastic/RigidModes.h"
 
 #include <Eigen/Dense>

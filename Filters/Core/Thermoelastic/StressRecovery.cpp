@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Patch recovery and the error estimate. Points are split where regions meet, so that no patch
+// looks across a jump of the stress.
 #include "Thermoelastic/StressRecovery.h"
 
 #include "Thermoelastic/Parallel.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The arrays that Mesh Optimize and Mesh Quality Min Max read, in one table.
 #include "vtkMeshOptimizeArrays.h"
 
 #include "vtkMeshBridgeArrays.h"

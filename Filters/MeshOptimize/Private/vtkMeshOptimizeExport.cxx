@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From the optimized mesh to a grid. What has not changed is copied from the input, so that it is
+// the same to the last bit; ids of points and cells stay in the order of the input.
 #include "vtkMeshOptimizeExport.h"
 
 #include "vtkCellArray.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The report of the core as a table, and as field data.
 #include "vtkMeshOptimizeHistory.h"
 
 #include "vtkDataObject.h"

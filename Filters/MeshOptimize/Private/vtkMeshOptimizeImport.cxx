@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From a grid to the mesh of the core. Cells that are not optimized hold their points, and
+// triangles and lines among them keep faces and edges.
 #include "vtkMeshOptimizeImport.h"
 
 #include "vtkMeshBridgeImport.h"

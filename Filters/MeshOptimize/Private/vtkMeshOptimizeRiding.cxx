@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Triangles on the surface of tetrahedra carry boundary conditions. Where the surface slides they
+// cannot stay: they are made again from the facets of the result.
 #include "vtkMeshOptimizeRiding.h"
 
 #include "vtkMeshBridgeValues.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One grid from input to output, as steps that read like the header says: each is one call.
 #include "vtkMeshOptimizeRun.h"
 
 #include "vtkMeshBridgeCells.h"

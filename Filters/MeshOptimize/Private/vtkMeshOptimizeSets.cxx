@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Node sets are seen as parts of the surface: a set that covers whole patches keeps its area, while
+// its points come and go.
 #include "vtkMeshOptimizeSets.h"
 
 #include "vtkMeshOptimizeRiding.h"

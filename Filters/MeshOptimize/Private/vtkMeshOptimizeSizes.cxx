@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Sizes and metric on their way into the core, and what the user has to know about their result.
 #include "vtkMeshOptimizeSizes.h"
 
 #include "vtkMeshBridgeGridView.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Reads what the boundary is to slide along: lines of a geometry, corner arrays, labels of patches;
+// and finds the faces that blocks share.
 #include "vtkMeshOptimizeSurface.h"
 
 #include "vtkMeshOptimizeRiding.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Explains cells that stay inverted. Users can mend a surface if they know where it is wrong: so
+// each reason comes with examples.
 #include "vtkMeshOptimizeTangle.h"
 
 #include "vtkIdList.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Data of points and cells. Floating values are interpolated, all others are taken from the nearest
+// point: a mean of two ids is no id.
 #include "vtkMeshOptimizeTransfer.h"
 
 #include "vtkAbstractArray.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Only a part of the mesh may change: it becomes a mesh of its own, whose surface is kept like any
+// other, and the rest is added to the report.
 #include "vtkMeshOptimizeZone.h"
 
 #include "vtkMeshOptimizeImport.h"

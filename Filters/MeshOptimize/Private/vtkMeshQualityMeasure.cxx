@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Measures cells in chunks of one length, which are merged in their order: figures have the same
+// bits for any number of threads.
 #include "vtkMeshQualityMeasure.h"
 
 #include "Metric/TensorFunctions.h"

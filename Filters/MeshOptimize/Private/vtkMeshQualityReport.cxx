@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Figures of all ranks are brought together, and become tables.
 #include "vtkMeshQualityReport.h"
 
 #include "vtkCell.h"

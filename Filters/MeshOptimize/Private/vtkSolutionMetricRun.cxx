@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From a solution or an error indicator of a grid to arrays that Mesh Optimize reads.
 #include "vtkSolutionMetricRun.h"
 
 #include "vtkMeshBridgeArrays.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// TetGen runs in a process of its own, which a crash or an abort may end. Two pipes lead back from
+// it: what it prints, which tells the phase, and the mesh.
 #include "vtkTetGenChild.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From TetGen's mesh to a grid: points of the input keep their ids and their data.
 #include "vtkTetGenExport.h"
 
 #include "vtkCellArray.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The only file that calls TetGen.
 #include "vtkTetGenJob.h"
 
 #include <tetgen.h>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks a surface before TetGen sees it, so that the user reads where it is wrong instead of how
+// TetGen failed.
 #include "vtkTetGenSurface.h"
 
 #include "vtkCellArray.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The arrays that the filter reads, in one table, with the names that it looks for if none is
+// chosen.
 #include "vtkThermoelasticArrays.h"
 
 #include "vtkMeshBridgeArrays.h"

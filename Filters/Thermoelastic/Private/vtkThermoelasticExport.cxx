@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The solution as arrays of the grid. Vectors and stresses of plane meshes are turned back into
+// space.
 #include "vtkThermoelasticExport.h"
 
 #include "vtkCellData.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From arrays and properties to the problem of the core: temperature, materials, what is held.
 #include "vtkThermoelasticProblem.h"
 
 #include "vtkThermoelasticFilter.h"

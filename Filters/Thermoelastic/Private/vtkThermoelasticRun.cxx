@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One grid from input to output.
 #include "vtkThermoelasticRun.h"
 
 #include "vtkMeshBridgeImport.h"
