@@ -88,7 +88,7 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
   }
   for (int i = 0; i <= D && !this->facets_.empty(); ++i)
   {
-    if (mesh.isConstrained(c, i))
+    if (mesh.isKept(c, i))
     {
       const auto found = this->facets_.find(sortedIds(mesh.facet(c, i)));
       if (found != this->facets_.end() && q >= this->reached_ * found->second)
@@ -103,7 +103,7 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 template <int D>
 double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
 {
-  if (this->facets_.empty() || !mesh.isConstrained(c, i))
+  if (this->facets_.empty() || !mesh.isKept(c, i))
   {
     return -1.0;
   }

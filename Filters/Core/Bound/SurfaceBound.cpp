@@ -426,7 +426,7 @@ SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptio
   {
     for (int i = 0; mesh.isAlive(c) && i <= D; ++i)
     {
-      if (mesh.isConstrained(c, i))
+      if (mesh.isKept(c, i))
       {
         sides.push_back({ mesh.facet(c, i), c, mesh.region(c), true });
       }

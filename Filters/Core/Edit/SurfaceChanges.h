@@ -29,7 +29,7 @@ public:
     {
       for (int i = 0; i <= D; ++i)
       {
-        if (mesh.isConstrained(c, i) && find(p.kept.gone, sortedIds(mesh.facet(c, i))) >= 0)
+        if (mesh.isKept(c, i) && find(p.kept.gone, sortedIds(mesh.facet(c, i))) >= 0)
         {
           this->add(
             surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), this->change_.gone);
@@ -71,7 +71,7 @@ public:
       {
         const Index a = mesh.nodes(c)[Local<D>::edges[e][0]];
         const Index b = mesh.nodes(c)[Local<D>::edges[e][1]];
-        if (mesh.isEdgeConstrained(c, e) && (slides(p, a) || slides(p, b)) &&
+        if (mesh.isEdgeKeptByItself(c, e) && (slides(p, a) || slides(p, b)) &&
           !this->addSpan(surface.span(mesh, a, b)))
         {
           return false;
@@ -90,7 +90,7 @@ public:
     {
       for (int i = 0; i <= D; ++i)
       {
-        for (int k = 0; k < D && mesh.isConstrained(c, i) && mesh.patch(c, i) != None; ++k)
+        for (int k = 0; k < D && mesh.isKept(c, i) && mesh.patch(c, i) != None; ++k)
         {
           if (!this->allowsAngle(surface, mesh, c, i, Local<D>::facets[i][k]))
           {
@@ -121,7 +121,7 @@ private:
         isKept = mesh.isEdgeKept(c, e);
       }
     }
-    while (!mesh.isConstrained(current, exit))
+    while (!mesh.isKept(current, exit))
     {
       const Index h = mesh.adjacent(current, exit);
       const Index next = mesh.cellOf(h);
@@ -201,7 +201,7 @@ private:
       for (int i = 0; i <= D; ++i)
       {
         const Facet<D> f = mesh.facet(c, i);
-        if (mesh.isConstrained(c, i) &&
+        if (mesh.isKept(c, i) &&
           std::any_of(f.begin(), f.end(), [&](Index q) { return slides(p, q); }))
         {
           this->add(surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), pieces);

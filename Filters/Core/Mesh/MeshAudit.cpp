@@ -56,7 +56,7 @@ struct Audit
   {
     const Index h = this->mesh.adjacent(c, i);
     Facet<D> f = this->mesh.facet(c, i);
-    if (this->mesh.isConstrained(c, i))
+    if (this->mesh.isKept(c, i))
     {
       for (Index p : f)
       {
@@ -68,7 +68,7 @@ struct Audit
     }
     if (h == None)
     {
-      if (!this->mesh.isConstrained(c, i))
+      if (!this->mesh.isKept(c, i))
       {
         this->fault(name + " is at the surface but not kept");
       }
@@ -87,11 +87,11 @@ struct Audit
     {
       this->fault(name + " is not the facet of its neighbour");
     }
-    if (this->mesh.isConstrained(c, i) != this->mesh.isConstrained(o, j))
+    if (this->mesh.isKept(c, i) != this->mesh.isKept(o, j))
     {
       this->fault(name + " is kept on one side only");
     }
-    if (this->mesh.region(c) != this->mesh.region(o) && !this->mesh.isConstrained(c, i))
+    if (this->mesh.region(c) != this->mesh.region(o) && !this->mesh.isKept(c, i))
     {
       this->fault(name + " lies between regions but is not kept");
     }

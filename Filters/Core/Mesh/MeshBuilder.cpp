@@ -386,7 +386,7 @@ struct MeshBuilder
   }
 
   /// Facets of the surface and between regions are kept in any case, those of the caller besides.
-  void constrain()
+  void keepAll()
   {
     for (Index c = 0; c < this->mesh.numberOfCellSlots(); ++c)
     {
@@ -400,16 +400,16 @@ struct MeshBuilder
       }
     }
     // Pinched points come last: points on kept facets are held already, and need no star.
-    this->constrainListed();
+    this->keepListed();
     this->fixPinchedPoints();
   }
 
   /// Marks the caller's facets and edges in every cell that has them. Scans all cells, since a star
   /// may be incomplete where bodies touch in a point. Ignores what no cell has.
-  void constrainListed()
+  void keepListed()
   {
-    std::vector<Facet<D>> facets = this->input.constrainedFacets;
-    std::vector<std::array<Index, 2>> edges = this->input.constrainedEdges;
+    std::vector<Facet<D>> facets = this->input.keptFacets;
+    std::vector<std::array<Index, 2>> edges = this->input.keptEdges;
     sortAll(facets);
     sortAll(edges);
     if (facets.empty() && edges.empty())
@@ -434,7 +434,7 @@ struct MeshBuilder
           this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
           this->mesh.points_[a].flags |= Mesh::PointHeld;
           this->mesh.points_[b].flags |= Mesh::PointHeld;
-          this->mesh.hasConstrainedEdges_ = true;
+          this->mesh.hasKeptEdges_ = true;
         }
       }
     }
@@ -486,7 +486,7 @@ std::optional<MeshError> SimplexMesh<D>::build(const MeshInput<D>& input, Simple
   {
     builder.orient();
   }
-  builder.constrain();
+  builder.keepAll();
   return std::nullopt;
 }
 

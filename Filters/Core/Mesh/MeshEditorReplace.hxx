@@ -31,7 +31,7 @@ void MeshEditor<D>::collectOpenFacets(
     for (int i = 0; i <= D; ++i)
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
-      const bool kept = this->mesh_->isConstrained(c, i);
+      const bool kept = this->mesh_->isKept(c, i);
       // No new cell has a kept facet that vanishes: it is not part of the boundary to fill.
       if (kept && isGone(sortedIds(this->mesh_->facet(c, i))))
       {
@@ -57,7 +57,7 @@ template <int D>
 void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity, const KeptChange<D>* change)
 {
   this->keptEdges_.clear();
-  if (!this->mesh_->hasConstrainedEdges_)
+  if (!this->mesh_->hasKeptEdges_)
   {
     return;
   }
@@ -67,7 +67,7 @@ void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity, const Kep
   {
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
     {
-      if (this->mesh_->isEdgeConstrained(c, e))
+      if (this->mesh_->isEdgeKeptByItself(c, e))
       {
         const Simplex<D>& t = this->mesh_->nodes(c);
         const Index a = t[Local<D>::edges[e][0]], b = t[Local<D>::edges[e][1]];

@@ -67,7 +67,7 @@ void MeshEditor<D>::keepEdge(Index c, Index a, Index b)
       }
     }
   }
-  this->mesh_->hasConstrainedEdges_ = true;
+  this->mesh_->hasKeptEdges_ = true;
 }
 
 template void MeshEditor<2>::makeRoomForPlaces();

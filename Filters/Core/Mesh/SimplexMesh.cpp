@@ -87,7 +87,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
       while (true)
       {
         const Index h = this->cells_[current].adjacent[exit];
-        const bool kept = this->isConstrained(current, exit);
+        const bool kept = this->isKept(current, exit);
         if (h == None || (kept && !acrossKept))
         {
           break;

@@ -129,7 +129,7 @@ private:
       for (int i = 0; i <= D; ++i)
       {
         const Facet<D> f = mesh.facet(this->star_[k], i);
-        if (mesh.isConstrained(this->star_[k], i) && hasId(f, v))
+        if (mesh.isKept(this->star_[k], i) && hasId(f, v))
         {
           std::copy_if(f.begin(), f.end(), std::back_inserter(this->neighbours_),
             [&](Index u) { return u != v; });

@@ -22,7 +22,7 @@ void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
     for (int i = 0; i <= D; ++i)
     {
       const Facet<D> f = mesh.facet(c, i);
-      if (!mesh.isConstrained(c, i) || !hasId(f, v))
+      if (!mesh.isKept(c, i) || !hasId(f, v))
       {
         continue;
       }
@@ -37,7 +37,7 @@ void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
     {
       const std::array<Index, 2> edge{ mesh.nodes(c)[Local<D>::edges[e][0]],
         mesh.nodes(c)[Local<D>::edges[e][1]] };
-      if (!mesh.isEdgeConstrained(c, e) || !hasId(edge, v))
+      if (!mesh.isEdgeKeptByItself(c, e) || !hasId(edge, v))
       {
         continue;
       }

@@ -112,7 +112,7 @@ void NodeInsertion<D, Shape>::findSeeds(
   {
     for (int i = 0; i <= D; ++i)
     {
-      if (mesh.isConstrained(t, i))
+      if (mesh.isKept(t, i))
       {
         const Facet<3> f = mesh.facet(t, i);
         Vec<3> apex;
@@ -175,7 +175,7 @@ void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
   {
     for (int i = 0; i <= D; ++i)
     {
-      if (mesh.isConstrained(c, i) && has(mesh.facet(c, i)))
+      if (mesh.isKept(c, i) && has(mesh.facet(c, i)))
       {
         seed.opening.patches.push_back(mesh.patch(c, i));
       }
@@ -252,7 +252,7 @@ void NodeInsertion<D, Shape>::findAllSeeds(
     }
     for (int i = 0; i < 4; ++i)
     {
-      if (mesh.isConstrained(t, i))
+      if (mesh.isKept(t, i))
       {
         addSurfaceSeed(judge, mesh.facet(t, i), { t }, seeds);
       }

@@ -123,7 +123,7 @@ bool SmallPolyhedron<Shape>::closesKept(Index c)
   for (int i = 0; i < 4; ++i)
   {
     const Index h = mesh.adjacent(c, i);
-    if (mesh.isConstrained(c, i) && h != None && this->taken_.get(mesh.cellOf(h)) >= 0)
+    if (mesh.isKept(c, i) && h != None && this->taken_.get(mesh.cellOf(h)) >= 0)
     {
       return true;
     }
@@ -137,9 +137,8 @@ Index SmallPolyhedron<Shape>::behind(Index c, int i) const
 {
   const SimplexMesh<3>& mesh = this->editor_->mesh();
   const Index h = mesh.adjacent(c, i);
-  return h == None || mesh.isConstrained(c, i) || !this->editor_->owns(mesh.cellOf(h))
-    ? None
-    : mesh.cellOf(h);
+  return h == None || mesh.isKept(c, i) || !this->editor_->owns(mesh.cellOf(h)) ? None
+                                                                                : mesh.cellOf(h);
 }
 
 /// Takes cell c in. False, with nothing changed, if it must not be taken, or if a limit is reached.
@@ -167,7 +166,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
   for (int i = 0; i < 4; ++i)
   {
     const Index h = mesh.adjacent(c, i);
-    if (h != None && !mesh.isConstrained(c, i) && this->taken_.get(mesh.cellOf(h)) >= 0)
+    if (h != None && !mesh.isKept(c, i) && this->taken_.get(mesh.cellOf(h)) >= 0)
     {
       // A facet between two taken cells is inside.
       this->faces_.erase(std::find_if(this->faces_.begin(), this->faces_.end(),
@@ -175,7 +174,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
       continue;
     }
     Face f{ {}, c, i, this->behind(c, i), -1.0, Never, false };
-    f.enough = mesh.isConstrained(c, i) ? enough(c, i) : -1.0;
+    f.enough = mesh.isKept(c, i) ? enough(c, i) : -1.0;
     counts &= !(f.enough >= 0.0 && mesh.quality(c) >= f.enough);
     this->anyEnough_ |= f.enough >= 0.0;
     for (int k = 0; k < 3; ++k)

@@ -64,7 +64,7 @@ bool gatherFanCluster(
     {
       // The cell behind facet i has all nodes but node i: the core must be among them. What is not
       // kept has a cell on its other side.
-      if (!inCore(mesh.nodes(c)[i]) && !mesh.isConstrained(c, i))
+      if (!inCore(mesh.nodes(c)[i]) && !mesh.isKept(c, i))
       {
         const Index next = SimplexMesh<D>::cellOf(mesh.adjacent(c, i));
         if (!editor.isMarked(next, mark))
@@ -90,7 +90,7 @@ bool gatherFanCluster(
     {
       const Index across = mesh.adjacent(c, i);
       const bool inside = across != None && editor.isMarked(SimplexMesh<D>::cellOf(across), mark);
-      const bool kept = mesh.isConstrained(c, i);
+      const bool kept = mesh.isKept(c, i);
       // The cluster lies on both sides of a kept facet, which a filling would remove.
       if (kept && inside)
       {

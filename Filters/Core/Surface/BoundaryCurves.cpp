@@ -357,7 +357,7 @@ std::optional<SlidingRange> BoundaryCurves::range(
     for (int i = 0; i < 3; ++i)
     {
       const Facet<2> f = mesh.facet(c, i);
-      if (mesh.isConstrained(c, i) && (f[0] == v || f[1] == v))
+      if (mesh.isKept(c, i) && (f[0] == v || f[1] == v))
       {
         ends.push_back(f[0] == v ? f[1] : f[0]);
       }

@@ -33,7 +33,7 @@ std::shared_ptr<const SizeFloor<2>> keptSizeFloor<2>(const SimplexMesh<2>& mesh,
     {
       const Facet<2> f = mesh.facet(c, i);
       // Only edges that must stay count. One that can be divided gets its sizes.
-      if (!mesh.isConstrained(c, i) || (surface && surface->mayDivide(mesh, { c }, f[0], f[1])))
+      if (!mesh.isKept(c, i) || (surface && surface->mayDivide(mesh, { c }, f[0], f[1])))
       {
         continue;
       }

@@ -60,7 +60,7 @@ LineNetwork keptLines(const SimplexMesh<2>& mesh)
     {
       const Index h = mesh.adjacent(c, i);
       // From the cell with the lower number.
-      if (mesh.isConstrained(c, i) && (h == None || mesh.cellOf(h) > c))
+      if (mesh.isKept(c, i) && (h == None || mesh.cellOf(h) > c))
       {
         result.lines.push_back(mesh.facet(c, i));
       }

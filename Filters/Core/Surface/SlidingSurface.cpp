@@ -132,7 +132,7 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
     for (int i = 0; i < 4; ++i)
     {
       const Facet<3> f = mesh.facet(c, i);
-      if (mesh.isConstrained(c, i) && hasId(f, v))
+      if (mesh.isKept(c, i) && hasId(f, v))
       {
         const Vec<3>& a = mesh.point(f[0]);
         const Vec<3> n = (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
@@ -188,7 +188,7 @@ std::optional<SlidingRange> SlidingSurface::range(
     {
       const Index a = mesh.nodes(c)[Local<3>::edges[e][0]];
       const Index b = mesh.nodes(c)[Local<3>::edges[e][1]];
-      if ((a == v || b == v) && mesh.isEdgeConstrained(c, e))
+      if ((a == v || b == v) && mesh.isEdgeKeptByItself(c, e))
       {
         ends.push_back(a == v ? b : a);
       }
@@ -224,7 +224,7 @@ bool SlidingSurface::mayDivide(
     for (int i = 0; i < 4; ++i)
     {
       const Facet<3> f = mesh.facet(c, i);
-      if (mesh.isConstrained(c, i) && hasId(f, a) && hasId(f, b))
+      if (mesh.isKept(c, i) && hasId(f, a) && hasId(f, b))
       {
         const Facet<3> key = sortedIds(f);
         patches.push_back({ key[0], key[1], key[2], mesh.patch(c, i) });
@@ -233,7 +233,7 @@ bool SlidingSurface::mayDivide(
     for (int e = 0; e < 6; ++e)
     {
       const Simplex<3>& t = mesh.nodes(c);
-      isKept |= mesh.isEdgeConstrained(c, e) &&
+      isKept |= mesh.isEdgeKeptByItself(c, e) &&
         sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]) == sortedIds(a, b);
     }
   }
@@ -268,7 +268,7 @@ bool SlidingSurface::mayJoin(
         for (int i = 0; i < 4; ++i)
         {
           const Facet<3> f = mesh.facet(c, i);
-          if (mesh.isConstrained(c, i) && hasId(f, v) && hasId(f, u))
+          if (mesh.isKept(c, i) && hasId(f, v) && hasId(f, u))
           {
             return true;
           }
@@ -390,7 +390,7 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
     {
-      const Index patch = mesh.isConstrained(c, i) ? mesh.patch(c, i) : None;
+      const Index patch = mesh.isKept(c, i) ? mesh.patch(c, i) : None;
       // A facet between regions counts once, from the side of its patch.
       if (patch == None || mesh.region(c) != this->patches_[patch].region)
       {
@@ -420,7 +420,7 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
     for (int e = 0; e < 6 && mesh.isAlive(c); ++e)
     {
       const Simplex<3>& t = mesh.nodes(c);
-      const auto span = mesh.isEdgeConstrained(c, e)
+      const auto span = mesh.isEdgeKeptByItself(c, e)
         ? this->span(mesh, t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]])
         : std::nullopt;
       if (span)

@@ -93,7 +93,7 @@ void SurfaceDivision::collectParts(const SurfaceOptions& options)
   {
     for (int i = 0; i < 4 && this->mesh_.isAlive(c); ++i)
     {
-      if (!this->mesh_.isConstrained(c, i))
+      if (!this->mesh_.isKept(c, i))
       {
         continue;
       }
@@ -264,11 +264,11 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
     }
   }
   this->isCorner_.assign(this->mesh_.numberOfPointSlots(), 0);
-  for (Index c = 0; this->mesh_.hasConstrainedEdges() && c < this->mesh_.numberOfCellSlots(); ++c)
+  for (Index c = 0; this->mesh_.hasKeptEdges() && c < this->mesh_.numberOfCellSlots(); ++c)
   {
     for (int e = 0; e < 6 && this->mesh_.isAlive(c); ++e)
     {
-      if (this->mesh_.isEdgeConstrained(c, e))
+      if (this->mesh_.isEdgeKeptByItself(c, e))
       {
         const Simplex<3>& t = this->mesh_.nodes(c);
         const auto key = sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]);

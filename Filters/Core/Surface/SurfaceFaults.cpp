@@ -65,7 +65,7 @@ std::vector<Kept<D>> keptFacets(const SimplexMesh<D>& mesh, const std::vector<ch
   {
     for (int i = 0; i <= D && isNear[c]; ++i)
     {
-      if (mesh.isConstrained(c, i))
+      if (mesh.isKept(c, i))
       {
         facets.push_back({ sortedIds(mesh.facet(c, i)), SimplexMesh<D>::handle(c, i) });
       }
@@ -142,7 +142,7 @@ double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
     sum += angle(mesh, c, a, w);
     const int i = mesh.localIndex(c, a);
     a = w;
-    if (mesh.isConstrained(c, i))
+    if (mesh.isKept(c, i))
     {
       return sum;
     }

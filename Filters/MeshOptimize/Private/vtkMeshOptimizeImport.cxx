@@ -37,12 +37,9 @@ void ImportFixedPoints(const Cells& cells, vtkDataArray* mask, MeshInput<D>& inp
 /**
  * An edge of a plane mesh is a facet.
  */
-void KeepEdge(Index a, Index b, MeshInput<2>& input)
-{
-  input.constrainedFacets.push_back({ a, b });
-}
+void KeepEdge(Index a, Index b, MeshInput<2>& input) { input.keptFacets.push_back({ a, b }); }
 
-void KeepEdge(Index a, Index b, MeshInput<3>& input) { input.constrainedEdges.push_back({ a, b }); }
+void KeepEdge(Index a, Index b, MeshInput<3>& input) { input.keptEdges.push_back({ a, b }); }
 
 /**
  * A triangle is a cell of a plane mesh, not a facet.
@@ -51,7 +48,7 @@ void KeepTriangle(const vtkIdType*, MeshInput<2>&) {}
 
 void KeepTriangle(const vtkIdType* ids, MeshInput<3>& input)
 {
-  input.constrainedFacets.push_back(
+  input.keptFacets.push_back(
     { static_cast<Index>(ids[0]), static_cast<Index>(ids[1]), static_cast<Index>(ids[2]) });
 }
 
