@@ -70,6 +70,10 @@ bool IsWanted(vtkAlgorithm* filter, int index)
   return wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()) != 0;
 }
 
+/**
+ * A chosen name decides, or what is active of the chosen kind. If nothing is chosen, the default
+ * name of the role counts.
+ */
 vtkAbstractArray* FindArray(
   vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index, const ArrayRole& role)
 {

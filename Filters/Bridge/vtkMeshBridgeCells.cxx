@@ -106,6 +106,9 @@ std::string CheckPointIds(
   return {};
 }
 
+/**
+ * The stream of faces says itself how long its faces are: this is checked before it is trusted.
+ */
 std::string CheckPolyhedron(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   vtkNew<vtkIdList> stream; // number of faces, then for each its number of points and the points
@@ -162,6 +165,9 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
   return {};
 }
 
+/**
+ * Tetrahedra are the mesh, whatever is beside them; triangles only if no other cell has a volume.
+ */
 int FindDimension(vtkUnstructuredGrid* grid)
 {
   CellDimensions dimensions;

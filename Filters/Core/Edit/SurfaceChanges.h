@@ -15,6 +15,8 @@
 
 namespace meshopt
 {
+/// Facets that vanish and facets that come, as the surface sees them: corners, patch, region and
+/// sets. Keeps its memory between calls, since the engine asks for each change.
 template <int D>
 class SurfaceChanges
 {
@@ -165,6 +167,7 @@ private:
       facets.begin(), facets.end(), [&](const Facet<D>& f) { return sortedIds(f) == key; });
     return found == facets.end() ? -1 : static_cast<int>(found - facets.begin());
   }
+  /// Whether the point is among those that move along the surface.
   static bool slides(const Proposal<D>& p, Index q)
   {
     return std::any_of(p.moves.begin(), p.moves.end(),
@@ -192,6 +195,7 @@ private:
     }
   }
 
+  /// The kept facets with a point that moves.
   void addMoved(const Surface<D>& surface, const SimplexMesh<D>& mesh, const Proposal<D>& p,
     std::vector<SurfacePiece<D>>& pieces)
   {
@@ -210,6 +214,7 @@ private:
     }
   }
 
+  /// False if the edge lies on no known curve: such a change is refused.
   bool addSpan(const std::optional<Span>& span)
   {
     if (span)

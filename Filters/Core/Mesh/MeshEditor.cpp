@@ -443,6 +443,7 @@ void MeshEditor<D>::stamp(const std::vector<Index>& cells)
   }
 }
 
+/// The same cells in the same order as SimplexMesh::star(), as far as the editor owns them.
 template <int D>
 bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
 {

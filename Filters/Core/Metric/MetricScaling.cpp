@@ -90,6 +90,7 @@ std::string SizeLimits::check() const
   return text.str();
 }
 
+/// The longest size and the greatest eigenvalue bound the search for h*.
 template <int D>
 MetricScaling<D>::MetricScaling(const SimplexMesh<D>& mesh, std::vector<SymmetricEigen<D>> metric,
   const SizeLimits& limits, double correction)

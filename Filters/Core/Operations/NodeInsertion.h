@@ -14,6 +14,7 @@
 
 namespace meshopt
 {
+/// One new point serves for all seeds: it moves from one to the next until one gains.
 template <int D, class Shape>
 class NodeInsertion
 {
@@ -136,6 +137,7 @@ void NodeInsertion<D, Shape>::findSeeds(
   }
 }
 
+/// The place of the node as a problem: the facets of the cavity, seen from inside.
 template <int D, class Shape>
 void NodeInsertion<D, Shape>::loadCavity(const Judge<D, Shape>& judge, Index p)
 {
@@ -441,6 +443,7 @@ bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Seed& 
   return judge.accept(this->proposal_);
 }
 
+/// Makes the insertion at one seed, if it gains.
 template <int D, class Shape>
 bool NodeInsertion<D, Shape>::tryGain(
   Judge<D, Shape>& judge, Index t, Index p, Seed& seed, const typename Judge<D, Shape>::Mark& start)

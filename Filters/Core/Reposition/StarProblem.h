@@ -20,6 +20,8 @@
 
 namespace meshopt
 {
+/// To be used in this order: clear(); addPoint() and addFacet() for the polyhedron; maximize().
+/// Keeps its memory, since it is loaded for each try.
 template <int D, class Shape>
 class StarProblem
 {
@@ -38,6 +40,7 @@ public:
   /// From now on maximize() moves the node only in these directions.
   void restrict(const Directions<D>& directions) { this->directions_ = directions; }
 
+  /// The local number of point p, which lies at x. A point that comes again keeps its number.
   int addPoint(Index p, const Vec<D>& x)
   {
     const int k = this->numbers_.add(p);
@@ -180,6 +183,7 @@ private:
     return c;
   }
 
+  /// Each point of the ring has one weight, which all elements at its edge share.
   void evaluateFast([[maybe_unused]] const Vec<D>& x)
   {
     if constexpr (HasSum)
@@ -217,6 +221,7 @@ private:
     }
   }
 
+  /// Of the quality of element k, by the place of the node.
   Vec<D> gradient(std::size_t k, const Vec<D>& x) const
   {
     if constexpr (HasSum)

@@ -125,6 +125,7 @@ bool SizeStage<D>::isThere(const Edge& edge) const
     this->mesh().localIndex(edge.cell, edge.b) >= 0;
 }
 
+/// The longest edge first. What a split leaves too long joins the queue.
 template <int D>
 long SizeStage<D>::split()
 {
@@ -214,6 +215,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
 
 // --- edges that are too short
 
+/// The shortest edge first.
 template <int D>
 long SizeStage<D>::contract()
 {

@@ -131,6 +131,8 @@ bool SizeStage<D>::moveFreeNode(Index v, double worst, double energy)
   return false;
 }
 
+/// Each node at most once in a sweep, in the order of ids. Then edges are swapped where nodes have
+/// moved.
 template <int D>
 void SizeStage<D>::smooth()
 {

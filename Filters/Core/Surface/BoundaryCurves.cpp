@@ -287,6 +287,7 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain,
   return {};
 }
 
+/// The geometry has the corners. The boundary of the mesh is only cut there.
 std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& given,
   const CurveOptions& options, const std::vector<std::uint8_t>& corners)
 {

@@ -48,6 +48,8 @@ const Facet<3>& SlidingSurface::inputFacet(Index patch, const Vec<3>& x) const
   return this->inputFacets_[this->reference_.project(patch, x, there)];
 }
 
+/// On a curve from the present parameter on; in the plane of an exact patch; otherwise to the
+/// nearest point of the patch as it was.
 Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there) const
 {
   Place result = place;
@@ -72,6 +74,7 @@ Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there
   return result;
 }
 
+/// On the straight way from the surface to x, as far as there is room.
 Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& there) const
 {
   if (this->isExact_)

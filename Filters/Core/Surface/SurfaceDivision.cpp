@@ -62,6 +62,8 @@ SurfaceDivision::SurfaceDivision(const SimplexMesh<3>& mesh, const SurfaceOption
   this->findChains();
 }
 
+/// Tolerances are relative to the diagonal, rounding to the greatest coordinate: a small body may
+/// lie far from the origin.
 void SurfaceDivision::measure()
 {
   Eigen::AlignedBox<double, 3> box;
@@ -250,6 +252,8 @@ bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
   return (alike ? 1.0 : -1.0) * n.dot(m) < cosine(featureAngle) * n.norm() * m.norm();
 }
 
+/// First the edges that the geometry makes curves, then kept edges of the caller. Of those that
+/// leave the surface only the ends count.
 void SurfaceDivision::findCurves(const SurfaceOptions& options)
 {
   for (Edge& edge : this->edges_)

@@ -34,6 +34,9 @@ bool HasMoved(const Model<D>& model, Index p)
   return model.Frame.ToCore(x) != model.Mesh.point(p);
 }
 
+/**
+ * Old points first, in their order. Those that have moved, or are new, are noted for sampling.
+ */
 template <int D>
 void MapPoints(const Model<D>& model, OutputMap& map)
 {
@@ -80,6 +83,9 @@ bool IsStillThere(vtkUnstructuredGrid* grid, vtkIdType cell, const SimplexMesh<D
   return std::is_permutation(nodes.begin(), nodes.end(), ids);
 }
 
+/**
+ * Old cells first, in their order; then the new ones, each with the data of its parent.
+ */
 template <int D>
 void MapCells(const Model<D>& model, OutputMap& map)
 {

@@ -234,6 +234,10 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
 
 void MapRiding(const Model<2>&, const meshopt::BoundaryCurves&, OutputMap&) {}
 
+/**
+ * First takes out the triangles that are no facets any more, then adds one for each new facet of a
+ * patch that had triangles.
+ */
 void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, OutputMap& map)
 {
   if (model.Riding.empty())

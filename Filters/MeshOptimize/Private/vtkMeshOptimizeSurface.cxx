@@ -83,6 +83,9 @@ void ForLines(vtkPolyData* geometry, F&& f)
   }
 }
 
+/**
+ * Points that no line uses may have any coordinates.
+ */
 std::string FindUsedPoints(vtkPolyData* geometry, std::vector<char>& used)
 {
   const vtkIdType all = geometry->GetNumberOfPoints();

@@ -124,6 +124,10 @@ void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool 
 
 } // namespace
 
+/**
+ * Ids belong to a point, values to its place: a point that has moved keeps the first and gets
+ * others of the second.
+ */
 void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
   const std::vector<Sample>& samples, vtkDataSetAttributes* output)
 {

@@ -234,6 +234,9 @@ bool FitsTogether(const SimplexMesh<D>& zone, const std::vector<meshopt::Simplex
   return !SimplexMesh<D>::build(input, whole);
 }
 
+/**
+ * Rows of the history get the rest, too: they are about the whole mesh.
+ */
 void AddLeftOut(const LeftOut& rest, Outcome& outcome)
 {
   if (rest.NumberOfCells == 0)

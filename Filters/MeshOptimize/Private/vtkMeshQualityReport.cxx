@@ -65,6 +65,9 @@ Sums TakeSums(vtkMultiProcessStream& stream)
   return s;
 }
 
+/**
+ * The order here is the format: TakeFigures() reads in the same.
+ */
 void Put(vtkMultiProcessStream& stream, const Figures& f)
 {
   stream << f.HasTetrahedra << f.HasTriangles;

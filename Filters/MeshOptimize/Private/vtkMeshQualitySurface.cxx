@@ -56,6 +56,7 @@ public:
   {
   }
 
+  /// Two passes: all facets are combined; then the facets at points with a remainder are collected.
   std::vector<Candidate> Find()
   {
     const vtkIdType n = this->Mesh.GetNumberOfCells();
@@ -159,6 +160,7 @@ private:
     }
   }
 
+  /// Also facets with two cells, if they lie at such a point: KeepSingle() sorts these out.
   void Collect(vtkIdType cell, std::vector<Candidate>& out) const
   {
     Facets f;

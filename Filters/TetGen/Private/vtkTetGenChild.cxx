@@ -192,6 +192,7 @@ constexpr std::array<Phase, 10> Phases = { {
 class TextReader
 {
 public:
+  /// A line may come in pieces, so the search begins where the last line began.
   void Add(const char* data, std::size_t bytes)
   {
     const std::size_t begin = this->Text.rfind('\n') + 1; // npos + 1 is 0
