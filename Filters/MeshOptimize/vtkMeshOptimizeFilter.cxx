@@ -319,6 +319,7 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
     {
       return error;
     }
+    // Sizes in one grid are enough for the options that need them.
     hasSizes |= task.Arrays.Size != nullptr;
   }
   if (!(request.OptimizeBelow >= 0.0))
@@ -383,6 +384,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   const auto locked = bridge::PrepareSurface(request, GridsOf(tasks));
   const bool slides = request.Slide &&
     std::any_of(tasks.begin(), tasks.end(), [](const Task& t) { return HasTetrahedra(t.Input); });
+  // The columns are decided before the first grid, so that all rows have the same.
   bridge::StartHistory(ports.History, isComposite, slides);
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
@@ -417,6 +419,9 @@ struct vtkMeshOptimizeFilter::Results
   bridge::Outcome Outcome;
 };
 
+/**
+ * After an error these are the results of a run that did nothing.
+ */
 void vtkMeshOptimizeFilter::StoreResults(const Results& results)
 {
   const bridge::Outcome& outcome = results.Outcome;

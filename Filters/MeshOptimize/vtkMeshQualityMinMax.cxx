@@ -273,6 +273,7 @@ std::string vtkMeshQualityMinMax::Run::Measure()
   std::string error = this->FindArrays();
   for (std::size_t b = 0; b < this->Blocks.size() && error.empty(); ++b)
   {
+    // What has been measured so far stays.
     if (vtkMeshBridge::CheckAbort(this->Self))
     {
       break;

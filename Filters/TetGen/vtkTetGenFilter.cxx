@@ -92,6 +92,9 @@ int vtkTetGenFilter::FillInputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * What TetGen could not cope with is refused before a process is started.
+ */
 std::string vtkTetGenFilter::CheckOptions()
 {
   if (this->MaximumRadiusEdgeRatio > 0.0 && this->MaximumRadiusEdgeRatio < 1.0)
@@ -162,6 +165,9 @@ std::string vtkTetGenFilter::MakeJob(
   return {};
 }
 
+/**
+ * False ends TetGen.
+ */
 bool vtkTetGenFilter::ReportProgress(double fraction, const std::string& phase)
 {
   this->SetProgressText(phase.c_str());
@@ -280,6 +286,9 @@ std::string vtkTetGenFilter::Run(
       " is no face of its mesh.";
 }
 
+/**
+ * Step by step, each only if those before it have succeeded. An abort is no error.
+ */
 std::string vtkTetGenFilter::Tetrahedralize(
   vtkPolyData* input, vtkPointSet* interior, vtkUnstructuredGrid* output)
 {

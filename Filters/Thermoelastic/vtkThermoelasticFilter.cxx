@@ -270,6 +270,7 @@ int vtkThermoelasticFilter::RequestData(
     outcome = bridge::Outcome();
   }
   this->StoreResults(results);
+  // No cells, as on a process without a piece: no fault.
   if (error.empty() && !outcome.HasSolved)
   {
     this->StopReason = NothingToDo;

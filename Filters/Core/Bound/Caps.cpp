@@ -7,6 +7,7 @@
 
 namespace meshopt
 {
+/// The bound is computed once. After that caps are looked up for each try.
 template <int D>
 void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, bool known)
 {

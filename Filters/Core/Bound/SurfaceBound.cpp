@@ -109,6 +109,7 @@ public:
   {
   }
 
+  /// Starts with what no cell can exceed, and lowers that.
   void run()
   {
     const double regular = regularValue<D>(this->options_.measure);

@@ -158,6 +158,7 @@ struct Audit
 };
 }
 
+/// First cell by cell, then the mesh as a whole.
 template <int D>
 std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
 {
@@ -178,6 +179,7 @@ std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
   return audit.faults;
 }
 
+/// Counted anew from the cells: the adjacency, which may be wrong, is not used.
 template <int D>
 long SimplexMesh<D>::eulerCharacteristic() const
 {

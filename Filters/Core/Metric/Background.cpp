@@ -147,6 +147,7 @@ bool Background<D>::weights(Index c, const Vec<D>& x, std::array<double, D + 1>&
   return true;
 }
 
+/// The place in cell c with these weights, which rounding may have moved out of it.
 template <int D>
 Location<D> Background<D>::found(Index c, const std::array<double, D + 1>& w) const
 {
@@ -234,6 +235,7 @@ Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
   return this->searchTree(x);
 }
 
+/// Of whole cells, not of their centres: boxes beside each other may overlap.
 template <int D>
 void Background<D>::fitBox(Box& box) const
 {

@@ -281,6 +281,7 @@ void LumpedMassRecovery<D>::extrapolate()
   matrix.setFromTriplets(entries.begin(), entries.end());
   // Regular, since every unknown is connected to an interior point: see findUnreached().
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  // One factorization serves all components and all entries of the tensors.
   const Eigen::MatrixXd solution = solver.solve(right);
   for (std::size_t p = 0; p < this->unknown_.size(); ++p)
   {

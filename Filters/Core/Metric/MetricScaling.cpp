@@ -220,6 +220,7 @@ ScaledMetric<D> MetricScaling<D>::withSize(double h)
   return result;
 }
 
+/// The count falls as h grows, from `most` to `fewest`. For a count beyond these there is no h.
 template <int D>
 ScaledMetric<D> MetricScaling<D>::withCount(double count)
 {

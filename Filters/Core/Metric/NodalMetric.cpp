@@ -24,6 +24,7 @@ std::string wrongLength(const char* what, std::size_t length, Index points)
 }
 }
 
+/// Checks all values before it takes any: a metric is never half new.
 template <int D>
 std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<double>& sizes,
   const std::vector<Tensor<D>>& tensors, NodalValues* blamed)
@@ -151,6 +152,7 @@ void NodalMetric<D>::raise(Index p, const Vec<D>& x)
   }
 }
 
+/// Only grows, and only if values vary from point to point.
 template <int D>
 void NodalMetric<D>::reserve(Index n)
 {
@@ -202,6 +204,7 @@ double NodalMetric<D>::logSize(Index p) const
                               : 0.0;
 }
 
+/// Sizes and tensors are kept apart, since either may be given alone.
 template <int D>
 Tensor<D> NodalMetric<D>::unitTensor(Index p) const
 {
@@ -221,6 +224,7 @@ Tensor<D> NodalMetric<D>::unitTensor(Index p) const
   return m * std::exp(-2.0 * this->logSize(p));
 }
 
+/// (5.3), with the density sqrt(det M) / h*^D.
 template <int D>
 double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) const
 {

@@ -126,6 +126,7 @@ SymmetricEigen<D> combinedHessian(const Tensor<D>* hessians, int components)
   {
     order[i] = i;
   }
+  // Equal eigenvalues stay in their order: the result has the same bits in each run.
   std::stable_sort(
     order.begin(), order.end(), [&e](int a, int b) { return e.values[a] < e.values[b]; });
   SymmetricEigen<D> sorted;

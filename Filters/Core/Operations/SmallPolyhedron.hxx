@@ -100,6 +100,7 @@ int SmallPolyhedron<Shape>::numberOf(Index p)
   if (k == static_cast<int>(this->numberOf_.size()))
   {
     const SimplexMesh<3>& mesh = this->editor_->mesh();
+    // Kept points must be in any filling.
     const bool stay = !mesh.isFree(p) || !this->limits_.mayDropPoints;
     this->numberOf_.push_back(static_cast<std::uint8_t>(this->addPoint(mesh.point(p), p, stay)));
   }
@@ -367,6 +368,7 @@ void SmallPolyhedron<Shape>::keepSolution()
   }
 }
 
+/// Once the points are in the mesh, their ids take the place of FirstNew - k.
 template <class Shape>
 void SmallPolyhedron<Shape>::nameNewPoints(const std::vector<Index>& ids)
 {
@@ -379,6 +381,8 @@ void SmallPolyhedron<Shape>::nameNewPoints(const std::vector<Index>& ids)
   }
 }
 
+/// Grows the polyhedron cell by cell. After each step it is searched for a filling, if every facet
+/// has a good apex.
 template <class Shape>
 template <class Enough>
 double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,

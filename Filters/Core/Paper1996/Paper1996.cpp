@@ -130,6 +130,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   const ReconnectionResult result = reconnect<D>(this->editor_, this->run_.metric, o.measure,
     o.beta, parameters, this->memory_,
     [this, stage](double worst) { return this->goesOn(stage, worst); });
+  // What one reconnection has used up is missing for the next.
   this->run_.growth -= result.growth;
   Counts tried{}, done{};
   for (int k = 0; k < NumberOfFillings; ++k)

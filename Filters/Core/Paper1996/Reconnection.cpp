@@ -302,6 +302,7 @@ ReconnectionResult Reconnection<D, Shape>::run(
     this->lookAhead(keepGoing))
   {
   }
+  // May be negative: fillings can also take cells away.
   this->result_.growth = this->parameters_.growth - this->judge_.growth.left;
   return this->result_;
 }
@@ -313,6 +314,7 @@ ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Meas
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
 {
   const FollowedMetric<D> follows(editor, metric);
+  // The measure is chosen here, once, and not in the loops.
   return dispatchOptimizable<D>(measure,
     [&](auto shape)
     {

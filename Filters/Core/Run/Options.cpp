@@ -40,6 +40,7 @@ std::string checkQuality(const Options& o, bool hasSizes)
   return {};
 }
 
+/// Parameters of the paper's algorithms, by the names that they have in the paper.
 std::string checkPaper(const Options& o)
 {
   if (o.neighborhoodLevel < 0)

@@ -36,6 +36,7 @@ const char* toString(StopReason reason)
 }
 }
 
+/// The reason; and what holds the nodes of the worst cell, if the surface takes part.
 std::string describeStop(const Report& report)
 {
   std::string text = toString(report.stopReason);

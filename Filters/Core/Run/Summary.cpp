@@ -10,6 +10,7 @@
 
 namespace meshopt
 {
+/// For a new mesh, and wherever the measure or the metric has changed as a whole.
 template <int D>
 void computeQualities(
   MeshEditor<D>& editor, const NodalMetric<D>& metric, Measure measure, double beta)

@@ -126,6 +126,7 @@ bool SizeStage<D>::follow(double predicted)
 }
 }
 
+/// In the shape in the metric, without a size factor: lengths are what the stage itself looks at.
 template <int D>
 bool followSizes(Run<D>& run, double predicted)
 {

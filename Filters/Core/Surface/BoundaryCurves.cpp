@@ -332,6 +332,7 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   return error;
 }
 
+/// Along the whole curve: the nearest place may be far from the old one.
 Place BoundaryCurves::project(const Place& place, const Vec<2>& x, Vec<2>& there) const
 {
   Place result = place;
@@ -349,6 +350,7 @@ int BoundaryCurves::tangents(const SimplexMesh<2>& mesh, const std::vector<Index
   return 1;
 }
 
+/// The two neighbours over kept facets, and their parameters.
 std::optional<SlidingRange> BoundaryCurves::range(
   const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const
 {

@@ -69,6 +69,7 @@ LineNetwork keptLines(const SimplexMesh<2>& mesh)
   return result;
 }
 
+/// By angle and by the number of lines. Corners of the caller stay corners.
 void markCorners(LineNetwork& network, double cornerAngle)
 {
   const Lines lines = linesOfPoints(network);
@@ -94,6 +95,7 @@ void markCorners(LineNetwork& network, double cornerAngle)
   }
 }
 
+/// From corner to corner; then what is left, which is closed.
 std::vector<LineChain> chains(const LineNetwork& network)
 {
   const Lines lines = linesOfPoints(network);

@@ -174,6 +174,8 @@ double ReferenceSurface::tolerance(int facet) const
   return Share * this->facets_[facet].tolerance;
 }
 
+/// All facets whose boxes touch the box; the order is that of the tree, which depends on the
+/// surface only.
 void ReferenceSurface::findNear(const Box& box, Index patch, std::vector<int>& found) const
 {
   struct Search

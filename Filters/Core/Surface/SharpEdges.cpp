@@ -10,6 +10,7 @@ namespace meshopt
 {
 namespace
 {
+/// From x to the nearest point between both ends.
 double squaredDistance(const std::array<Vec<3>, 2>& edge, const Vec<3>& x)
 {
   const Vec<3> d = edge[1] - edge[0];

@@ -107,6 +107,7 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   return result;
 }
 
+/// Where the node may go: along its curve, in its plane, or in the mean plane of its facets.
 int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v,
   std::array<Vec<3>, 3>& basis) const
 {
@@ -177,6 +178,7 @@ std::optional<Span> SlidingSurface::span(const SimplexMesh<3>& mesh, Index a, In
   return span;
 }
 
+/// The neighbours over kept edges. Inside of a curve there are two.
 std::optional<SlidingRange> SlidingSurface::range(
   const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v) const
 {
@@ -258,6 +260,7 @@ bool SlidingSurface::maySwap(const SimplexMesh<3>&, Index patch, Index other) co
   return patch != None && patch == other;
 }
 
+/// Only along the surface; on a curve only if the chord that comes stays near it.
 bool SlidingSurface::mayJoin(
   const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const
 {
@@ -297,6 +300,7 @@ bool SlidingSurface::mayJoin(
   return true;
 }
 
+/// A facet of the mesh is seen from its cell, one of the reference from outside of its region.
 SurfacePiece<3> SlidingSurface::oriented(const SurfacePiece<3>& piece) const
 {
   SurfacePiece<3> result = piece;
@@ -318,6 +322,7 @@ bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
       { return std::fabs(patch.plane.normal.dot(x - patch.plane.origin)) <= this->tolerance_; });
 }
 
+/// Locks, sets and curves first, which is cheap; then distances, patch by patch.
 bool SlidingSurface::allows(const SurfaceChange<3>& change) const
 {
   const auto isLocked = [](const SurfacePiece<3>& piece) { return piece.patch == None; };

@@ -44,6 +44,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   }
 }
 
+/// Facets go into the reference as they are now. From here on it does not change.
 void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
 {
   const SimplexMesh<3>& mesh = editor.mesh();

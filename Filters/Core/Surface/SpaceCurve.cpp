@@ -14,6 +14,7 @@ namespace
 constexpr double Rounding = 1e-12; ///< of a length
 }
 
+/// A closed curve has its first point again at the end: then each line has a knot at both ends.
 SpaceCurve::SpaceCurve(std::vector<Vec<3>> points, bool isClosed)
   : points_(std::move(points))
   , isClosed_(isClosed)
@@ -62,6 +63,8 @@ Vec<3> SpaceCurve::direction(double s) const
   return (this->points_[k + 1] - this->points_[k]).normalized();
 }
 
+/// Walks both ways as long as the distance falls. A branch of the curve that comes near elsewhere
+/// is not taken.
 double SpaceCurve::closest(const Vec<3>& x, double s) const
 {
   const std::size_t n = this->points_.size() - 1;
@@ -116,6 +119,7 @@ void SpaceCurve::setRooms(std::vector<double> rooms)
   }
 }
 
+/// Of all lines that the span touches, even in part.
 double SpaceCurve::room(double from, double to) const
 {
   const std::size_t n = this->points_.size() - 1;
@@ -141,6 +145,7 @@ double SpaceCurve::deviation(double from, double to) const
   const double low = std::min(from, to), high = std::max(from, to);
   const Vec<3> a = this->at(low), chord = this->at(high) - a;
   const double l = chord.norm();
+  // A span that comes back to its start has no chord to be compared with.
   if (!(l > 0.0))
   {
     return high > low ? std::numeric_limits<double>::infinity() : 0.0;

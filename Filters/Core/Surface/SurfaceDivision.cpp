@@ -158,6 +158,7 @@ void SurfaceDivision::lockTwins()
   }
 }
 
+/// All edges of the parts, each once, with the parts at it.
 void SurfaceDivision::collectEdges()
 {
   struct Incidence
@@ -364,6 +365,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
     });
 }
 
+/// Parts that hang together with no curve between them; if exact, divided further by planes.
 void SurfaceDivision::findPatches()
 {
   // The largest parts first: their planes are the most reliable.

@@ -87,6 +87,7 @@ bool SurfaceDivision::isPinched(
   return curves.empty() && fans != 1;
 }
 
+/// What each point of the surface may do. In doubt it stays.
 void SurfaceDivision::findCorners(const SurfaceOptions& options)
 {
   const Index n = this->mesh_.numberOfPointSlots();
@@ -183,6 +184,7 @@ void SurfaceDivision::findChains()
   }
   std::sort(ends.begin(), ends.end());
   std::vector<char> used(this->edges_.size(), 0);
+  // Walks from edge to edge up to a corner, or back to the start.
   const auto follow = [&](Index p, Index e)
   {
     Chain chain;

@@ -82,6 +82,7 @@ bool hasNoArea(const SimplexMesh<2>& mesh, const Facet<2>& f)
   return mesh.point(f[0]) == mesh.point(f[1]);
 }
 
+/// Relative to the longest edge: the test does not depend on units.
 bool hasNoArea(const SimplexMesh<3>& mesh, const Facet<3>& f)
 {
   const Vec<3> a = mesh.point(f[1]) - mesh.point(f[0]), b = mesh.point(f[2]) - mesh.point(f[0]);
@@ -275,6 +276,7 @@ std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>
 }
 }
 
+/// A sweep along x: only pairs whose boxes overlap are looked at.
 template <int D>
 std::vector<SurfaceFault<D>> findSurfaceFaults(
   const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
@@ -353,6 +355,7 @@ bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
 }
 }
 
+/// From the cheapest test to the dearest.
 template <int D>
 bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pinched)
 {

@@ -116,6 +116,7 @@ private:
     return std::nullopt;
   }
 
+  /// Displacements of all points: those that are solved for, and those that are prescribed.
   void assembleAndSolve(Stopwatch& watch)
   {
     const Unknowns unknowns = numberUnknowns(this->mesh_, this->constraints_);
@@ -184,6 +185,7 @@ private:
     }
   }
 
+  /// Nodal stresses and the error estimate, unless the caller wants none.
   void recover()
   {
     Solution<D>& s = this->solution_;

@@ -122,6 +122,8 @@ SolverReport factorize(const LinearSystem& system, const SolverOptions& options,
     report.history.push_back(report.relativeResidual);
   }
   const bool solved = factor.info() == Eigen::Success && std::isfinite(report.relativeResidual);
+  // A solution that misses the tolerance is reported like too few iterations: the user's choices
+  // are the same.
   report.status = !solved                          ? SolverStatus::Breakdown
     : report.relativeResidual <= options.tolerance ? SolverStatus::Converged
                                                    : SolverStatus::IterationLimit;

@@ -23,6 +23,7 @@ std::optional<Error> checkLength(
   return Error{ text.str() };
 }
 
+/// Arrays may be left out, but one that is there must have all its values.
 template <int D>
 std::optional<Error> checkLengths(const SimplexMesh<D>& mesh, const Problem<D>& problem)
 {
@@ -65,6 +66,7 @@ std::optional<Error> checkMaterials(const Problem<D>& problem)
   return std::nullopt;
 }
 
+/// What belongs to points that cells use, and the reference temperature.
 template <int D>
 std::optional<Error> checkPoints(const SimplexMesh<D>& mesh, const Problem<D>& problem)
 {
@@ -135,6 +137,7 @@ double shape(const Corners<D>& x)
   return scale * signedVolume(x) / std::pow(perimeter, D);
 }
 
+/// With an inverted or flat cell the matrix is not positive definite.
 template <int D>
 std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
 {
@@ -218,6 +221,7 @@ double freeAxialStrain(const SimplexMesh<D>& mesh, const Problem<D>& problem)
   return strain / weight;
 }
 
+/// By coordinates with a tolerance: the ends of a mesh are planes only up to rounding.
 template <int D>
 void constrainEnds(
   const SimplexMesh<D>& mesh, int axis, double strain, double tolerance, Problem<D>& problem)

@@ -269,6 +269,7 @@ private:
     }
   }
 
+  /// What is held goes into the matrix of its group.
   void addConstraints(const std::vector<Constraint>& constraints)
   {
     for (const Constraint& c : constraints)
@@ -287,6 +288,7 @@ private:
     }
   }
 
+  /// The same for points at which two bodies hang together.
   void addHinges()
   {
     for (const Hinge& h : this->hinges_)
@@ -305,6 +307,7 @@ private:
     }
   }
 
+  /// One dense eigenproblem per group, which is small.
   void solve()
   {
     for (std::size_t g = 0; g < this->normals_.size(); ++g)
@@ -389,6 +392,7 @@ Index RigidModes<D>::count() const
   return n;
 }
 
+/// Only the numbers of the body of the point count.
 template <int D>
 Eigen::Matrix<double, D, Eigen::Dynamic> RigidModes<D>::displacements(
   const SimplexMesh<D>& mesh, Index p, const Eigen::MatrixXd& motions) const
@@ -399,6 +403,7 @@ Eigen::Matrix<double, D, Eigen::Dynamic> RigidModes<D>::displacements(
     motions.template middleRows<M>(M * body.place);
 }
 
+/// By the body that moves most: in a mechanism others move, too, but this one shows it best.
 template <int D>
 std::string RigidModes<D>::describe(Index group, Index mode) const
 {

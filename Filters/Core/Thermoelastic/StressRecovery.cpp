@@ -84,6 +84,7 @@ Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D
   return fit;
 }
 
+/// By volume: the division of a cell into two changes nothing.
 template <int D>
 Stress<D> volumeAverage(const SimplexMesh<D>& mesh, const std::vector<Stress<D>>& stress,
   const Index* begin, const Index* end)
@@ -110,6 +111,8 @@ template <int D>
 class PatchRecovery
 {
 public:
+  /// A fit needs as many cells as a linear polynomial has coefficients; a local one, as many as a
+  /// quadratic one has.
   PatchRecovery(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
     const std::vector<Stress<D>>& stress, bool isLocal)
     : mesh_(mesh)
@@ -141,6 +144,7 @@ public:
     }
   }
 
+  /// By the node's own fit, if it is valid.
   Stress<D> at(Index node) const
   {
     const Vec<D>& x = this->mesh_.point(this->nodes_.pointOfNode[node]);
@@ -312,6 +316,7 @@ std::vector<Stress<D>> recoverStress(const SimplexMesh<D>& mesh, const RecoveryM
   return stress;
 }
 
+/// Nodes of one point stand in a row: see makeRecoveryMesh().
 template <int D>
 std::vector<Stress<D>> stressAtPoints(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
   const std::vector<Stress<D>>& nodalStress)

@@ -24,6 +24,9 @@ void AddColumn(vtkTable* table, const std::string& name)
   table->AddColumn(column);
 }
 
+/**
+ * By name: the order of the columns is for the eye only.
+ */
 template <class Array, class Value>
 void Append(vtkTable* table, const std::string& name, Value value)
 {

@@ -242,6 +242,7 @@ std::vector<std::uint32_t> FindNodeSets(Model<3>& model)
     {
       vtkDataArray* array = data->GetArray(k);
       const int attribute = data->IsArrayAnAttribute(k);
+      // Ids tell points apart: they are no sets.
       const bool isId = attribute == vtkDataSetAttributes::GLOBALIDS ||
         attribute == vtkDataSetAttributes::PEDIGREEIDS;
       if (array && !isId && (array == model.Arrays.Patch) == (round == 0))

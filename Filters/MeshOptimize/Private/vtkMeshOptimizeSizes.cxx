@@ -85,6 +85,9 @@ std::string SetMetric(const Request& request, Model<D>& model)
     error;
 }
 
+/**
+ * Only points that no simplex of the mesh uses: the values of a run must not depend on ghosts.
+ */
 template <int D>
 void SetMetricOfGhosts(const Request& request, Model<D>& model)
 {
@@ -130,6 +133,9 @@ std::string CheckCount(const Request& request, const Model<D>& model)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * More than one sentence may apply; each says what the user can do.
+ */
 std::string DescribeSizes(const meshopt::Report& report, const Request& request)
 {
   const meshopt::SizeReport& sizes = report.sizes;

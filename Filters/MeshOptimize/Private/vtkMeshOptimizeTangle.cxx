@@ -161,6 +161,9 @@ Reason FindReason(const SimplexMesh<D>& mesh, const meshopt::Report& report, Ind
     : NothingFound;
 }
 
+/**
+ * A part of a sentence, which follows a number of cells.
+ */
 std::string Explain(Reason reason, const std::string& faces, int dimension)
 {
   const std::string noun = dimension == 3 ? "faces" : "edges";

@@ -151,6 +151,9 @@ std::string ReadSolution(
   return {};
 }
 
+/**
+ * In the order of the simplices, as the core numbers its cells.
+ */
 std::string ReadErrors(vtkDataArray* array, const bridge::Cells& cells, std::vector<double>& values)
 {
   for (vtkIdType cell : cells.Simplices)

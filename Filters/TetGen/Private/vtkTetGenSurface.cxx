@@ -236,6 +236,9 @@ bool HasArea(const Surface& surface, const Triangle& t)
   return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > Flat * longest2;
 }
 
+/**
+ * Sorted by their points, equal facets stand together.
+ */
 std::string CheckTriangles(const Surface& surface)
 {
   std::vector<std::pair<Triangle, int>> sorted;
@@ -338,6 +341,7 @@ std::string ReadSurface(vtkPolyData* input, Surface& surface)
     {
       number[ids[k]] = 0;
     }
+    // For messages, which name cells of the input.
     surface.CellIds.push_back(cellIds->GetValue(i));
   }
   for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)

@@ -161,6 +161,9 @@ void ExportSolution(const Model<D>& model, const Solution<D>& solution, vtkUnstr
   }
 }
 
+/**
+ * Under the name that is looked for by default: the output can be the input of another run.
+ */
 void ExportTemperature(const std::vector<double>& temperature, vtkUnstructuredGrid* output)
 {
   vtkDoubleArray* array = AddArray(

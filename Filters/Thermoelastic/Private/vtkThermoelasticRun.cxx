@@ -120,6 +120,7 @@ std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnst
   KeepFigures(solution, outcome);
   if (solution.solver.status != SolverStatus::Cancelled)
   {
+    // Results are added to the copy. The arrays of the input are shared.
     output->ShallowCopy(input);
     // A temperature by formula is shown, too; one from an array is there already.
     if (request.TemperatureMode != vtkThermoelasticFilter::PointArray)
