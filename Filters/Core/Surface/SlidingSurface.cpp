@@ -129,6 +129,7 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
   }
   // Where facets bend, the first direction is the one along which they bend least, such as that of
   // a ridge.
+  const Patch& patch = this->patches_[place.part];
   Vec<3> normal = Vec<3>::Zero();
   Tensor<3> bends = Tensor<3>::Zero();
   for (Index c : star)
@@ -140,8 +141,10 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
       {
         const Vec<3>& a = mesh.point(f[0]);
         const Vec<3> n = (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
-        // Both sums are weighted by area.
-        normal += mesh.region(c) == this->patches_[place.part].region ? n : Vec<3>(-n);
+        // Both sides of a facet must add the same vector. Inside of a region no side is the outer
+        // one: the facets before say which one it is.
+        const bool isTurned = patch.isSigned ? mesh.region(c) != patch.region : n.dot(normal) < 0.0;
+        normal += isTurned ? Vec<3>(-n) : n; // weighted by area, and so are the bends
         bends += n * n.transpose() / std::max(n.norm(), std::numeric_limits<double>::min());
       }
     }
