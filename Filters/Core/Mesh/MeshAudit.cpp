@@ -118,6 +118,7 @@ struct Audit
       for (int i = 0; i <= D; ++i)
       {
         const int n = ++count[sortedIds(this->mesh.facet(c, i))];
+        // The adjacency cannot even express this: a facet has one cell or two.
         if (n > 2)
         {
           this->fault("a facet of cell " + std::to_string(c) + " has more than two cells");

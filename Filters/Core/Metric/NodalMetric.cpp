@@ -174,6 +174,7 @@ void NodalMetric<D>::resample(Index p, const Vec<D>& x, Index near)
   // A new point has no cell of its own yet: the search begins at that of a neighbour.
   const Index hint = near != None ? this->sample(near).hint : value.hint;
   const Location<D> at = this->background_->locate(x, hint);
+  // A place that is not finite: the value stays.
   if (at.cell == None)
   {
     return;

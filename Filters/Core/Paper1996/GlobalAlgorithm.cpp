@@ -11,6 +11,8 @@ namespace meshopt
 {
 namespace
 {
+/// The Global Algorithm of section 2.2. Each turn repositions the cluster of the worst cell that
+/// still has a node that may move.
 template <int D, class Shape>
 class GlobalAlgorithm
 {
@@ -24,6 +26,7 @@ public:
     , solver_(this->judge_, parameters.local, parameters.leastGain)
     , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
   {
+    // Nothing in this algorithm reads them.
     this->judge_.setStampsStars(false);
   }
 
@@ -53,6 +56,7 @@ void GlobalAlgorithm<D, Shape>::initialize()
   {
     this->movable_[p] = mesh.isPointAlive(p) && mesh.isFree(p);
   }
+  // All cells under the target; later ones come by solve().
   this->queue_.fill();
 }
 

@@ -150,6 +150,7 @@ void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
 {
   const SimplexMesh<D>& mesh = this->editor_.mesh();
   this->memory_.resize(mesh);
+  // Later than any failure so far.
   ++this->memory_.time;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
@@ -216,6 +217,7 @@ bool Paper1996<D>::alternate(int lookAhead)
   {
     this->repositionAll();
   }
+  // A smaller gain counts as none: the loop would go on for hardly anything.
   return this->worst() > before + LeastGain * std::abs(before);
 }
 

@@ -125,6 +125,7 @@ bool Reconnection<D, Shape>::improveCell(Index c)
         return false;
       }
       ++this->result_.tried[static_cast<int>(kind)];
+      // A filling must lift the worst cell of its cluster by the least gain, as a fraction.
       const double worst = part.cluster.worst;
       if (!this->trial_.make(part, apex, worst + this->parameters_.leastGain * std::abs(worst)))
       {

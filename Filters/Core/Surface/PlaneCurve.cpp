@@ -158,6 +158,7 @@ Vec<2> PlaneCurve::direction(double s) const
 double PlaneCurve::refine(std::size_t segment, const Vec<2>& x, double& distance) const
 {
   const double s0 = this->knots_[segment], s1 = this->knots_[segment + 1];
+  // On a straight line the nearest point is known at once.
   if (!this->isSpline_)
   {
     const double s = s0 +

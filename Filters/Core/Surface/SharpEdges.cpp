@@ -52,6 +52,7 @@ bool SharpEdges::isNear(const Vec<3>& a, const Vec<3>& b, double distance) const
   {
     return false;
   }
+  // An edge that is near to some part of the line has a box that meets this one.
   Search search;
   search.box.extend(Eigen::Vector3d(a));
   search.box.extend(Eigen::Vector3d(b));

@@ -9,6 +9,7 @@ namespace meshopt
 {
 void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
 {
+  // Nothing stays of a surface that was built before.
   *this = SlidingSurface();
   const SurfaceDivision division(editor.mesh(), options);
   this->isExact_ = division.isExact;
@@ -34,6 +35,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
     }
     else if (division.freedom[p] == Freedom::Corner)
     {
+      // Its room is measured from where it was: see placeNear().
       this->corners_[p] = editor.mesh().point(id);
       editor.setPlace(id, { Freedom::Corner, id, 0.0 });
     }
@@ -69,6 +71,7 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
     }
     Patch& patch = this->patches_[part.patch];
     patch.region = part.region;
+    // With the same region on both sides, neither of them is the outer one.
     patch.isSigned = part.region != part.other;
     patch.label = part.label;
     this->reference_.add(
@@ -174,6 +177,7 @@ void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision&
   {
     for (int i = 0; i < 3 && part.patch != None; ++i)
     {
+      // Edges inside of a patch have none.
       const auto span = this->span(mesh, part.nodes[i], part.nodes[(i + 1) % 3]);
       if (span)
       {

@@ -36,6 +36,7 @@ double SpaceCurve::inRange(double s) const
   {
     return std::clamp(s, 0.0, this->length());
   }
+  // The remainder has the sign of s.
   const double rest = std::fmod(s, this->length());
   return rest < 0.0 ? rest + this->length() : rest;
 }
@@ -153,6 +154,7 @@ double SpaceCurve::deviation(double from, double to) const
   const double slack = Rounding * l;
   double farthest = 0.0, last = 0.0;
   // The points between. The distance of a line from a convex set is greatest at one of its ends.
+  // Knots are within the first turn: they are shifted to that of the span.
   const double shift = this->isClosed_ ? std::floor(low / this->length()) * this->length() : 0.0;
   const std::size_t n = this->points_.size() - 1;
   std::size_t k = this->segmentAt(this->inRange(low)) + 1;

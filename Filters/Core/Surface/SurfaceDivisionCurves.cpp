@@ -30,6 +30,7 @@ bool SurfaceDivision::isTouching(const Edge& edge) const
   {
     outer += this->parts[this->incidences_[i]].other == None;
   }
+  // Where the outer surface does not touch itself, two of its facets share the edge.
   return outer > 2;
 }
 
@@ -62,6 +63,7 @@ bool SurfaceDivision::isPinched(
         {
           continue;
         }
+        // A fan ends at curves: what lies beyond belongs to another fan.
         if (edge.isCurve)
         {
           ends.push_back(e);
@@ -79,11 +81,14 @@ bool SurfaceDivision::isPinched(
         }
       }
     }
+    // From one curve to the other, and not back to the same; inside of a patch there is none to
+    // meet.
     if (ends.size() != curves.size() || (ends.size() == 2 && ends[0] == ends[1]))
     {
       return true;
     }
   }
+  // At a curve each sheet that meets there has a fan of its own.
   return curves.empty() && fans != 1;
 }
 
@@ -94,6 +99,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
   this->freedom.assign(n, Freedom::Free);
   this->patchOfPoint.assign(n, None);
   std::vector<std::uint8_t> touching = pinchedPoints<3>(this->mesh_);
+  // Empty if no point is pinched.
   touching.resize(n, 0);
   // Parts and curves at each point, as one list each, sorted by point.
   std::vector<std::array<Index, 2>> partsAt, curvesAt;
@@ -167,6 +173,7 @@ bool SurfaceDivision::turns(Index p, const std::vector<Index>& curves, double an
     const std::array<Index, 2>& e = this->edges_[curves[k]].nodes;
     d[k] = this->mesh_.point(e[0] == p ? e[1] : e[0]) - this->mesh_.point(p);
   }
+  // Both lead away from p: on a straight curve they are opposite.
   return -d[0].dot(d[1]) < cosine(std::min(angle, 90.0)) * d[0].norm() * d[1].norm();
 }
 
@@ -206,6 +213,8 @@ void SurfaceDivision::findChains()
       {
         break;
       }
+      // A point inside of a curve stands twice in the list, with the edge before it and the one
+      // after.
       auto next = std::lower_bound(ends.begin(), ends.end(), std::array<Index, 2>{ p, 0 });
       e = (*next)[1] == e ? (*(next + 1))[1] : (*next)[1];
     }
@@ -241,6 +250,7 @@ void SurfaceDivision::straighten()
     {
       const Vec<3> d = this->mesh_.point(points[k]) - a;
       const double t = d.dot(along) / l;
+      // Each point beyond the last one: a chain that turns back is not straight.
       if (!(t > last && t < l) || (d - along * (t / l)).norm() > this->slab())
       {
         return false;

@@ -140,6 +140,7 @@ double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
   double sum = 0.0;
   for (int step = 0; step < 1000; ++step)
   {
+    // Inverted cells count negatively: together the angles are what is between both facets.
     sum += angle(mesh, c, a, w);
     const int i = mesh.localIndex(c, a);
     a = w;
@@ -165,6 +166,7 @@ bool isFolded(const SimplexMesh<D>& mesh, const Kept<D>& f, Index a, Index b)
   for (Index handle : { f.handle, other })
   {
     Index end = a;
+    // About 0 if the mesh is between them, a full turn if it is around them: 1 is far from both.
     if (handle != None && std::fabs(filledAngle(mesh, handle, end)) < 1.0 && end == b)
     {
       return true;

@@ -96,6 +96,7 @@ private:
       return Error{ begin + this->modes_.describe() +
         ". Constrain it, or have rigid motion pinned or projected out." };
     }
+    // A body that may move freely is at rest only if its loads are in equilibrium.
     const std::string imbalance = findImbalance(
       this->mesh_, this->modes_, this->problem_.forces, Equilibrium);
     if (!imbalance.empty())

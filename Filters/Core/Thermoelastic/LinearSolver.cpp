@@ -17,6 +17,7 @@ namespace
 {
 using Eigen::VectorXd;
 
+/// Jacobi's: cheap, and it evens out elements of very different size or stiffness.
 class DiagonalPreconditioner
 {
 public:
@@ -30,6 +31,7 @@ private:
   VectorXd inverse_;
 };
 
+/// Costs more memory and time for each step than the diagonal, and needs fewer steps.
 class CholeskyPreconditioner
 {
 public:
@@ -62,6 +64,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
   const double norm2 = b.squaredNorm();
   const double goal = options.tolerance * options.tolerance;
   const Preconditioner preconditioner(system.matrix);
+  // From x = 0: the first residual is the load.
   VectorXd r = b, p(b.size()), z(b.size()), product(b.size());
   preconditioner.apply(r, p);
   double rz = r.dot(p);

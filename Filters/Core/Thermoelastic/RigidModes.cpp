@@ -257,6 +257,7 @@ private:
     {
       if (this->modes_.bodyOfPoint[p] != None)
       {
+        // A hinge belongs to several bodies, but all of them are in one group.
         const Index g = this->modes_.bodies[this->modes_.bodyOfPoint[p]].group;
         low[g] = low[g].cwiseMin(this->mesh_.point(p));
         high[g] = high[g].cwiseMax(this->mesh_.point(p));
@@ -375,6 +376,7 @@ std::string describeMotion(const Vec<3>& t, const Vec<3>& w, const Vec<3>& centr
   const Vec<3> r = Vec<3>(w[1] * t[2] - w[2] * t[1], w[2] * t[0] - w[0] * t[2],
                      w[0] * t[1] - w[1] * t[0]) /
     w.squaredNorm();
+  // A screw: what goes along the axis is no part of a rotation.
   const std::string pitch = std::abs(t.dot(axis)) > 1e-6 ? " (and translate along it)" : "";
   return "rotate about the axis through " + list<3>(Vec<3>(centre + length * r), length) +
     " along " + list<3>(axis, 1.0) + pitch;
