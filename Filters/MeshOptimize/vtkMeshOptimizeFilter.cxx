@@ -322,6 +322,7 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
     // Sizes in one grid are enough for the options that need them.
     hasSizes |= task.Arrays.Size != nullptr;
   }
+  // Written so that what is not a number is refused, too.
   if (!(request.OptimizeBelow >= 0.0))
   {
     return "OptimizeBelow, the quality under which cells may change, must be a number.";
@@ -339,6 +340,7 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
   {
     return "The boundary mode Slide needs the algorithm WorstFirst.";
   }
+  // Corners may be marked in the geometry alone: the grids then need no such array.
   const bool inGeometry = bridge::HasCornerArray(request.Filter, request.Geometry);
   const std::string error = bridge::CheckArraysAreThere(
     request.Filter, grids, inGeometry ? bridge::CornerArray : -1);
@@ -381,6 +383,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   {
     return error;
   }
+  // Faces that two blocks share stay in both, so that the blocks still fit together.
   const auto locked = bridge::PrepareSurface(request, GridsOf(tasks));
   const bool slides = request.Slide &&
     std::any_of(tasks.begin(), tasks.end(), [](const Task& t) { return HasTetrahedra(t.Input); });

@@ -213,6 +213,9 @@ struct vtkThermoelasticFilter::Results
   bridge::Outcome Outcome;
 };
 
+/**
+ * After an error these are the results of a run that has solved nothing.
+ */
 void vtkThermoelasticFilter::StoreResults(const Results& results)
 {
   const bridge::Outcome& outcome = results.Outcome;

@@ -140,6 +140,7 @@ void SurfaceDivision::lockTwins()
       const Vec<3>& p = this->mesh_.point(this->parts[k].nodes[i]);
       x[i] = { p[0], p[1], p[2] };
     }
+    // Both lips have the same corners, but in another order.
     std::sort(x.begin(), x.end());
     std::array<double, 9> key;
     for (int i = 0; i < 9; ++i)
@@ -352,6 +353,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
       count += 1.0;
     }
   }
+  // Through the mean of all corners: what rounding there is lies on both sides.
   plane.origin = base + plane.normal * (sum / count);
   return std::all_of(numbers.begin(), numbers.end(),
     [&](Index k)

@@ -244,6 +244,7 @@ void constrainEnds(
     }
     if (mesh.point(p)[axis] <= low + near)
     {
+      // The low end stays where it is, and the high end moves by the whole elongation.
       problem.constraints.push_back({ p, axis, 0.0 });
     }
     else if (mesh.point(p)[axis] >= high - near)

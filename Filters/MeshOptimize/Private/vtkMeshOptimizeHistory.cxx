@@ -72,6 +72,7 @@ void StartHistory(vtkTable* table, bool isComposite, bool slides)
     AddColumn<vtkIdTypeArray>(table, name + "Tried");
     AddColumn<vtkIdTypeArray>(table, name + "Done");
   }
+  // Where nothing slides these columns would hold only zeros.
   if (slides)
   {
     AddColumn<vtkIdTypeArray>(table, "SurfaceChangeTried");

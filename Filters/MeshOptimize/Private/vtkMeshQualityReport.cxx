@@ -95,6 +95,7 @@ Figures TakeFigures(vtkMultiProcessStream& stream, std::size_t numberOfWorstCell
   stream >> f.HasTetrahedra >> f.HasTriangles;
   f.GhostSimplices = TakeCount(stream);
   f.Total = TakeSums(stream);
+  // Lists begin with their length.
   for (std::int64_t n = TakeCount(stream); n > 0; --n)
   {
     const long long region = TakeCount(stream);
