@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Which array of a grid a filter is to use, and what is wrong with it. All filters find and check
+// their arrays here, so that the same fault gets the same sentence everywhere.
 #include "vtkMeshBridgeArrays.h"
 
 #include "vtkAlgorithm.h"
@@ -68,6 +70,10 @@ bool IsWanted(vtkAlgorithm* filter, int index)
   return wanted->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()) != 0;
 }
 
+/**
+ * A chosen name decides, or what is active of the chosen kind. If nothing is chosen, the default
+ * name of the role counts.
+ */
 vtkAbstractArray* FindArray(
   vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index, const ArrayRole& role)
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Reads the cells of a grid once, with all checks that later steps rely on. Nothing behind this
+// file looks for a bad id, a point twice, or a coordinate that is not finite.
 #include "vtkMeshBridgeCells.h"
 
 #include "vtkMeshBridgeGridView.h"
@@ -48,6 +50,9 @@ private:
   vtkNew<vtkGenericCell> Cell;
 };
 
+/**
+ * Whoever reads arrays later trusts that each has a value for each point or cell.
+ */
 std::string CheckArrayLengths(vtkDataSetAttributes* attributes, vtkIdType wanted, const char* kind)
 {
   for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
@@ -101,6 +106,9 @@ std::string CheckPointIds(
   return {};
 }
 
+/**
+ * The stream of faces says itself how long its faces are: this is checked before it is trusted.
+ */
 std::string CheckPolyhedron(vtkUnstructuredGrid* grid, vtkIdType cell)
 {
   vtkNew<vtkIdList> stream; // number of faces, then for each its number of points and the points
@@ -140,6 +148,7 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
         return CellName(grid, cell) + " uses point " + std::to_string(ids[i]) + " twice.";
       }
     }
+    // Looked at already, with an earlier cell.
     if (use[ids[i]] & UsedBySimplex)
     {
       continue;
@@ -156,6 +165,9 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
   return {};
 }
 
+/**
+ * Tetrahedra are the mesh, whatever is beside them; triangles only if no other cell has a volume.
+ */
 int FindDimension(vtkUnstructuredGrid* grid)
 {
   CellDimensions dimensions;
@@ -224,6 +236,9 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
   return {};
 }
 
+/**
+ * The core counts the cells of its mesh, while the user knows those of the grid.
+ */
 std::string WithGridIds(const std::string& message, meshopt::Index cell, const Cells& cells)
 {
   if (cell == meshopt::None || cells.IsIdentity())

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What the core asks of its caller, done by VTK: progress and abort by the filter, loops by
+// vtkSMPTools. The core itself knows neither.
 #include "vtkMeshBridgeControl.h"
 
 #include "vtkMeshBridgeVTKCompat.h"

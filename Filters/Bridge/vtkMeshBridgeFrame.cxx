@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The plane of triangles, and how their coordinates get into it and back. A plane parallel to two
+// axes only leaves out a coordinate, and so does not round; a tilted one turns, and rounds.
 #include "vtkMeshBridgeFrame.h"
 
 #include <Eigen/Geometry>
@@ -19,6 +21,7 @@ void Frame<2>::ToGrid(const Vec<2>& u, double x[3]) const
 {
   if (this->Direct[0] >= 0)
   {
+    // The numbers of the three axes add up to 3.
     const int third = 3 - this->Direct[0] - this->Direct[1];
     x[this->Direct[0]] = u[0];
     x[this->Direct[1]] = u[1];
@@ -156,6 +159,10 @@ int FindConstantCoordinate(const Box& box)
   return -1;
 }
 
+/**
+ * `positive`: the normal points along the constant axis. The order of the other two is such that
+ * triangles with this normal are positive.
+ */
 Frame<2> MakeDirect(const Box& box, int constant, bool positive)
 {
   Frame<2> frame;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A grid seen through plain pointers, which many threads may read. Arrays of a layout that is not
+// known here are copied once.
 #include "vtkMeshBridgeGridView.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -49,6 +51,9 @@ const T* PointerOf(vtkDataArray* array)
   return vtkAOSDataArrayTemplate<T>::SafeDownCast(array)->GetPointer(0);
 }
 
+/**
+ * For arrays of another type or layout, which are rare: slow, but right for all.
+ */
 std::vector<vtkTypeInt64> CopyOf(vtkDataArray* array)
 {
   std::vector<vtkTypeInt64> copy(array->GetNumberOfValues());
@@ -91,6 +96,9 @@ GridView::GridView(vtkUnstructuredGrid* grid)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Points into the arrays of the grid where their layout allows it, and copies them otherwise.
+ */
 void GridView::ReadCells(vtkUnstructuredGrid* grid)
 {
   vtkUnsignedCharArray* types = grid->GetCellTypesArray();

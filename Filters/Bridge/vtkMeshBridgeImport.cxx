@@ -6,6 +6,9 @@
 namespace vtkMeshBridge
 {
 
+/**
+ * All points, also those that no simplex uses: ids of points stay those of the grid.
+ */
 template <int D>
 meshopt::MeshInput<D> ImportGeometry(
   vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, const Frame<D>& frame)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Values at points and cells in the core's form: regions as 32-bit numbers, sizes, and tensors in
+// the core's coordinates. What is unusable becomes NaN, and whoever uses it says where.
 #include "vtkMeshBridgeValues.h"
 
 #include "vtkAOSDataArrayTemplate.h"
@@ -121,6 +123,7 @@ Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame
   const Tensor<3> difference = m - m.transpose();
   if (difference.cwiseAbs().maxCoeff() > Skew * m.cwiseAbs().maxCoeff())
   {
+    // Not symmetric: NaN makes whoever checks the tensors name the point.
     return Tensor<D>::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   const Tensor<3> symmetric = 0.5 * (m + m.transpose());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, ports and errors. The work is done by the functions of Private, one grid at a time.
 #include "vtkMeshOptimizeFilter.h"
 
 #include "vtkMeshBridgeArrays.h"
@@ -135,6 +136,9 @@ void vtkMeshOptimizeFilter::SetGeometryData(vtkPolyData* geometry)
 const char* vtkMeshOptimizeFilter::GetStopReasonAsString() { return this->StopReasonText.c_str(); }
 
 //------------------------------------------------------------------------------
+/**
+ * The base class would always make a grid as output; the input may also be a tree.
+ */
 vtkTypeBool vtkMeshOptimizeFilter::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -316,8 +320,10 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
     {
       return error;
     }
+    // Sizes in one grid are enough for the options that need them.
     hasSizes |= task.Arrays.Size != nullptr;
   }
+  // Written so that what is not a number is refused, too.
   if (!(request.OptimizeBelow >= 0.0))
   {
     return "OptimizeBelow, the quality under which cells may change, must be a number.";
@@ -335,6 +341,7 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
   {
     return "The boundary mode Slide needs the algorithm WorstFirst.";
   }
+  // Corners may be marked in the geometry alone: the grids then need no such array.
   const bool inGeometry = bridge::HasCornerArray(request.Filter, request.Geometry);
   const std::string error = bridge::CheckArraysAreThere(
     request.Filter, grids, inGeometry ? bridge::CornerArray : -1);
@@ -377,9 +384,11 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   {
     return error;
   }
+  // Faces that two blocks share stay in both, so that the blocks still fit together.
   const auto locked = bridge::PrepareSurface(request, GridsOf(tasks));
   const bool slides = request.Slide &&
     std::any_of(tasks.begin(), tasks.end(), [](const Task& t) { return HasTetrahedra(t.Input); });
+  // The columns are decided before the first grid, so that all rows have the same.
   bridge::StartHistory(ports.History, isComposite, slides);
   for (std::size_t i = 0; i < tasks.size(); ++i)
   {
@@ -414,6 +423,9 @@ struct vtkMeshOptimizeFilter::Results
   bridge::Outcome Outcome;
 };
 
+/**
+ * After an error these are the results of a run that did nothing.
+ */
 void vtkMeshOptimizeFilter::StoreResults(const Results& results)
 {
   const bridge::Outcome& outcome = results.Outcome;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, ports and blocks. Each block is measured by the functions of Private; ranks meet once
+// for figures and once for the histogram.
 #include "vtkMeshQualityMinMax.h"
 
 #include "vtkMeshBridgeGridView.h"
@@ -101,6 +103,9 @@ int vtkMeshQualityMinMax::FillOutputPortInformation(int port, vtkInformation* in
 }
 
 //------------------------------------------------------------------------------
+/**
+ * The output has the type of the input: a grid, or composite data.
+ */
 vtkTypeBool vtkMeshQualityMinMax::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -268,6 +273,7 @@ std::string vtkMeshQualityMinMax::Run::Measure()
   std::string error = this->FindArrays();
   for (std::size_t b = 0; b < this->Blocks.size() && error.empty(); ++b)
   {
+    // What has been measured so far stays.
     if (vtkMeshBridge::CheckAbort(this->Self))
     {
       break;
@@ -283,6 +289,9 @@ std::string vtkMeshQualityMinMax::Run::Measure()
 }
 
 //------------------------------------------------------------------------------
+/**
+ * A second pass over the values: the range of the bins is known only when all ranks have measured.
+ */
 void vtkMeshQualityMinMax::Run::CountInBins(meshopt::QualityHistogram& histogram)
 {
   for (const quality::Block& block : this->Blocks)
@@ -305,6 +314,7 @@ void vtkMeshQualityMinMax::StoreFigures(const Run& run)
 {
   const quality::Sums& total = run.Figures.Total;
   const meshopt::QualityStatistics& q = total.Quality;
+  // No cell was measured.
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   this->MinimumQuality = q.count ? q.minimum : nothing;
   this->MaximumQuality = q.count ? q.maximum : nothing;

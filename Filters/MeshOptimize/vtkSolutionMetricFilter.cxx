@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties and errors; the work is done in Private/vtkSolutionMetricRun.
 #include "vtkSolutionMetricFilter.h"
 
 #include "vtkSolutionMetricRun.h"
@@ -50,6 +51,9 @@ void vtkSolutionMetricFilter::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Without a name: the active scalars, as all VTK filters have it.
+ */
 void vtkSolutionMetricFilter::SetSolutionArray(const char* name)
 {
   if (name && *name)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, the call of TetGen, and what its failures mean.
 #include "vtkTetGenFilter.h"
 
 #include "vtkMeshBridgeVTKCompat.h"
@@ -91,6 +92,9 @@ int vtkTetGenFilter::FillInputPortInformation(int port, vtkInformation* info)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * What TetGen could not cope with is refused before a process is started.
+ */
 std::string vtkTetGenFilter::CheckOptions()
 {
   if (this->MaximumRadiusEdgeRatio > 0.0 && this->MaximumRadiusEdgeRatio < 1.0)
@@ -112,6 +116,7 @@ std::string vtkTetGenFilter::CheckOptions()
         " has a value that is not finite.";
     }
   }
+  // Five numbers per region: a point, its attribute, its greatest volume.
   for (std::size_t i = 3; i < this->Regions.size(); i += 5)
   {
     const double attribute = this->Regions[i];
@@ -160,6 +165,9 @@ std::string vtkTetGenFilter::MakeJob(
   return {};
 }
 
+/**
+ * False ends TetGen.
+ */
 bool vtkTetGenFilter::ReportProgress(double fraction, const std::string& phase)
 {
   this->SetProgressText(phase.c_str());
@@ -217,6 +225,7 @@ std::string vtkTetGenFilter::ExplainFailure(const bridge::Surface& surface, brid
   {
     return outside;
   }
+  // The surface alone: nothing else may make this second run fail.
   job.OnlyFindIntersections = true;
   job.Regions.clear();
   job.Holes.clear();
@@ -267,6 +276,7 @@ std::string vtkTetGenFilter::Run(
       ? "TetGen found nothing inside the surface."
       : "No tetrahedron remains: hole points lie in all compartments of the surface.";
   }
+  // Without holes every triangle must be a face; a hole takes its triangles away.
   const int lost = job.KeepSurface && job.Holes.empty()
     ? bridge::FindLostTriangle(surface, mesh.Tetrahedra)
     : -1;
@@ -276,6 +286,9 @@ std::string vtkTetGenFilter::Run(
       " is no face of its mesh.";
 }
 
+/**
+ * Step by step, each only if those before it have succeeded. An abort is no error.
+ */
 std::string vtkTetGenFilter::Tetrahedralize(
   vtkPolyData* input, vtkPointSet* interior, vtkUnstructuredGrid* output)
 {

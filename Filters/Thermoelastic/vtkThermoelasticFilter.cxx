@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Properties, ports and errors; the work is done in Private.
 #include "vtkThermoelasticFilter.h"
 
 #include "vtkMeshBridgeControl.h"
@@ -194,6 +195,7 @@ std::string CheckDistribution(vtkMultiProcessController* controller, bool hasCel
   {
     return {};
   }
+  // Collective: a process that left before this call would make the others wait for ever.
   const int mine = hasCells ? 1 : 0;
   int all = 0;
   controller->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);
@@ -211,6 +213,9 @@ struct vtkThermoelasticFilter::Results
   bridge::Outcome Outcome;
 };
 
+/**
+ * After an error these are the results of a run that has solved nothing.
+ */
 void vtkThermoelasticFilter::StoreResults(const Results& results)
 {
   const bridge::Outcome& outcome = results.Outcome;
@@ -268,6 +273,7 @@ int vtkThermoelasticFilter::RequestData(
     outcome = bridge::Outcome();
   }
   this->StoreResults(results);
+  // No cells, as on a process without a piece: no fault.
   if (error.empty() && !outcome.HasSolved)
   {
     this->StopReason = NothingToDo;

@@ -158,7 +158,7 @@ void forKeptFacets(const SimplexMesh<2>& mesh, F&& f)
   {
     for (int i = 0; i < 3 && mesh.isAlive(c); ++i)
     {
-      if (mesh.isConstrained(c, i))
+      if (mesh.isKept(c, i))
       {
         f(c, i);
       }

@@ -77,7 +77,7 @@ inline std::vector<std::array<Vec<3>, 3>> surfaceOf(const SimplexMesh<3>& mesh)
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
     {
-      if (mesh.isConstrained(c, i) && mesh.adjacent(c, i) < mesh.handle(c, i))
+      if (mesh.isKept(c, i) && mesh.adjacent(c, i) < mesh.handle(c, i))
       {
         const Facet<3> f = mesh.facet(c, i);
         facets.push_back({ mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2]) });

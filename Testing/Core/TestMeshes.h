@@ -216,7 +216,7 @@ std::multiset<std::vector<double>> keptFacets(const SimplexMesh<D>& mesh)
   {
     for (int i = 0; i <= D && mesh.isAlive(c); ++i)
     {
-      if (!mesh.isConstrained(c, i))
+      if (!mesh.isKept(c, i))
       {
         continue;
       }

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// All bounds here come from one kind of maximum, ApexProblem, which Newton's method solves. What is
+// left when it ends is added, never neglected: a bound that is too low would be wrong, one that is
+// a little too high is only weaker.
 #include "Bound/ApexBound.h"
 
 #include "Bound/PairBound.h"
@@ -40,6 +43,7 @@ struct ApexProblem
     return s;
   }
 
+  /// First and second derivatives of sum().
   void derivatives(const Point& p, Point& g, Matrix& h) const
   {
     g.setZero();
@@ -131,6 +135,7 @@ private:
 /// S from lambda = z^(1/3) / P, and back; `area` is the area of the given facet.
 double shapeOf(double lambda, double area)
 {
+  // S = c V / P^3, with V = area z / 3 and lambda^3 = z / P^3.
   return std::min(1.0, shapeConstant * (area / 3.0) * cubed(lambda));
 }
 double lambdaOf(double shape, double area)
@@ -197,6 +202,7 @@ double angleCap(double phi)
 
 double angleCap2(double phi)
 {
+  // Two sides of length 1: the third is 2 sin(phi / 2), and the area is sin(phi) / 2.
   const double p = 2.0 + 2.0 * std::sin(0.5 * phi);
   return std::min(1.0, MeanEdgeShape<2>::constant * 0.5 * std::sin(phi) / (p * p));
 }
@@ -242,6 +248,7 @@ void angleCapLevel(double c, double& low, double& high, double width)
   high = crossing(pi, 0.0, best, 1.0, c, width, angleCap);
 }
 
+/// In units of the edge, which both facets there share.
 EdgeView::EdgeView(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& apex)
 {
   const Vec<3> u = b - a, v = c - a;
@@ -254,12 +261,14 @@ EdgeView::EdgeView(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<
   {
     const Vec<3> t = u / l, w = apex - a;
     const Vec<3> across = v - v.dot(t) * t;
+    // The dihedral angle of (facet, apex) at the edge. The apex may be on either side.
     this->best = std::atan2(std::fabs(w.dot(t.cross(across))), w.dot(across));
   }
 }
 
 double EdgeView::cap(double phi, double enough) const
 {
+  // The start: beside the centroid, about as far away as a regular apex.
   Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
   return this->capFrom(phi, enough, p);
 }
@@ -290,6 +299,7 @@ bool EdgeView::level(double c, double& low, double& high, double width) const
   Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
   const auto value = [this, exact, &p](double phi) { return this->capFrom(phi, exact, p); };
   const double most = value(this->best);
+  // Not even at its best angle is the facet good enough.
   if (most < c * (1.0 - 1e-12))
   {
     return false;
@@ -325,6 +335,7 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
 }
 }
 
+/// From the cheapest test to the dearest: most edges forbid nothing and leave early.
 bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
   double spanned, double slack, double width)
 {
@@ -354,6 +365,8 @@ bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& 
   return l1 + l2 + between * low > theta + slack;
 }
 
+/// Bisection between a level that is not forbidden and one that is. Only the forbidden end is
+/// returned, so that the result is certified.
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
   double spanned, double tolerance, double slack, double width)
 {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Keeps the caps of a bound in tables by facet and by edge, since the engine asks for them with
+// each try. The caps themselves come from SurfaceBound.
 #include "Bound/Caps.h"
 
 #include <algorithm>
 
 namespace meshopt
 {
+/// The bound is computed once. After that caps are looked up for each try.
 template <int D>
 void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, bool known)
 {
@@ -61,6 +64,7 @@ double Caps<D>::find(const Facet<D>& f) const
     : this->full_ / std::max(found->second, Rounding);
 }
 
+/// Facet i is the cell without its node i. The facet with the lowest cap decides.
 template <int D>
 double Caps<D>::greatestWeight(const Simplex<D>& nodes) const
 {
@@ -87,7 +91,7 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
   }
   for (int i = 0; i <= D && !this->facets_.empty(); ++i)
   {
-    if (mesh.isConstrained(c, i))
+    if (mesh.isKept(c, i))
     {
       const auto found = this->facets_.find(sortedIds(mesh.facet(c, i)));
       if (found != this->facets_.end() && q >= this->reached_ * found->second)
@@ -102,7 +106,7 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
 template <int D>
 double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
 {
-  if (this->facets_.empty() || !mesh.isConstrained(c, i))
+  if (this->facets_.empty() || !mesh.isKept(c, i))
   {
     return -1.0;
   }
@@ -111,6 +115,7 @@ double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
                                       : std::max(mesh.quality(c), this->reached_ * found->second);
 }
 
+/// In 2D no edge is stored: what has a cap there is a node.
 template <int D>
 bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
 {

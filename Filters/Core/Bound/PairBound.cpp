@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The case in which the angle at an edge is filled by two cells. Both share one free node, so the
+// maximum is over a single place, for a weighted mean of both; bisection finds the weight.
 #include "Bound/PairBound.h"
 
 #include "Quality/Shape.h"
@@ -18,6 +20,7 @@ struct Half
   Vec<3> inward; ///< its product with p is proportional to V
   double base;   ///< perimeter of the facet
 
+  /// `angle` of the facet around the edge; `turn`, 1 or -1, says on which side of it the wedge is.
   Half(const EdgeView& view, double angle, double turn)
     : tip(view.along, view.off * std::cos(angle), view.off * std::sin(angle))
     , inward(turn * view.off * Vec<3>(0.0, -std::sin(angle), std::cos(angle)))
@@ -64,6 +67,7 @@ public:
   {
   }
 
+  /// Only there both volumes are positive, and root() may be divided by.
   bool isInside(const Vec<3>& p) const
   {
     return this->first_.inward.dot(p) > 0.0 && this->last_.inward.dot(p) > 0.0;
@@ -133,6 +137,7 @@ bool pairReaches(double c, double theta, const EdgeView& first, const EdgeView& 
   const Pair pair(theta, first, last);
   const double wanted = std::cbrt(c);
   const double away = 0.13 * (first.perimeter + last.perimeter);
+  // The start: in the middle of the angle, about as far from the edge as a regular apex.
   Vec<3> p(0.25 + 0.25 * (first.along + last.along), away * std::cos(0.5 * theta),
     away * std::sin(0.5 * theta));
   double low = 0.0, high = 1.0;

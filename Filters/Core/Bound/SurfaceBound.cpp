@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// First the cap of each facet by itself, then the wedges between neighbouring sides of one region.
+// Whatever rounding leaves in doubt is left out: it must not lower the bound.
 #include "Bound/SurfaceBound.h"
 
 #include "Bound/ApexBound.h"
@@ -52,6 +54,7 @@ std::vector<Rim> collectRims(const std::vector<KeptSide<3>>& sides)
   return rims;
 }
 
+/// In 2D a side begins at its first node and ends at its second one.
 std::vector<Rim> collectRims(const std::vector<KeptSide<2>>& sides)
 {
   std::vector<Rim> rims;
@@ -106,6 +109,7 @@ public:
   {
   }
 
+  /// Starts with what no cell can exceed, and lowers that.
   void run()
   {
     const double regular = regularValue<D>(this->options_.measure);
@@ -205,6 +209,8 @@ void BoundBuilder<D>::capSides()
   this->result_.bound = bound;
 }
 
+/// Finds the end of the wedge that begins at `from`: the first side that is met when turning into
+/// it. False if rounding leaves open which one that is.
 template <int D>
 bool BoundBuilder<D>::findWedge(
   const Rim& from, const Rim* begin, const Rim* end, Wedge& wedge) const
@@ -282,6 +288,7 @@ bool BoundBuilder<D>::findWedges(const Rim* begin, const Rim* end, std::vector<W
   return 2 * static_cast<std::ptrdiff_t>(wedges.size()) == end - begin;
 }
 
+/// Rims of one edge and one region stand together. They bound the wedges there by turns.
 template <int D>
 void BoundBuilder<D>::capWedges()
 {
@@ -406,6 +413,7 @@ SurfaceBound<D> surfaceBound(
   return result;
 }
 
+/// Each kept facet from both its sides, as each side has cells of its own.
 template <int D>
 SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptions& options)
 {
@@ -419,7 +427,7 @@ SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptio
   {
     for (int i = 0; mesh.isAlive(c) && i <= D; ++i)
     {
-      if (mesh.isConstrained(c, i))
+      if (mesh.isKept(c, i))
       {
         sides.push_back({ mesh.facet(c, i), c, mesh.region(c), true });
       }

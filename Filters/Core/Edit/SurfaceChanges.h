@@ -15,6 +15,8 @@
 
 namespace meshopt
 {
+/// Facets that vanish and facets that come, as the surface sees them: corners, patch, region and
+/// sets. Keeps its memory between calls, since the engine asks for each change.
 template <int D>
 class SurfaceChanges
 {
@@ -29,7 +31,7 @@ public:
     {
       for (int i = 0; i <= D; ++i)
       {
-        if (mesh.isConstrained(c, i) && find(p.kept.gone, sortedIds(mesh.facet(c, i))) >= 0)
+        if (mesh.isKept(c, i) && find(p.kept.gone, sortedIds(mesh.facet(c, i))) >= 0)
         {
           this->add(
             surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), this->change_.gone);
@@ -71,7 +73,7 @@ public:
       {
         const Index a = mesh.nodes(c)[Local<D>::edges[e][0]];
         const Index b = mesh.nodes(c)[Local<D>::edges[e][1]];
-        if (mesh.isEdgeConstrained(c, e) && (slides(p, a) || slides(p, b)) &&
+        if (mesh.isEdgeKeptByItself(c, e) && (slides(p, a) || slides(p, b)) &&
           !this->addSpan(surface.span(mesh, a, b)))
         {
           return false;
@@ -90,7 +92,7 @@ public:
     {
       for (int i = 0; i <= D; ++i)
       {
-        for (int k = 0; k < D && mesh.isConstrained(c, i) && mesh.patch(c, i) != None; ++k)
+        for (int k = 0; k < D && mesh.isKept(c, i) && mesh.patch(c, i) != None; ++k)
         {
           if (!this->allowsAngle(surface, mesh, c, i, Local<D>::facets[i][k]))
           {
@@ -121,7 +123,7 @@ private:
         isKept = mesh.isEdgeKept(c, e);
       }
     }
-    while (!mesh.isConstrained(current, exit))
+    while (!mesh.isKept(current, exit))
     {
       const Index h = mesh.adjacent(current, exit);
       const Index next = mesh.cellOf(h);
@@ -165,6 +167,7 @@ private:
       facets.begin(), facets.end(), [&](const Facet<D>& f) { return sortedIds(f) == key; });
     return found == facets.end() ? -1 : static_cast<int>(found - facets.begin());
   }
+  /// Whether the point is among those that move along the surface.
   static bool slides(const Proposal<D>& p, Index q)
   {
     return std::any_of(p.moves.begin(), p.moves.end(),
@@ -192,6 +195,7 @@ private:
     }
   }
 
+  /// The kept facets with a point that moves.
   void addMoved(const Surface<D>& surface, const SimplexMesh<D>& mesh, const Proposal<D>& p,
     std::vector<SurfacePiece<D>>& pieces)
   {
@@ -201,7 +205,7 @@ private:
       for (int i = 0; i <= D; ++i)
       {
         const Facet<D> f = mesh.facet(c, i);
-        if (mesh.isConstrained(c, i) &&
+        if (mesh.isKept(c, i) &&
           std::any_of(f.begin(), f.end(), [&](Index q) { return slides(p, q); }))
         {
           this->add(surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), pieces);
@@ -210,6 +214,7 @@ private:
     }
   }
 
+  /// False if the edge lies on no known curve: such a change is refused.
   bool addSpan(const std::optional<Span>& span)
   {
     if (span)

@@ -248,7 +248,7 @@ template <int D>
 bool keepsEdges(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   const std::vector<Simplex<D>>& cells, const KeptChange<D>* change = nullptr)
 {
-  if (!mesh.hasConstrainedEdges())
+  if (!mesh.hasKeptEdges())
   {
     return true;
   }
@@ -256,7 +256,7 @@ bool keepsEdges(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   {
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
     {
-      if (!mesh.isEdgeConstrained(c, e))
+      if (!mesh.isEdgeKeptByItself(c, e))
       {
         continue;
       }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Gathers the cells around a few nodes, with numbers of their own, so that a local problem can be
+// solved without the mesh.
 #include "Mesh/Cluster.h"
 
 #include <algorithm>
@@ -6,6 +8,8 @@
 
 namespace meshopt
 {
+/// An edge counts once for each of its cells, so edges inside weigh more than those at the rim. The
+/// result is only a scale of length, so this does not matter.
 template <int D>
 double Cluster<D>::meanEdge() const
 {
@@ -21,6 +25,8 @@ double Cluster<D>::meanEdge() const
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// The number of the point in the cluster; a new point gets the next one. Numbers come in the order
+/// of asking, so whoever asks for the moving nodes first gets 0 to numberOfMoving - 1.
 template <int D>
 int ClusterGatherer<D>::localNumber(const SimplexMesh<D>& mesh, Index p, Cluster<D>& cluster)
 {

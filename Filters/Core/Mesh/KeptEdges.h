@@ -14,9 +14,9 @@ namespace meshopt
 template <int D, class Contains>
 bool enclosesKeptEdge(const SimplexMesh<D>& mesh, Index c, const Contains& contains)
 {
-  for (int e = 0; D == 3 && mesh.hasConstrainedEdges() && e < Local<D>::numberOfEdges; ++e)
+  for (int e = 0; D == 3 && mesh.hasKeptEdges() && e < Local<D>::numberOfEdges; ++e)
   {
-    if (!mesh.isEdgeConstrained(c, e))
+    if (!mesh.isEdgeKeptByItself(c, e))
     {
       continue;
     }
@@ -31,7 +31,7 @@ bool enclosesKeptEdge(const SimplexMesh<D>& mesh, Index c, const Contains& conta
       {
         ++exit;
       }
-      back = mesh.isConstrained(current, exit) ? None : mesh.adjacent(current, exit);
+      back = mesh.isKept(current, exit) ? None : mesh.adjacent(current, exit);
       current = back == None ? None : mesh.cellOf(back);
     } while (current != None && current != c && contains(current));
     if (current == c)

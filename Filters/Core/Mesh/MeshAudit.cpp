@@ -28,6 +28,8 @@ struct Audit
     }
   }
 
+  /// Flat and inverted cells are legal before the mesh is untangled: `requirePositive` says whether
+  /// they are a fault.
   void cell(Index c, bool requirePositive)
   {
     const std::string name = "cell " + std::to_string(c);
@@ -49,11 +51,12 @@ struct Audit
     }
   }
 
+  /// A facet is stored on both its sides: each must lead to the other and say the same about it.
   void facet(Index c, int i, const std::string& name)
   {
     const Index h = this->mesh.adjacent(c, i);
     Facet<D> f = this->mesh.facet(c, i);
-    if (this->mesh.isConstrained(c, i))
+    if (this->mesh.isKept(c, i))
     {
       for (Index p : f)
       {
@@ -65,7 +68,7 @@ struct Audit
     }
     if (h == None)
     {
-      if (!this->mesh.isConstrained(c, i))
+      if (!this->mesh.isKept(c, i))
       {
         this->fault(name + " is at the surface but not kept");
       }
@@ -84,11 +87,11 @@ struct Audit
     {
       this->fault(name + " is not the facet of its neighbour");
     }
-    if (this->mesh.isConstrained(c, i) != this->mesh.isConstrained(o, j))
+    if (this->mesh.isKept(c, i) != this->mesh.isKept(o, j))
     {
       this->fault(name + " is kept on one side only");
     }
-    if (this->mesh.region(c) != this->mesh.region(o) && !this->mesh.isConstrained(c, i))
+    if (this->mesh.region(c) != this->mesh.region(o) && !this->mesh.isKept(c, i))
     {
       this->fault(name + " lies between regions but is not kept");
     }
@@ -115,6 +118,7 @@ struct Audit
       for (int i = 0; i <= D; ++i)
       {
         const int n = ++count[sortedIds(this->mesh.facet(c, i))];
+        // The adjacency cannot even express this: a facet has one cell or two.
         if (n > 2)
         {
           this->fault("a facet of cell " + std::to_string(c) + " has more than two cells");
@@ -123,6 +127,8 @@ struct Audit
     }
   }
 
+  /// A point is alive if and only if a cell uses it. Its cell may be any of those that do: stars
+  /// are walked from there.
   void points()
   {
     std::vector<bool> used(this->mesh.numberOfPointSlots(), false);
@@ -153,6 +159,7 @@ struct Audit
 };
 }
 
+/// First cell by cell, then the mesh as a whole.
 template <int D>
 std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
 {
@@ -173,6 +180,7 @@ std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
   return audit.faults;
 }
 
+/// Counted anew from the cells: the adjacency, which may be wrong, is not used.
 template <int D>
 long SimplexMesh<D>::eulerCharacteristic() const
 {

@@ -11,6 +11,7 @@ namespace meshopt
 {
 namespace
 {
+/// Ids as in a sentence, such as "3, 7 and 12", for messages.
 template <std::size_t N>
 std::string list(const std::array<Index, N>& ids)
 {
@@ -35,6 +36,7 @@ bool sortFacet(Facet<D>& f)
       odd = !odd;
     }
   };
+  // A sorting network: each exchange of two ids changes the parity.
   order(0, 1);
   if constexpr (D == 3)
   {
@@ -65,12 +67,14 @@ struct MeshBuilder
   Mesh& mesh;
   bool consistent = true;
 
+  /// Empties the mesh, so that no caller goes on with one that is half built.
   MeshError error(std::string message, Index cell = None, Index point = None)
   {
     this->mesh = Mesh();
     return { std::move(message), cell, point };
   }
 
+  /// Lengths of arrays, and whether all numbers of cells fit into their types.
   std::optional<MeshError> checkLengths()
   {
     const auto wrong = [&](const char* what, std::size_t have, std::size_t want, const char* of)
@@ -98,6 +102,8 @@ struct MeshBuilder
     return std::nullopt;
   }
 
+  /// Malformed cells are refused here, so that no later step has to doubt an id. Flat and inverted
+  /// cells pass: mending them is what the optimizer is for.
   std::optional<MeshError> checkCells()
   {
     const Index n = static_cast<Index>(this->input.points.size());
@@ -133,6 +139,8 @@ struct MeshBuilder
     return std::nullopt;
   }
 
+  /// Slot c is cell c of the input and slot p is point p. SimplexMesh promises this for points, and
+  /// whoever takes results back relies on it.
   void fill()
   {
     const std::size_t n = this->input.cells.size();
@@ -177,6 +185,8 @@ struct MeshBuilder
       for (int i = 0; i <= D; ++i)
       {
         const Facet<D> f = this->mesh.facet(c, i);
+        // Counted one place further on: after the sums below, start[p] is where the bucket of p
+        // begins.
         ++start[*std::min_element(f.begin(), f.end()) + 1];
       }
     }
@@ -222,6 +232,8 @@ struct MeshBuilder
     return std::nullopt;
   }
 
+  /// Links entries k and k + 1, which are the same facet. `end` is the end of their bucket: a third
+  /// equal entry can only stand before it.
   std::optional<MeshError> pair(
     const std::vector<FacetEntry>& entries, std::uint32_t k, std::uint32_t end)
   {
@@ -291,12 +303,15 @@ struct MeshBuilder
         [&](Index c) { return signedVolume(this->mesh.corners(c)) < 0.0; });
       for (Index c : component)
       {
+        // The sign is relative to the seed. A negative volume says that the seed itself is in
+        // reverse.
         if (!isPositive && (sign[c] < 0) != (volume < 0.0))
         {
           this->reverse(c);
           ++this->mesh.reoriented_;
         }
       }
+      // Here no cell is negative, yet two may be numbered against each other: they overlap.
       if (isPositive)
       {
         this->findFolds(component);
@@ -360,6 +375,7 @@ struct MeshBuilder
     }
   }
 
+  /// Marks one side. Callers go over all cells, and so come to the other side by themselves.
   void keepFacet(Index c, int i)
   {
     this->mesh.cellData_[c].flags |= std::uint16_t(1u << i);
@@ -369,7 +385,8 @@ struct MeshBuilder
     }
   }
 
-  void constrain()
+  /// Facets of the surface and between regions are kept in any case, those of the caller besides.
+  void keepAll()
   {
     for (Index c = 0; c < this->mesh.numberOfCellSlots(); ++c)
     {
@@ -383,16 +400,16 @@ struct MeshBuilder
       }
     }
     // Pinched points come last: points on kept facets are held already, and need no star.
-    this->constrainListed();
+    this->keepListed();
     this->fixPinchedPoints();
   }
 
   /// Marks the caller's facets and edges in every cell that has them. Scans all cells, since a star
   /// may be incomplete where bodies touch in a point. Ignores what no cell has.
-  void constrainListed()
+  void keepListed()
   {
-    std::vector<Facet<D>> facets = this->input.constrainedFacets;
-    std::vector<std::array<Index, 2>> edges = this->input.constrainedEdges;
+    std::vector<Facet<D>> facets = this->input.keptFacets;
+    std::vector<std::array<Index, 2>> edges = this->input.keptEdges;
     sortAll(facets);
     sortAll(edges);
     if (facets.empty() && edges.empty())
@@ -417,7 +434,7 @@ struct MeshBuilder
           this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
           this->mesh.points_[a].flags |= Mesh::PointHeld;
           this->mesh.points_[b].flags |= Mesh::PointHeld;
-          this->mesh.hasConstrainedEdges_ = true;
+          this->mesh.hasKeptEdges_ = true;
         }
       }
     }
@@ -445,6 +462,8 @@ struct MeshBuilder
   }
 };
 
+/// The order matters. Orientation needs the adjacency. Kept facets are marked after it, since
+/// reverse() exchanges facets, but not their marks.
 template <int D>
 std::optional<MeshError> SimplexMesh<D>::build(const MeshInput<D>& input, SimplexMesh<D>& mesh)
 {
@@ -467,7 +486,7 @@ std::optional<MeshError> SimplexMesh<D>::build(const MeshInput<D>& input, Simple
   {
     builder.orient();
   }
-  builder.constrain();
+  builder.keepAll();
   return std::nullopt;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Slots, the journal and single edits; replace() is in MeshEditorReplace.hxx. Whatever changes the
+// mesh first saves what it overwrites: that is all that undo needs.
 #include "Mesh/MeshEditor.h"
 
 #include "Mesh/MeshEditorReplace.hxx"
@@ -71,6 +73,7 @@ void MeshEditor<D>::growPatches(bool isFirst)
   }
 }
 
+/// All that is stored per point gets as long as the array of points.
 template <int D>
 void MeshEditor<D>::growAttachments()
 {
@@ -112,6 +115,8 @@ void MeshEditor<D>::growPoints(Index n)
   }
 }
 
+/// True if n cells can be taken. The editor of the whole mesh may always grow it. That of a chunk
+/// must not: other editors read the same arrays.
 template <int D>
 bool MeshEditor<D>::reserveCells(std::size_t n)
 {
@@ -121,6 +126,8 @@ bool MeshEditor<D>::reserveCells(std::size_t n)
   return room;
 }
 
+/// A slot for a new cell, which create() fills. Taken from the back of the pool, where freeCell()
+/// puts slots: new cells get the slots of the cavity they replace.
 template <int D>
 Index MeshEditor<D>::takeCell()
 {
@@ -192,6 +199,7 @@ Index MeshEditor<D>::takePoint()
   return this->mesh_->numberOfPointSlots() - 1;
 }
 
+/// The point is dead until replace() makes a cell with it.
 template <int D>
 Index MeshEditor<D>::addPoint(const Vec<D>& x)
 {
@@ -215,6 +223,8 @@ Index MeshEditor<D>::addPoint(const Vec<D>& x)
 
 // --- journal
 
+/// Saves the cell as a whole. It may be saved several times in one transaction: undo goes in
+/// reverse and ends with the oldest record, so nobody has to look for an earlier one.
 template <int D>
 void MeshEditor<D>::saveCell(Index c)
 {
@@ -239,6 +249,7 @@ void MeshEditor<D>::savePoint(Index p)
   }
 }
 
+/// Apart from savePoint(), since few meshes have places and few edits change them.
 template <int D>
 void MeshEditor<D>::savePlace(Index p)
 {
@@ -249,6 +260,7 @@ void MeshEditor<D>::savePlace(Index p)
   }
 }
 
+/// One entry for all attachments: their journals save and undo in step with each other.
 template <int D>
 void MeshEditor<D>::saveAttachments(Index p)
 {
@@ -302,6 +314,7 @@ void MeshEditor<D>::rollback(std::size_t place)
   this->commit(place);
 }
 
+/// Undoes one entry. Records lie on a stack for each kind, so the kind alone tells what to pop.
 template <int D>
 void MeshEditor<D>::undo(Entry entry)
 {
@@ -410,6 +423,8 @@ void MeshEditor<D>::setQuality(Index c, double q)
   this->mesh_->cellData_[c].quality = q;
 }
 
+/// Algorithms compare stamps of points with the time of their failed tries. A new stamp says that a
+/// new try around the point may succeed.
 template <int D>
 void MeshEditor<D>::stamp(const std::vector<Index>& cells)
 {
@@ -428,6 +443,7 @@ void MeshEditor<D>::stamp(const std::vector<Index>& cells)
   }
 }
 
+/// The same cells in the same order as SimplexMesh::star(), as far as the editor owns them.
 template <int D>
 bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
 {

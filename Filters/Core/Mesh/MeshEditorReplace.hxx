@@ -12,6 +12,8 @@
 
 namespace meshopt
 {
+/// The facets that the new cells must fill, each with what lies behind it: its outer neighbour, the
+/// input cell whose data are inherited, and its patch.
 template <int D>
 void MeshEditor<D>::collectOpenFacets(
   const std::vector<Index>& cavity, std::uint32_t inCavity, const KeptChange<D>* change)
@@ -29,7 +31,7 @@ void MeshEditor<D>::collectOpenFacets(
     for (int i = 0; i <= D; ++i)
     {
       const Index h = this->mesh_->cells_[c].adjacent[i];
-      const bool kept = this->mesh_->isConstrained(c, i);
+      const bool kept = this->mesh_->isKept(c, i);
       // No new cell has a kept facet that vanishes: it is not part of the boundary to fill.
       if (kept && isGone(sortedIds(this->mesh_->facet(c, i))))
       {
@@ -55,7 +57,7 @@ template <int D>
 void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity, const KeptChange<D>* change)
 {
   this->keptEdges_.clear();
-  if (!this->mesh_->hasConstrainedEdges_)
+  if (!this->mesh_->hasKeptEdges_)
   {
     return;
   }
@@ -65,7 +67,7 @@ void MeshEditor<D>::collectKeptEdges(const std::vector<Index>& cavity, const Kep
   {
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
     {
-      if (this->mesh_->isEdgeConstrained(c, e))
+      if (this->mesh_->isEdgeKeptByItself(c, e))
       {
         const Simplex<D>& t = this->mesh_->nodes(c);
         const Index a = t[Local<D>::edges[e][0]], b = t[Local<D>::edges[e][1]];
@@ -154,6 +156,7 @@ void MeshEditor<D>::killPoints(const std::vector<Index>& cavity)
   }
 }
 
+/// Points of the cavity that are still dead belong to no new cell: their slots may be used again.
 template <int D>
 void MeshEditor<D>::buryPoints()
 {
@@ -175,6 +178,7 @@ void MeshEditor<D>::buryPoints()
   }
 }
 
+/// Linear probing. The table keeps its memory from one replacement to the next.
 template <int D>
 void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
 {
@@ -198,6 +202,7 @@ void MeshEditor<D>::hashOpenFacets(std::size_t numberOfNewCells)
   }
 }
 
+/// A new cell without neighbours. linkFacet() finds them once all new cells have their slots.
 template <int D>
 void MeshEditor<D>::create(const Simplex<D>& nodes, double quality, Index region)
 {
@@ -285,6 +290,8 @@ Index MeshEditor<D>::parentIn(Index region) const
   return this->parents_[0][1];
 }
 
+/// Takes from the cavity all that the new cells need, frees its slots, makes the new cells, and
+/// links them.
 template <int D>
 bool MeshEditor<D>::replace(const std::vector<Index>& cavity, const std::vector<Simplex<D>>& cells,
   const std::vector<double>& qualities, const KeptChange<D>* change)

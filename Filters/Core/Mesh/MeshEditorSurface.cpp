@@ -43,6 +43,8 @@ void MeshEditor<D>::setPatch(Index c, int i, Index patch)
   }
 }
 
+/// Kept facets are crossed: an edge between regions is marked in the cells of all of them. Flags
+/// are set without saving the cells, hence not within a transaction.
 template <int D>
 void MeshEditor<D>::keepEdge(Index c, Index a, Index b)
 {
@@ -54,6 +56,7 @@ void MeshEditor<D>::keepEdge(Index c, Index a, Index b)
   }
   for (Index k : cells)
   {
+    // The edge has another local number in each cell: its points tell which one.
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
     {
       const Simplex<D>& t = this->mesh_->nodes(k);
@@ -64,7 +67,7 @@ void MeshEditor<D>::keepEdge(Index c, Index a, Index b)
       }
     }
   }
-  this->mesh_->hasConstrainedEdges_ = true;
+  this->mesh_->hasKeptEdges_ = true;
 }
 
 template void MeshEditor<2>::makeRoomForPlaces();

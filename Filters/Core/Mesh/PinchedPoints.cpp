@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Compares two counts of the cells at each point: all of them, and those that a walk over facets
+// finds.
 #include "Mesh/PinchedPoints.h"
 
 #include <algorithm>
@@ -8,6 +10,7 @@ namespace meshopt
 template <int D>
 std::vector<std::uint8_t> pinchedPoints(const SimplexMesh<D>& mesh, bool freeOnly)
 {
+  // Counted without walking over facets, so that the walk below can be compared with it.
   std::vector<std::size_t> uses(static_cast<std::size_t>(mesh.numberOfPointSlots()), 0);
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {

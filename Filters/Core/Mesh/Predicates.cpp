@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A filter in floating point, then expansions without rounding. The order of operations is what
+// makes them exact: nothing may be regrouped.
 #include "Mesh/Predicates.h"
 
 #include <cmath>
@@ -31,6 +33,7 @@ struct Expansion
 /// a + b = sum + error
 void twoSum(double a, double b, double& sum, double& error)
 {
+  // Knuth's order of operations: right whichever of a and b is the greater one.
   sum = a + b;
   const double bVirtual = sum - a;
   const double aVirtual = sum - bVirtual;
@@ -55,6 +58,7 @@ void twoProduct(double a, double b, double& product, double& error)
   error = aLow * bLow - (((product - aHigh * bHigh) - aLow * bHigh) - aHigh * bLow);
 }
 
+/// a - b without rounding: the difference of two doubles is the sum of two.
 Expansion<2> difference(double a, double b)
 {
   double sum, error;
@@ -83,6 +87,7 @@ void grow(Expansion<N>& e, double b)
   e = result;
 }
 
+/// Grown one by one, which is quadratic. It runs only where the filter in orient() cannot decide.
 template <int M, int N>
 Expansion<M + N> sum(const Expansion<M>& a, const Expansion<N>& b)
 {
@@ -108,6 +113,7 @@ Expansion<N> negative(Expansion<N> e)
   return e;
 }
 
+/// All products of two components, each as two doubles.
 template <int M, int N>
 Expansion<2 * M * N> product(const Expansion<M>& a, const Expansion<N>& b)
 {
@@ -125,6 +131,7 @@ Expansion<2 * M * N> product(const Expansion<M>& a, const Expansion<N>& b)
   return result;
 }
 
+/// a d - b c
 template <int N>
 auto determinant(
   const Expansion<N>& a, const Expansion<N>& b, const Expansion<N>& c, const Expansion<N>& d)
@@ -132,6 +139,7 @@ auto determinant(
   return sum(product(a, d), negative(product(b, c)));
 }
 
+/// The differences are expansions, too: the sign is that of the points as given, not rounded.
 int exactOrient(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c)
 {
   return determinant(
@@ -139,6 +147,7 @@ int exactOrient(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c)
     .sign();
 }
 
+/// Expanded by the first column; b - a, c - a and d - a are the rows.
 int exactOrient(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>& d)
 {
   Expansion<2> u[3], v[3], w[3];
@@ -154,9 +163,11 @@ int exactOrient(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<3>&
   return sum(sum(x, y), z).sign();
 }
 
+/// Never asked for 0: the filters let through what is surely not 0.
 int signOf(double x) { return x > 0.0 ? 1 : -1; }
 }
 
+/// Floating point decides nearly always. Only a doubtful sign is computed exactly.
 int orient(const Vec<2>& a, const Vec<2>& b, const Vec<2>& c)
 {
   const double left = (b[0] - a[0]) * (c[1] - a[1]);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Walks over the mesh. There is no table of edges or of stars: both are found over facets.
 #include "Mesh/SimplexMesh.h"
 
 #include "Mesh/LocalNumbers.h"
@@ -32,6 +33,8 @@ Index SimplexMesh<D>::countPoints() const
     [](const Point& p) { return (p.flags & PointAlive) != 0; }));
 }
 
+/// The cells are found over facets, breadth first from any cell of the point. The order depends on
+/// that cell and on the numbering only, so that it is the same in each run.
 template <int D>
 void SimplexMesh<D>::star(Index p, std::vector<Index>& star) const
 {
@@ -84,7 +87,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
       while (true)
       {
         const Index h = this->cells_[current].adjacent[exit];
-        const bool kept = this->isConstrained(current, exit);
+        const bool kept = this->isKept(current, exit);
         if (h == None || (kept && !acrossKept))
         {
           break;

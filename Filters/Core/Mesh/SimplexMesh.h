@@ -30,9 +30,9 @@ struct MeshInput
   /// Nonzero: the point neither moves nor vanishes. One per point, or empty.
   std::vector<std::uint8_t> fixedPoints;
   /// Facets that must be kept although both sides have one region (any order of the points).
-  std::vector<Facet<D>> constrainedFacets;
-  /// Edges that must be kept (any order of the points). For D = 2 use constrainedFacets.
-  std::vector<std::array<Index, 2>> constrainedEdges;
+  std::vector<Facet<D>> keptFacets;
+  /// Edges that must be kept (any order of the points). For D = 2 use keptFacets.
+  std::vector<std::array<Index, 2>> keptEdges;
   /// True: the numbering of every cell is correct, and no cell is renumbered. For a part of a mesh
   /// whose orientation is known: the volume of the part alone may mislead.
   bool isOriented = false;
@@ -136,7 +136,7 @@ public:
   const Facet<D>& firstFoldedFacet() const { return this->firstFoldedFacet_; }
   Index countCells() const;  ///< live cells; linear
   Index countPoints() const; ///< points used by a cell; linear
-  bool hasConstrainedEdges() const { return this->hasConstrainedEdges_; }
+  bool hasKeptEdges() const { return this->hasKeptEdges_; }
 
   // --- cells
   bool isAlive(Index c) const { return (this->cellData_[c].flags & CellAlive) != 0; }
@@ -147,16 +147,18 @@ public:
   static int facetOf(Index handle) { return handle & 3; }
   static Index handle(Index c, int i) { return 4 * c + i; }
   /// True if facet i must be kept. Surface facets are always kept.
-  bool isConstrained(Index c, int i) const { return (this->cellData_[c].flags >> i) & 1; }
-  bool isEdgeConstrained(Index c, int e) const
+  bool isKept(Index c, int i) const { return (this->cellData_[c].flags >> i) & 1; }
+  /// True if edge e, numbered as in Local<D>::edges, is marked as kept: by the caller's wish, or as
+  /// part of a curve of the surface. Edges of kept facets need no mark. Never in 2D.
+  bool isEdgeKeptByItself(Index c, int e) const
   {
     return (this->cellData_[c].flags >> (FirstEdgeBit + e)) & 1;
   }
-  /// True if edge e, numbered as in Local<D>::edgeFirst, is kept by itself: in 3D by the caller's
-  /// wish, in 2D as a facet.
+  /// The same for edge e numbered as in Local<D>::edgeFirst; in 2D, where an edge is a facet,
+  /// whether this facet is kept.
   bool isEdgeKept(Index c, int e) const
   {
-    return D == 2 ? this->isConstrained(c, e) : this->isEdgeConstrained(c, e);
+    return D == 2 ? this->isKept(c, e) : this->isEdgeKeptByItself(c, e);
   }
   /// Number of the patch of the surface that kept facet i belongs to; None if there are no patches.
   Index patch(Index c, int i) const { return this->patches_.empty() ? None : this->patches_[c][i]; }
@@ -261,7 +263,7 @@ private:
   Index reoriented_ = 0;
   Index foldedFacets_ = 0;
   Facet<D> firstFoldedFacet_{};
-  bool hasConstrainedEdges_ = false;
+  bool hasKeptEdges_ = false;
 };
 
 extern template class SimplexMesh<2>;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Locates points in the mesh of the input. A walk from a hint finds nearly all; a tree of boxes
+// finds the rest, and the nearest cell for points outside.
 #include "Metric/Background.h"
 
 #include "Mesh/SimplexGeometry.h"
@@ -18,6 +20,7 @@ namespace
 constexpr double slack = 1e-10;
 constexpr Index leafSize = 8;
 
+/// 0 inside of the box. Squares, since distances are only compared.
 template <int D>
 double squaredDistanceToBox(const Vec<D>& low, const Vec<D>& high, const Vec<D>& x)
 {
@@ -57,6 +60,7 @@ bool projectOnFace(
       edges.col(k - 1) = corners[ids[k]] - corners[ids[0]];
     }
     const Dynamic gram = edges.transpose() * edges;
+    // A face without area has linearly dependent edges. Its own faces cover all that it covers.
     const Eigen::FullPivLU<Dynamic> lu(gram);
     if (lu.rank() < n - 1)
     {
@@ -79,6 +83,8 @@ bool projectOnFace(
 }
 }
 
+/// Cells get numbers without gaps. Points keep theirs, so that values per point of the mesh can be
+/// looked up as they are.
 template <int D>
 Background<D>::Background(const SimplexMesh<D>& mesh)
 {
@@ -117,6 +123,7 @@ Background<D>::Background(const SimplexMesh<D>& mesh)
   }
 }
 
+/// Barycentric weights of x, negative where it lies outside. False for a flat cell, which has none.
 template <int D>
 bool Background<D>::weights(Index c, const Vec<D>& x, std::array<double, D + 1>& w) const
 {
@@ -140,6 +147,7 @@ bool Background<D>::weights(Index c, const Vec<D>& x, std::array<double, D + 1>&
   return true;
 }
 
+/// The place in cell c with these weights, which rounding may have moved out of it.
 template <int D>
 Location<D> Background<D>::found(Index c, const std::array<double, D + 1>& w) const
 {
@@ -160,6 +168,8 @@ Location<D> Background<D>::found(Index c, const std::array<double, D + 1>& w) co
   return at;
 }
 
+/// The projection on a face counts only if it lies in the face. The nearest of these is the nearest
+/// point of the cell, even if the cell is flat or inverted.
 template <int D>
 Location<D> Background<D>::nearestInCell(Index c, const Vec<D>& x) const
 {
@@ -192,6 +202,8 @@ Location<D> Background<D>::nearestInCell(Index c, const Vec<D>& x) const
   return best;
 }
 
+/// First a walk, since the hint is mostly next to x. The tree is for walks that leave the mesh or
+/// do not end.
 template <int D>
 Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
 {
@@ -217,11 +229,13 @@ Location<D> Background<D>::locate(const Vec<D>& x, Index hint) const
     {
       return this->found(c, w);
     }
+    // None beyond the surface: x may still lie in the mesh, behind a hollow.
     c = this->cells_[c].neighbours[i];
   }
   return this->searchTree(x);
 }
 
+/// Of whole cells, not of their centres: boxes beside each other may overlap.
 template <int D>
 void Background<D>::fitBox(Box& box) const
 {
@@ -237,6 +251,7 @@ void Background<D>::fitBox(Box& box) const
   }
 }
 
+/// Each box is halved at the median cell, so that the tree is log n deep for any mesh.
 template <int D>
 void Background<D>::buildTree() const
 {
@@ -245,6 +260,7 @@ void Background<D>::buildTree() const
   std::vector<Vec<D>> centres(this->cells_.size());
   for (std::size_t c = 0; c < this->cells_.size(); ++c)
   {
+    // Sums do for centres: only their order counts.
     centres[c].setZero();
     for (Index p : this->cells_[c].nodes)
     {
@@ -285,6 +301,7 @@ void Background<D>::buildTree() const
   }
 }
 
+/// Cheap, and it spares most cells of a leaf the projections on all their faces.
 template <int D>
 bool Background<D>::isFartherThan(Index c, const Vec<D>& x, double distance) const
 {

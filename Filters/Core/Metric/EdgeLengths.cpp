@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Lengths of edges in the wanted sizes, and how many of them are near 1.
 #include "Metric/EdgeLengths.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@ double EdgeLengths::lowerEnd(std::size_t k)
   return std::exp2(static_cast<double>(k) / BinsPerOctave - Octaves);
 }
 
+/// As if both were one mesh: shares are weighted by the number of edges.
 void EdgeLengths::add(const EdgeLengths& other)
 {
   if (other.edges == 0)
@@ -42,6 +44,8 @@ void EdgeLengths::add(const EdgeLengths& other)
   this->edges = both;
 }
 
+/// The metric is known at the ends. Between them its length is taken to grow geometrically;
+/// logMeanLength() is the integral of that.
 template <int D>
 double edgeLength(const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, Index a, Index b)
 {
@@ -62,6 +66,7 @@ EdgeLengths measureEdges(const SimplexMesh<D>& mesh, const NodalMetric<D>& metri
       edges.push_back({ std::min(a, b), std::max(a, b) });
     }
   }
+  // Each edge counts once, though all cells around it have it.
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   EdgeLengths result;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From errors in the present cells to sizes of a new mesh in which all cells have the same error.
+// It assumes that an error falls with a power of the size, the order of convergence.
 #include "Metric/ErrorIndicator.h"
 
 #include "Metric/MetricVolume.h"
@@ -17,6 +19,8 @@ template <int D>
 std::vector<double> densities(
   const SimplexMesh<D>& mesh, const std::vector<double>& errors, double greatest, double power)
 {
+  // Elements of size h in place of one of size h_K have the squared error e^2 (h / h_K)^(2 order +
+  // D) each. It is the same for all of them if h = h* h_K e^-power.
   std::vector<double> sum(mesh.numberOfPointSlots(), 0.0), volume(sum);
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
@@ -33,6 +37,7 @@ std::vector<double> densities(
   }
   for (std::size_t p = 0; p < sum.size(); ++p)
   {
+    // The mean of the densities around the point, weighted by volume.
     sum[p] = volume[p] > 0.0 ? sum[p] / volume[p] : 0.0;
   }
   return sum;
@@ -42,6 +47,8 @@ std::vector<double> densities(
 double sizeForError(
   const std::vector<double>& errors, double greatest, double fraction, double power, double order)
 {
+  // The new elements in place of an old one have the squared error e^2 (h / h_K)^(2 order)
+  // together, with h / h_K = h* e^-power as above.
   double now = 0.0, then = 0.0; // squares: now, and of the new mesh with h* = 1
   for (double error : errors)
   {
@@ -93,6 +100,7 @@ std::string ErrorIndicatorOptions::check() const
   return text.str().empty() ? this->limits.check() : text.str();
 }
 
+/// Densities become a metric of spheres, so that limits and h* are found as for a solution.
 template <int D>
 std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double>& errors,
   const ErrorIndicatorOptions& options, ErrorIndicatorSizes& result)
@@ -104,6 +112,7 @@ std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double
     return error;
   }
   const double greatest = *std::max_element(errors.begin(), errors.end());
+  // From (h / h_K)^(2 order + D) in densities().
   const double power = 2.0 / (2.0 * options.convergenceOrder + D);
   result.isZero = greatest == 0.0;
   std::vector<SymmetricEigen<D>> metric(mesh.numberOfPointSlots());
@@ -114,6 +123,7 @@ std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double
   }
   for (std::size_t p = 0; p < metric.size(); ++p)
   {
+    // A density is h^-D, an eigenvalue of a metric h^-2.
     metric[p].values.setConstant(std::pow(density[p], 2.0 / D));
   }
   SizeLimits limits = options.limits;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Sweeps over the points until no metric is coarser than its neighbours permit. A sweep looks only
+// at points whose own metric has changed.
 #include "Metric/Gradation.h"
 
 #include "Metric/SymmetricEigen.h"
@@ -24,6 +26,7 @@ bool isAtLeast(const Tensor<2>& a, const Tensor<2>& b)
   return d(0, 0) > 0.0 && d(0, 0) * d(1, 1) > d(0, 1) * d(0, 1);
 }
 
+/// All pivots of the factorization must be positive.
 bool isAtLeast(const Tensor<3>& a, const Tensor<3>& b)
 {
   const Tensor<3> d = (1.0 + slack) * a - b;
@@ -37,6 +40,8 @@ bool isAtLeast(const Tensor<3>& a, const Tensor<3>& b)
 }
 }
 
+/// The unit ball of the result is the largest ellipsoid within those of a and b: both metrics are
+/// reduced to diagonal form at once, and the greater eigenvalue is taken in each direction.
 template <int D>
 Tensor<D> intersection(const Tensor<D>& a, const Tensor<D>& b)
 {
@@ -55,6 +60,8 @@ Tensor<D> intersection(const Tensor<D>& a, const Tensor<D>& b)
   return 0.5 * (m + m.transpose());
 }
 
+/// What the metric at one end of an edge permits at the other: sizes may grow by the factor 1 + l
+/// ln(gradation) over the length l of the edge in that metric.
 template <int D>
 Tensor<D> grown(const Tensor<D>& m, const Vec<D>& edge, double gradation)
 {
@@ -63,6 +70,7 @@ Tensor<D> grown(const Tensor<D>& m, const Vec<D>& edge, double gradation)
   return m / (factor * factor);
 }
 
+/// In place and in a fixed order of points, so that the same input gives the same bits.
 template <int D>
 int limitGradation(const SimplexMesh<D>& mesh, const PointGraph& graph, double gradation,
   std::vector<Tensor<D>>& metrics)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Recovery by the paper's (5.4), with the boundary as a second step: the weak form says nothing
+// there, so values are carried from the inside to the boundary as smoothly as possible.
 #include "Metric/HessianRecovery.h"
 
 #include "Metric/LeastSquaresHessian.h"
@@ -103,6 +105,7 @@ private:
   Index numberOfUnknowns_ = 0;
 };
 
+/// For now any number but None says that the point is on the boundary.
 template <int D>
 void LumpedMassRecovery<D>::markBoundary()
 {
@@ -121,6 +124,7 @@ void LumpedMassRecovery<D>::markBoundary()
   }
 }
 
+/// Adds the part of one cell to the sums of its nodes.
 template <int D>
 void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
 {
@@ -277,6 +281,7 @@ void LumpedMassRecovery<D>::extrapolate()
   matrix.setFromTriplets(entries.begin(), entries.end());
   // Regular, since every unknown is connected to an interior point: see findUnreached().
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  // One factorization serves all components and all entries of the tensors.
   const Eigen::MatrixXd solution = solver.solve(right);
   for (std::size_t p = 0; p < this->unknown_.size(); ++p)
   {
@@ -287,6 +292,7 @@ void LumpedMassRecovery<D>::extrapolate()
   }
 }
 
+/// In the order in which addCell() has written the numbers: the rows of the lower triangle.
 template <int D>
 void LumpedMassRecovery<D>::unpack(std::vector<Tensor<D>>& hessians) const
 {

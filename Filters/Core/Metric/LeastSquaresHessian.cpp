@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Recovery by a quadratic polynomial around each point. The patch grows ring by ring until its
+// points determine all coefficients.
 #include "Metric/LeastSquaresHessian.h"
 
 #include <Eigen/Cholesky>
@@ -59,6 +61,7 @@ public:
 private:
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Unknowns<D>>;
 
+  /// Adds the neighbours of the outermost ring. False if there are none left.
   bool addRing(Index p)
   {
     const std::size_t end = this->patch_.size();
@@ -80,6 +83,8 @@ private:
     return this->patch_.size() > end;
   }
 
+  /// Fits the quadratic to the patch. False if the points determine it badly; `rank` says what is
+  /// accepted as well determined.
   bool fit(double rank, Tensor<D>* hessians)
   {
     const Eigen::Index n = static_cast<Eigen::Index>(this->patch_.size());
@@ -108,6 +113,7 @@ private:
       this->fillRow(k, scale);
     }
     this->qr_.compute(this->columns_);
+    // Columns are pivoted, so small entries say which combinations of unknowns remain open.
     const auto diagonal = this->qr_.matrixQR().diagonal().cwiseAbs();
     if (!(diagonal.minCoeff() > rank * diagonal.maxCoeff()))
     {
@@ -134,6 +140,7 @@ private:
     return true;
   }
 
+  /// The equation of one point of the patch: value of the quadratic there = value of the field.
   void fillRow(Eigen::Index k, const Eigen::LLT<Eigen::Matrix<double, D, D>>& scale)
   {
     const Index p = this->patch_[0], q = this->patch_[k];

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Finds h* for a wanted number of elements. The number falls with h*, but limits on sizes and the
+// gradation bend the curve, so that the zero has to be searched.
 #include "Metric/MetricScaling.h"
 
 #include "Metric/Gradation.h"
@@ -51,6 +53,7 @@ double findZero(F&& value, double start, double highest, double slope, double to
     }
     else
     {
+      // The same end stays a second time: half its value draws the next step towards it.
       otherY *= 0.5;
     }
     x = next;
@@ -60,6 +63,7 @@ double findZero(F&& value, double start, double highest, double slope, double to
 }
 }
 
+/// Conditions are written as !(x >= 0), so that NaN is refused, too.
 std::string SizeLimits::check() const
 {
   std::ostringstream text;
@@ -86,6 +90,7 @@ std::string SizeLimits::check() const
   return text.str();
 }
 
+/// The longest size and the greatest eigenvalue bound the search for h*.
 template <int D>
 MetricScaling<D>::MetricScaling(const SimplexMesh<D>& mesh, std::vector<SymmetricEigen<D>> metric,
   const SizeLimits& limits, double correction)
@@ -112,6 +117,7 @@ MetricScaling<D>::MetricScaling(const SimplexMesh<D>& mesh, std::vector<Symmetri
   }
 }
 
+/// The eigenvalues of a metric over h^2, with the limits on sizes and on anisotropy.
 template <int D>
 Vec<D> MetricScaling<D>::limited(const Vec<D>& eigenvalues, double h) const
 {
@@ -120,6 +126,8 @@ Vec<D> MetricScaling<D>::limited(const Vec<D>& eigenvalues, double h) const
   if (this->limits_.minimumSize > 0.0)
   {
     const double most = 1.0 / (this->limits_.minimumSize * this->limits_.minimumSize);
+    // Where both contradict each other, because the diagonal stands in for a maximum, the minimum
+    // size wins.
     values = values.cwiseMin(most).cwiseMax(std::min(least, most));
   }
   if (this->limits_.maximumAnisotropy >= 1.0)
@@ -144,6 +152,7 @@ double MetricScaling<D>::uniformCount(double h) const
   return this->countFromVolume(this->volume_ / std::pow(h, D));
 }
 
+/// Without gradation determinants do: no tensor is composed.
 template <int D>
 double MetricScaling<D>::predict(double h) const
 {
@@ -155,6 +164,7 @@ double MetricScaling<D>::predict(double h) const
   return this->countFromVolume(metricVolume<D>(this->mesh_, half));
 }
 
+/// With gradation, which has to compose all tensors and sweep over the mesh: far dearer.
 template <int D>
 double MetricScaling<D>::predictGraded(double h)
 {
@@ -210,6 +220,7 @@ ScaledMetric<D> MetricScaling<D>::withSize(double h)
   return result;
 }
 
+/// The count falls as h grows, from `most` to `fewest`. For a count beyond these there is no h.
 template <int D>
 ScaledMetric<D> MetricScaling<D>::withCount(double count)
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The volume of a mesh in a metric, which is the number of elements up to a factor (5.3). It is
+// integrated exactly for the interpolation that the metric has elsewhere.
 #include "Metric/MetricVolume.h"
 
 #include <algorithm>
@@ -50,6 +52,8 @@ double dividedDifference(const double* a, int n)
 }
 }
 
+/// The mean over a simplex of exp(f), f linear with the values a at the nodes, is D! times the
+/// divided difference of exp (Hermite and Genocchi).
 template <int D>
 double meanOfExponential(const std::array<double, D + 1>& a)
 {
@@ -64,6 +68,8 @@ double meanOfExponential(const std::array<double, D + 1>& a)
   return (D == 2 ? 2.0 : 6.0) * std::exp(greatest) * dividedDifference(sorted.data(), D + 1);
 }
 
+/// The logarithm of the density is linear in each cell, as the metric is interpolated. The integral
+/// over a cell is then exact.
 template <int D>
 double metricVolume(const SimplexMesh<D>& mesh, const std::vector<double>& halfLogDeterminants)
 {

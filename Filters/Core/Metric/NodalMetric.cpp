@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Values of sizes and tensors are kept as logarithms. Means of logarithms stay positive definite,
+// and twice and half a size are equally far away.
 #include "Metric/NodalMetric.h"
 
 #include "Metric/MetricVolume.h"
@@ -22,6 +24,7 @@ std::string wrongLength(const char* what, std::size_t length, Index points)
 }
 }
 
+/// Checks all values before it takes any: a metric is never half new.
 template <int D>
 std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<double>& sizes,
   const std::vector<Tensor<D>>& tensors, NodalValues* blamed)
@@ -78,6 +81,7 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
       values[p].hint = this->background_->cellOfPoint(static_cast<Index>(p));
     }
   }
+  // One copy stays as given. The other follows the points of the mesh.
   this->backgroundValues_ = values;
   this->values_ = std::move(values);
   return std::string();
@@ -97,6 +101,7 @@ std::string NodalMetric<D>::setConstant(const Tensor<D>& tensor)
   return std::string();
 }
 
+/// Sizes are stored per point from here on, since the floor differs from point to point.
 template <int D>
 NodalMetric<D> NodalMetric<D>::raised(
   const SimplexMesh<D>& mesh, std::shared_ptr<const SizeFloor<D>> floor) const
@@ -115,6 +120,7 @@ NodalMetric<D> NodalMetric<D>::raised(
   }
   else if (!this->hasSizes_)
   {
+    // So far tensors vary, and one size holds everywhere: now it is stored per point, too.
     for (std::vector<Sample>* values : { &result.values_, &result.backgroundValues_ })
     {
       for (Sample& value : *values)
@@ -135,6 +141,7 @@ NodalMetric<D> NodalMetric<D>::raised(
   return result;
 }
 
+/// The floor only raises: where it is lower the wanted size stays.
 template <int D>
 void NodalMetric<D>::raise(Index p, const Vec<D>& x)
 {
@@ -145,6 +152,7 @@ void NodalMetric<D>::raise(Index p, const Vec<D>& x)
   }
 }
 
+/// Only grows, and only if values vary from point to point.
 template <int D>
 void NodalMetric<D>::reserve(Index n)
 {
@@ -166,6 +174,7 @@ void NodalMetric<D>::resample(Index p, const Vec<D>& x, Index near)
   // A new point has no cell of its own yet: the search begins at that of a neighbour.
   const Index hint = near != None ? this->sample(near).hint : value.hint;
   const Location<D> at = this->background_->locate(x, hint);
+  // A place that is not finite: the value stays.
   if (at.cell == None)
   {
     return;
@@ -196,6 +205,7 @@ double NodalMetric<D>::logSize(Index p) const
                               : 0.0;
 }
 
+/// Sizes and tensors are kept apart, since either may be given alone.
 template <int D>
 Tensor<D> NodalMetric<D>::unitTensor(Index p) const
 {
@@ -215,6 +225,7 @@ Tensor<D> NodalMetric<D>::unitTensor(Index p) const
   return m * std::exp(-2.0 * this->logSize(p));
 }
 
+/// (5.3), with the density sqrt(det M) / h*^D.
 template <int D>
 double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) const
 {
@@ -238,6 +249,7 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
   return regularElementsPerVolume<D> * inUnits;
 }
 
+/// Means of logarithms over the nodes, so that the result is positive definite whatever they are.
 template <int D>
 void NodalMetric<D>::fill(const Simplex<D>& nodes, ElementMetric<D>& m) const
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Two passes over the edges, counting and filling, then the neighbours of each point are sorted: no
+// set and no map is needed.
 #include "Metric/PointGraph.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A grid of bins holds the edges that have a say at a place. Bins are half as wide as
+// the boxes that edges reach on average.
 #include "Metric/SizeFloor.h"
 
 #include "Metric/SymmetricEigen.h"
@@ -16,6 +18,7 @@ constexpr double Fall = 0.7;
 constexpr double MostBins = 50.0; // per edge
 }
 
+/// Each edge goes into all bins that its floor reaches, so that at() looks into a single bin.
 template <int D>
 SizeFloor<D>::SizeFloor(std::vector<Edge> edges, double least)
   : edges_(std::move(edges))
@@ -25,6 +28,7 @@ SizeFloor<D>::SizeFloor(std::vector<Edge> edges, double least)
   for (const Edge& e : this->edges_)
   {
     const double weakest = std::max(SymmetricEigen<D>::of(e.metric).values[0], 1e-300);
+    // In the direction in which the metric is weakest the floor falls most slowly.
     const double reach = std::max(e.size - least, 0.0) / (Fall * std::sqrt(weakest));
     low.push_back(e.a.cwiseMin(e.b) - Vec<D>::Constant(reach));
     high.push_back(e.a.cwiseMax(e.b) + Vec<D>::Constant(reach));
@@ -54,6 +58,7 @@ SizeFloor<D>::SizeFloor(std::vector<Edge> edges, double least)
   }
 }
 
+/// At least as many as the edges will have entries in the bins.
 template <int D>
 double SizeFloor<D>::countBins(
   const std::vector<Vec<D>>& low, const std::vector<Vec<D>>& high) const

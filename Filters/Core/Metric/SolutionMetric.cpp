@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The steps of section 5 of the paper in their order, from nodal values to a metric and h*.
 #include "Metric/SolutionMetric.h"
 
 #include "Metric/TensorFunctions.h"
@@ -92,6 +93,7 @@ SymmetricEigen<D> absoluteValue(const Tensor<D>& hessian)
   return combinedHessian<D>(&hessian, 1);
 }
 
+/// (5.2): the root of the sum of squares. Of one field alone this is the absolute value.
 template <int D>
 SymmetricEigen<D> combinedHessian(const Tensor<D>* hessians, int components)
 {
@@ -124,6 +126,7 @@ SymmetricEigen<D> combinedHessian(const Tensor<D>* hessians, int components)
   {
     order[i] = i;
   }
+  // Equal eigenvalues stay in their order: the result has the same bits in each run.
   std::stable_sort(
     order.begin(), order.end(), [&e](int a, int b) { return e.values[a] < e.values[b]; });
   SymmetricEigen<D> sorted;
@@ -155,6 +158,7 @@ std::string SolutionMetricOptions::check() const
   return text.str().empty() ? this->limits.check() : text.str();
 }
 
+/// Hessians, their combination (5.2), the scaling for the norm, and h* by (5.3).
 template <int D>
 std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>& values,
   int components, const SolutionMetricOptions& options, SolutionMetric<D>& metric)
@@ -177,6 +181,7 @@ std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>
   metric.isLinear = isLinearField(mesh, values, components, g, options.precision);
   if (metric.isLinear)
   {
+    // A linear field asks for no size anywhere: the mesh becomes uniform.
     SymmetricEigen<D> euclidean;
     euclidean.values.setOnes();
     std::fill(g.begin(), g.end(), euclidean);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Logarithm and exponential of symmetric tensors. The exponential is called for each cell that is
+// tried in a metric, and is written for speed; the logarithm is called once per point.
 #include "Metric/TensorFunctions.h"
 
 #include <Eigen/Eigenvalues>
@@ -43,6 +45,7 @@ Tensor<3> exponentialWithoutTrace(const Tensor<3>& symmetric)
   double x = 0.0, y = 0.0, z = 0.0;
   for (int k = 14; k >= 0; --k) // Horner
   {
+    // Times a: (x + y a + z a^2) a = q z + (x + p z) a + y a^2.
     const double next = q * z + inverseFactorials[k], zNext = y;
     y = x + p * z;
     x = next;
@@ -50,6 +53,7 @@ Tensor<3> exponentialWithoutTrace(const Tensor<3>& symmetric)
   }
   for (int k = 0; k < squarings; ++k)
   {
+    // a^3 = p a + q and a^4 = p a^2 + q a bring the square back to three numbers.
     const double cubic = 2.0 * y * z, quartic = z * z;
     const double next = x * x + q * cubic, zNext = y * y + 2.0 * x * z + p * quartic;
     y = 2.0 * x * y + p * cubic + q * quartic;
@@ -98,6 +102,8 @@ Tensor<D> exponential(const Tensor<D>& l)
   return std::exp(mean) * exponentialWithoutTrace(a);
 }
 
+/// By eigenvalues, unlike exponential(): it is needed once per point of the input, not per try, and
+/// they also tell whether the tensor is positive definite.
 template <int D>
 bool logarithm(const Tensor<D>& m, Tensor<D>& l)
 {

@@ -15,6 +15,8 @@
 
 namespace meshopt
 {
+/// First each node of the cell: it slides, or vanishes. Then each edge: it is divided. So nodes are
+/// added only where nothing else helps.
 template <int D, class Shape>
 class BoundaryChange
 {
@@ -59,6 +61,7 @@ private:
   static constexpr int SearchSteps = 14;       ///< along a curve: to 1/1000 of the range
   static constexpr double FarthestSlide = 0.8; ///< fraction of the way to a neighbour
 
+  /// Moves v along its curve to the best place for its star.
   bool slide(Judge<D, Shape>& judge, Index v)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
@@ -95,6 +98,7 @@ private:
     return judge.accept(this->proposal_);
   }
 
+  /// Joins v with the first neighbour for which that gains.
   bool remove(Judge<D, Shape>& judge, Index v)
   {
     const bool isThere = judge.editor().star(v, this->star_);
@@ -129,7 +133,7 @@ private:
       for (int i = 0; i <= D; ++i)
       {
         const Facet<D> f = mesh.facet(this->star_[k], i);
-        if (mesh.isConstrained(this->star_[k], i) && hasId(f, v))
+        if (mesh.isKept(this->star_[k], i) && hasId(f, v))
         {
           std::copy_if(f.begin(), f.end(), std::back_inserter(this->neighbours_),
             [&](Index u) { return u != v; });

@@ -129,8 +129,7 @@ double Cavity<D, Shape>::quality(const QualityModel<D, Shape>& model, const Simp
     if (model.plain)
     {
       const double q = this->plainQuality(numbers);
-      return model.weights && mesh.isConstrained(c, i) && !(q < model.floor) ? q * model.weight(f)
-                                                                             : q;
+      return model.weights && mesh.isKept(c, i) && !(q < model.floor) ? q * model.weight(f) : q;
     }
   }
   Simplex<D> cell;
@@ -177,7 +176,7 @@ template <int D, class Shape>
 bool Cavity<D, Shape>::isWall(const MeshEditor<D>& editor, Index c, int i) const
 {
   const Index h = editor.mesh().adjacent(c, i);
-  return h == None || (editor.mesh().isConstrained(c, i) && !this->isOpened(editor.mesh(), c, i)) ||
+  return h == None || (editor.mesh().isKept(c, i) && !this->isOpened(editor.mesh(), c, i)) ||
     !editor.owns(editor.mesh().cellOf(h));
 }
 
@@ -250,7 +249,7 @@ bool Cavity<D, Shape>::take(
     {
       numbers[k] = local[Local<D>::facets[i][k]];
     }
-    if (mesh.isConstrained(c, i) && this->opens(mesh, c, i))
+    if (mesh.isKept(c, i) && this->opens(mesh, c, i))
     {
       if (h != None &&
         !(editor.owns(mesh.cellOf(h)) && editor.isMarked(mesh.cellOf(h), this->mark_)))
@@ -263,7 +262,7 @@ bool Cavity<D, Shape>::take(
     }
     // A facet of which both cells are inside is no boundary facet any more. It remains in the heap:
     // grow() drops it later.
-    if (h != None && !mesh.isConstrained(c, i) && editor.owns(mesh.cellOf(h)) &&
+    if (h != None && !mesh.isKept(c, i) && editor.owns(mesh.cellOf(h)) &&
       editor.isMarked(mesh.cellOf(h), this->mark_))
     {
       for (int k : numbers)
@@ -376,7 +375,7 @@ void Cavity<D, Shape>::finish(MeshEditor<D>& editor)
   {
     for (int i = 0; i <= D; ++i)
     {
-      if (mesh.isConstrained(c, i) && this->isOpened(mesh, c, i))
+      if (mesh.isKept(c, i) && this->isOpened(mesh, c, i))
       {
         continue; // of the outer surface, or between two cells of the cavity
       }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Contraction as a change of topology only. What it does to kept facets and edges is written down
+// for the editor; whether it is good, the judge says.
 #include "Operations/EdgeContraction.h"
 
 #include "Mesh/Ids.h"
@@ -20,7 +22,7 @@ void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
     for (int i = 0; i <= D; ++i)
     {
       const Facet<D> f = mesh.facet(c, i);
-      if (!mesh.isConstrained(c, i) || !hasId(f, v))
+      if (!mesh.isKept(c, i) || !hasId(f, v))
       {
         continue;
       }
@@ -35,7 +37,7 @@ void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
     {
       const std::array<Index, 2> edge{ mesh.nodes(c)[Local<D>::edges[e][0]],
         mesh.nodes(c)[Local<D>::edges[e][1]] };
-      if (!mesh.isEdgeConstrained(c, e) || !hasId(edge, v))
+      if (!mesh.isEdgeKeptByItself(c, e) || !hasId(edge, v))
       {
         continue;
       }
@@ -77,6 +79,7 @@ bool proposeContraction(
     }
   }
   proposal.oldWorst = mesh.worstQuality(proposal.cavity);
+  // Without cells the star as a whole would vanish.
   return !proposal.cells.empty();
 }
 

@@ -97,7 +97,7 @@ bool EdgeRemoval<D, Shape>::gatherPair(const MeshEditor<D>& editor, Index t, int
   const SimplexMesh<D>& mesh = editor.mesh();
   const int o = 3 - Local<D>::edges[e][0] - Local<D>::edges[e][1];
   const Index h = mesh.adjacent(t, o);
-  if (h == None || mesh.isConstrained(t, o) || !editor.owns(mesh.cellOf(h)))
+  if (h == None || mesh.isKept(t, o) || !editor.owns(mesh.cellOf(h)))
   {
     return false;
   }
@@ -131,7 +131,7 @@ typename EdgeRemoval<D, Shape>::Ring EdgeRemoval<D, Shape>::gatherRing(
   while (true)
   {
     const Index h = mesh.adjacent(current, exit);
-    if (h == None || mesh.isConstrained(current, exit))
+    if (h == None || mesh.isKept(current, exit))
     {
       return Ring::Blocked;
     }
@@ -149,7 +149,7 @@ typename EdgeRemoval<D, Shape>::Ring EdgeRemoval<D, Shape>::gatherRing(
     {
       // closed if the next facet leads back to the start
       const Index back = mesh.adjacent(current, exit);
-      const bool isClosed = back != None && !mesh.isConstrained(current, exit) &&
+      const bool isClosed = back != None && !mesh.isKept(current, exit) &&
         mesh.cellOf(back) == start.cell;
       return isClosed && this->n_ > 2 ? Ring::Closed : Ring::None;
     }
@@ -168,7 +168,7 @@ bool EdgeRemoval<D, Shape>::gatherOpenRing(
   const MeshEditor<D>& editor, Start start, const Surface<D>& surface)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
-  while (!mesh.isConstrained(start.cell, start.local[D]))
+  while (!mesh.isKept(start.cell, start.local[D]))
   {
     const Simplex<D>& nodes = mesh.nodes(start.cell);
     const Index h = mesh.adjacent(start.cell, start.local[D]);
@@ -236,7 +236,7 @@ bool EdgeRemoval<D, Shape>::gather(
   {
     found = this->gatherPair(editor, t, e);
   }
-  else if (!mesh.isEdgeConstrained(t, e))
+  else if (!mesh.isEdgeKeptByItself(t, e))
   {
     Start start{ t, {} };
     std::copy_n(Local<D>::edgeFirst[e], D + 1, start.local.begin());

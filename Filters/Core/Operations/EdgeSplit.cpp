@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Division of an edge as a change of topology only: the same division of labour as in
+// EdgeContraction.cpp.
 #include "Operations/EdgeSplit.h"
 
 #include "Mesh/Ids.h"
@@ -19,7 +21,7 @@ bool cellsAround(
   const int i = 3 - mesh.localIndex(t, a) - mesh.localIndex(t, b);
   const Index h = mesh.adjacent(t, i);
   cells.assign(1, t);
-  isKept = mesh.isConstrained(t, i);
+  isKept = mesh.isKept(t, i);
   if (h != None)
   {
     cells.push_back(mesh.cellOf(h));
@@ -38,7 +40,7 @@ bool cellsAround(
   {
     ++edge;
   }
-  isKept = mesh.isEdgeConstrained(t, edge);
+  isKept = mesh.isEdgeKeptByItself(t, edge);
   if (!mesh.ring(t, a, b, false, cells))
   {
     // The ring ends at a kept facet: the edge lies in it. Collect the cells on all sides.
@@ -60,7 +62,7 @@ void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<
       const Facet<D> f = mesh.facet(c, i);
       // A facet between two regions comes twice, once from each side. The editor only looks facets
       // up.
-      if (mesh.isConstrained(c, i) && hasId(f, a) && hasId(f, b))
+      if (mesh.isKept(c, i) && hasId(f, a) && hasId(f, b))
       {
         p.kept.gone.push_back(f);
         p.kept.come.push_back(exchanged(f, a, m));
@@ -77,7 +79,7 @@ void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<
     {
       const Simplex<D>& t = mesh.nodes(p.cavity[0]);
       const std::array<Index, 2> edge{ t[Local<D>::edges[e][0]], t[Local<D>::edges[e][1]] };
-      if (mesh.isEdgeConstrained(p.cavity[0], e) && hasId(edge, a) && hasId(edge, b))
+      if (mesh.isEdgeKeptByItself(p.cavity[0], e) && hasId(edge, a) && hasId(edge, b))
       {
         p.kept.comeEdges.push_back({ a, m });
         p.kept.comeEdges.push_back({ m, b });

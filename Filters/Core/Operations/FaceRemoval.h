@@ -22,7 +22,7 @@ public:
   {
     const SimplexMesh<3>& mesh = editor.mesh();
     const Index h = mesh.adjacent(t, i);
-    if (h == None || mesh.isConstrained(t, i) || !editor.owns(mesh.cellOf(h)))
+    if (h == None || mesh.isKept(t, i) || !editor.owns(mesh.cellOf(h)))
     {
       return Never;
     }

@@ -14,6 +14,7 @@
 
 namespace meshopt
 {
+/// One new point serves for all seeds: it moves from one to the next until one gains.
 template <int D, class Shape>
 class NodeInsertion
 {
@@ -112,7 +113,7 @@ void NodeInsertion<D, Shape>::findSeeds(
   {
     for (int i = 0; i <= D; ++i)
     {
-      if (mesh.isConstrained(t, i))
+      if (mesh.isKept(t, i))
       {
         const Facet<3> f = mesh.facet(t, i);
         Vec<3> apex;
@@ -136,6 +137,7 @@ void NodeInsertion<D, Shape>::findSeeds(
   }
 }
 
+/// The place of the node as a problem: the facets of the cavity, seen from inside.
 template <int D, class Shape>
 void NodeInsertion<D, Shape>::loadCavity(const Judge<D, Shape>& judge, Index p)
 {
@@ -175,7 +177,7 @@ void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
   {
     for (int i = 0; i <= D; ++i)
     {
-      if (mesh.isConstrained(c, i) && has(mesh.facet(c, i)))
+      if (mesh.isKept(c, i) && has(mesh.facet(c, i)))
       {
         seed.opening.patches.push_back(mesh.patch(c, i));
       }
@@ -252,7 +254,7 @@ void NodeInsertion<D, Shape>::findAllSeeds(
     }
     for (int i = 0; i < 4; ++i)
     {
-      if (mesh.isConstrained(t, i))
+      if (mesh.isKept(t, i))
       {
         addSurfaceSeed(judge, mesh.facet(t, i), { t }, seeds);
       }
@@ -441,6 +443,7 @@ bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Seed& 
   return judge.accept(this->proposal_);
 }
 
+/// Makes the insertion at one seed, if it gains.
 template <int D, class Shape>
 bool NodeInsertion<D, Shape>::tryGain(
   Judge<D, Shape>& judge, Index t, Index p, Seed& seed, const typename Judge<D, Shape>::Mark& start)

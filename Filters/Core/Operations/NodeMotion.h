@@ -62,6 +62,7 @@ private:
     return judge.mesh().isFree(v) || (judge.slides() && judge.mesh().freedom(v) == Freedom::Patch);
   }
 
+  /// Moves v to the best place in its star, unless nothing has changed since that last failed.
   bool move(Judge<D, Shape>& judge, Index v)
   {
     const SimplexMesh<D>& mesh = judge.mesh();

@@ -9,6 +9,7 @@
 
 namespace meshopt
 {
+/// The link of the node is collected once. Each neighbour is then only joined with its facets.
 template <int D, class Shape>
 class NodeRemoval
 {
@@ -26,6 +27,7 @@ public:
   }
 
 private:
+  /// Tries all neighbours, unless nothing has changed since that last failed.
   bool remove(Judge<D, Shape>& judge, Index v)
   {
     const SimplexMesh<D>& mesh = judge.mesh();

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Each new point brings one sign for each triple of earlier points, and each sign is entered in all
+// the places from which it can be asked for.
 #include "Operations/PointSigns.h"
 
 #include "Mesh/Predicates.h"

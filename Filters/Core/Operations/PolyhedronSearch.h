@@ -82,8 +82,10 @@ public:
   /// If the last search() ended before its first step: a facet of the boundary (by its place in
   /// setBoundary()) with no candidate left. Otherwise -1.
   int bareFacet() const { return this->bareFacet_; }
-  /// Steps of the last search, and whether the limit stopped it.
+  /// Steps of the last search.
   long steps() const { return this->steps_; }
+  /// Whether the limit stopped it: a better filling may then exist. Only tests ask; without it they
+  /// could not tell a search that proves its result from one that does not.
   bool ranOut() const { return this->ranOut_; }
 
 private:
@@ -110,6 +112,10 @@ private:
     Mask open[MaximumPoints * MaximumPoints]; ///< open[a n + b] contains c: (a, b, c) is open
   };
 
+  // Binomial coefficients: the numbers of pairs, triples and quadruples of n points.
+  static constexpr int choose2(int n) { return n * (n - 1) / 2; }
+  static constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
+  static constexpr int choose4(int n) { return n * (n - 1) * (n - 2) / 2 * (n - 3) / 12; }
   static int pairOf(int i, int j) { return i < j ? j * (j - 1) / 2 + i : i * (i - 1) / 2 + j; }
   void loadBoundary();
   void addCandidates(int i, int j, int k, Mask apexes);

@@ -47,6 +47,7 @@ private:
   static constexpr int NewPoints = 4;               ///< most places offered for new nodes
   static constexpr double Heights[] = { 0.5, 1.0 }; ///< Limits::height, in this order
 
+  /// Searches for a better filling around cell t. New points go again if the judge refuses it.
   bool refill(Judge<D, Shape>& judge, Index t, Limits limits)
   {
     limits.mayDropPoints = judge.mayRemoveNodes();

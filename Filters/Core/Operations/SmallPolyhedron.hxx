@@ -4,6 +4,7 @@
 
 namespace meshopt
 {
+/// All lists keep their memory: propose() is called for thousands of cells.
 template <class Shape>
 void SmallPolyhedron<Shape>::start(
   const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, const Limits& limits)
@@ -101,6 +102,7 @@ int SmallPolyhedron<Shape>::numberOf(Index p)
   if (k == static_cast<int>(this->numberOf_.size()))
   {
     const SimplexMesh<3>& mesh = this->editor_->mesh();
+    // Kept points must be in any filling.
     const bool stay = !mesh.isFree(p) || !this->limits_.mayDropPoints;
     this->numberOf_.push_back(static_cast<std::uint8_t>(this->addPoint(mesh.point(p), p, stay)));
   }
@@ -124,7 +126,7 @@ bool SmallPolyhedron<Shape>::closesKept(Index c)
   for (int i = 0; i < 4; ++i)
   {
     const Index h = mesh.adjacent(c, i);
-    if (mesh.isConstrained(c, i) && h != None && this->taken_.get(mesh.cellOf(h)) >= 0)
+    if (mesh.isKept(c, i) && h != None && this->taken_.get(mesh.cellOf(h)) >= 0)
     {
       return true;
     }
@@ -138,9 +140,8 @@ Index SmallPolyhedron<Shape>::behind(Index c, int i) const
 {
   const SimplexMesh<3>& mesh = this->editor_->mesh();
   const Index h = mesh.adjacent(c, i);
-  return h == None || mesh.isConstrained(c, i) || !this->editor_->owns(mesh.cellOf(h))
-    ? None
-    : mesh.cellOf(h);
+  return h == None || mesh.isKept(c, i) || !this->editor_->owns(mesh.cellOf(h)) ? None
+                                                                                : mesh.cellOf(h);
 }
 
 /// Takes cell c in. False, with nothing changed, if it must not be taken, or if a limit is reached.
@@ -168,7 +169,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
   for (int i = 0; i < 4; ++i)
   {
     const Index h = mesh.adjacent(c, i);
-    if (h != None && !mesh.isConstrained(c, i) && this->taken_.get(mesh.cellOf(h)) >= 0)
+    if (h != None && !mesh.isKept(c, i) && this->taken_.get(mesh.cellOf(h)) >= 0)
     {
       // A facet between two taken cells is inside.
       this->faces_.erase(std::find_if(this->faces_.begin(), this->faces_.end(),
@@ -176,7 +177,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
       continue;
     }
     Face f{ {}, c, i, this->behind(c, i), -1.0, Never, false };
-    f.enough = mesh.isConstrained(c, i) ? enough(c, i) : -1.0;
+    f.enough = mesh.isKept(c, i) ? enough(c, i) : -1.0;
     counts &= !(f.enough >= 0.0 && mesh.quality(c) >= f.enough);
     this->anyEnough_ |= f.enough >= 0.0;
     for (int k = 0; k < 3; ++k)
@@ -319,6 +320,8 @@ void SmallPolyhedron<Shape>::rate()
   }
 }
 
+/// Searches for a filling of the present polyhedron. Never if there is none better than `above`, or
+/// if there are too many facets.
 template <class Shape>
 double SmallPolyhedron<Shape>::fill(double above)
 {
@@ -367,6 +370,7 @@ void SmallPolyhedron<Shape>::keepSolution()
   }
 }
 
+/// Once the points are in the mesh, their ids take the place of FirstNew - k.
 template <class Shape>
 void SmallPolyhedron<Shape>::nameNewPoints(const std::vector<Index>& ids)
 {
@@ -379,6 +383,8 @@ void SmallPolyhedron<Shape>::nameNewPoints(const std::vector<Index>& ids)
   }
 }
 
+/// Grows the polyhedron cell by cell. After each step it is searched for a filling, if every facet
+/// has a good apex.
 template <class Shape>
 template <class Enough>
 double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
@@ -392,6 +398,7 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
     int bare = -1;
     do
     {
+      // By more than rounding, or two fillings of equal quality could replace each other for ever.
       const double bound = std::max(above, this->worst_) + Rounding;
       // Cheap test first: a facet for which no point is good enough rules out every filling.
       bare = this->worstFace(bound);

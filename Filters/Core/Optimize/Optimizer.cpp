@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The order of a whole run: untangle, follow the sizes, raise the worst cells; and what to do if
+// following the sizes has made the worst cell worse.
 #include "Optimize/Optimizer.h"
 
 #include "Paper1996/Paper1996.h"
@@ -67,6 +69,7 @@ void Optimizer<D>::optimize()
   }
   if (this->run_.options.algorithm == Algorithm::Paper1996)
   {
+    // The paper knows no budget: growth stays unlimited.
     const Options& o = this->run_.options;
     optimizePaper1996<D>(this->run_, o.targetQuality, o.lookAhead);
     return;
@@ -101,6 +104,7 @@ bool Optimizer<D>::untangle()
   PassRecord row = summarize(run.mesh(), run.options.targetQuality);
   row.stage = "untangling";
   row.pass = static_cast<int>(rows);
+  // One row for all alternations: to the caller this is a single step.
   for (; history.size() > rows; history.pop_back())
   {
     row.addWork(history.back());
@@ -220,6 +224,7 @@ template <int D>
 void Optimizer<D>::optimizeSizesToo()
 {
   const Run<D>& run = this->run_;
+  // As a fraction, since the sizes change the number of cells.
   const double growth = static_cast<double>(run.growth) /
     static_cast<double>(run.report.history.back().cells);
   if (!this->repairForSizes())
@@ -245,6 +250,7 @@ void Optimizer<D>::optimizeSizesToo()
 }
 }
 
+/// Qualities are computed first: all later steps trust those that are stored.
 template <int D>
 Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options,
   const Control& control, const Surface<D>* surface)

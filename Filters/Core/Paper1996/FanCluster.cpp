@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The cells around a node or an edge, walked over facets that contain it. The walk stops early if
+// the cell that asks is not the worst of them: another cell will ask.
 #include "Paper1996/FanCluster.h"
 
 #include <algorithm>
@@ -37,6 +39,8 @@ void numberPoints(const SimplexMesh<D>& mesh, FanCluster<D>& cluster)
 }
 }
 
+/// First the cells, over facets that contain the core. Then the facets: those with cells of the
+/// cluster on both sides are inside.
 template <int D>
 bool gatherFanCluster(
   MeshEditor<D>& editor, Index cell, const Index* core, int n, FanCluster<D>& cluster)
@@ -60,7 +64,7 @@ bool gatherFanCluster(
     {
       // The cell behind facet i has all nodes but node i: the core must be among them. What is not
       // kept has a cell on its other side.
-      if (!inCore(mesh.nodes(c)[i]) && !mesh.isConstrained(c, i))
+      if (!inCore(mesh.nodes(c)[i]) && !mesh.isKept(c, i))
       {
         const Index next = SimplexMesh<D>::cellOf(mesh.adjacent(c, i));
         if (!editor.isMarked(next, mark))
@@ -86,7 +90,7 @@ bool gatherFanCluster(
     {
       const Index across = mesh.adjacent(c, i);
       const bool inside = across != None && editor.isMarked(SimplexMesh<D>::cellOf(across), mark);
-      const bool kept = mesh.isConstrained(c, i);
+      const bool kept = mesh.isKept(c, i);
       // The cluster lies on both sides of a kept facet, which a filling would remove.
       if (kept && inside)
       {
@@ -95,6 +99,7 @@ bool gatherFanCluster(
       if (kept || !inside)
       {
         cluster.facets.push_back(mesh.facet(c, i));
+        // A facet contains the core, unless it is opposite to one of its nodes.
         cluster.closed = cluster.closed && inCore(mesh.nodes(c)[i]);
       }
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What is remembered from try to try, so that nothing is tried twice while nothing has changed.
 #include "Paper1996/Filling.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ bool ReconnectionMemory<D>::hasChanged(
   return false;
 }
 
+/// From a boundary point the core vanishes if it is inside; at kept facets it stays.
 template <int D>
 Filling Part<D>::kindFromBoundary() const
 {
@@ -39,6 +41,7 @@ Filling Part<D>::kindFromBoundary() const
   return this->cluster.coreInside ? Filling::BoundaryNode : Filling::OpenRing;
 }
 
+/// What has not changed since `when` was tried then, and failed.
 template <int D>
 void ElementClusters<D>::gather(
   MeshEditor<D>& editor, Index c, const ReconnectionMemory<D>& memory, std::uint32_t when)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The loop of section 2.2 around the Local Algorithm. Names in capitals in comments are those of
+// the paper: KWORST, PREV, NL, M.
 #include "Paper1996/GlobalAlgorithm.h"
 
 #include "Paper1996/ClusterSolver.h"
@@ -9,6 +11,8 @@ namespace meshopt
 {
 namespace
 {
+/// The Global Algorithm of section 2.2. Each turn repositions the cluster of the worst cell that
+/// still has a node that may move.
 template <int D, class Shape>
 class GlobalAlgorithm
 {
@@ -22,6 +26,7 @@ public:
     , solver_(this->judge_, parameters.local, parameters.leastGain)
     , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
   {
+    // Nothing in this algorithm reads them.
     this->judge_.setStampsStars(false);
   }
 
@@ -41,6 +46,7 @@ private:
   std::vector<std::uint8_t> movable_;
 };
 
+/// What is not free never moves. Others lose the right to move in step 2.
 template <int D, class Shape>
 void GlobalAlgorithm<D, Shape>::initialize()
 {
@@ -50,9 +56,11 @@ void GlobalAlgorithm<D, Shape>::initialize()
   {
     this->movable_[p] = mesh.isPointAlive(p) && mesh.isFree(p);
   }
+  // All cells under the target; later ones come by solve().
   this->queue_.fill();
 }
 
+/// Steps 3 and 4 for the cluster of the worst cell; then its cells go into the queue again.
 template <int D, class Shape>
 bool GlobalAlgorithm<D, Shape>::solve(Index worst)
 {
@@ -72,6 +80,7 @@ bool GlobalAlgorithm<D, Shape>::solve(Index worst)
   return true;
 }
 
+/// The six steps of the paper, in its order.
 template <int D, class Shape>
 RepositionResult GlobalAlgorithm<D, Shape>::run(
   const KeepGoing& keepGoing, std::vector<Index>* sequence)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The loop around both halves of the paper, with what it leaves open: when to stop, and when
+// look-ahead is worth its price.
 #include "Paper1996/Paper1996.h"
 
 #include "Bound/Caps.h"
@@ -74,6 +76,7 @@ bool Paper1996<D>::goesOn(const char* stage, double worst)
     });
 }
 
+/// The time of a row is the time since the row before.
 template <int D>
 void Paper1996<D>::record(const char* stage, const Counts& tried, const Counts& done)
 {
@@ -84,6 +87,7 @@ void Paper1996<D>::record(const char* stage, const Counts& tried, const Counts& 
   row.seconds = now - std::exchange(this->passBegin_, now);
 }
 
+/// What the history calls the fillings of the paper: the names of today's operations.
 Operation operationOf(Filling kind)
 {
   switch (kind)
@@ -102,6 +106,7 @@ Operation operationOf(Filling kind)
   }
 }
 
+/// Section 2.3 once over the mesh, as far as the caller's switches allow it.
 template <int D>
 void Paper1996<D>::reconnectAll(int lookAhead)
 {
@@ -110,6 +115,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   parameters.target = this->target_;
   parameters.naiveSearch = o.naiveSearch;
   parameters.growth = this->run_.growth;
+  // A look-ahead moves nodes: it needs that switch, too.
   parameters.lookAhead = o.moveNodes && this->lookAhead_ ? lookAhead : 0;
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
@@ -124,6 +130,7 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   const ReconnectionResult result = reconnect<D>(this->editor_, this->run_.metric, o.measure,
     o.beta, parameters, this->memory_,
     [this, stage](double worst) { return this->goesOn(stage, worst); });
+  // What one reconnection has used up is missing for the next.
   this->run_.growth -= result.growth;
   Counts tried{}, done{};
   for (int k = 0; k < NumberOfFillings; ++k)
@@ -143,6 +150,7 @@ void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
 {
   const SimplexMesh<D>& mesh = this->editor_.mesh();
   this->memory_.resize(mesh);
+  // Later than any failure so far.
   ++this->memory_.time;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
@@ -165,6 +173,7 @@ void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
   }
 }
 
+/// Section 2.2 once over the mesh.
 template <int D>
 void Paper1996<D>::repositionAll()
 {
@@ -208,6 +217,7 @@ bool Paper1996<D>::alternate(int lookAhead)
   {
     this->repositionAll();
   }
+  // A smaller gain counts as none: the loop would go on for hardly anything.
   return this->worst() > before + LeastGain * std::abs(before);
 }
 
@@ -229,6 +239,7 @@ void Paper1996<D>::countCapped()
   }
 }
 
+/// All cells under the target are held by the surface: that is why nothing gained any more.
 template <int D>
 StopReason Paper1996<D>::optimize()
 {
@@ -246,6 +257,7 @@ template <int D>
 StopReason Paper1996<D>::iterate()
 {
   const Options& o = this->options_;
+  // A guess, which only progress needs.
   this->expectedSteps_ = std::max(1L, 4 * this->run_.report.history.back().belowTarget);
   bool rises = true; // in the last alternation
   for (int k = 0; k < o.maximumNumberOfAlternations; ++k)

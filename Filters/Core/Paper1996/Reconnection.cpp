@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The loop of section 2.3: the worst cell and those around it, each with its clusters. A cell that
+// fails is set aside until something changes at one of its nodes.
 #include "Paper1996/Reconnection.h"
 
 #include "Mesh/PinchedPoints.h"
@@ -123,6 +125,7 @@ bool Reconnection<D, Shape>::improveCell(Index c)
         return false;
       }
       ++this->result_.tried[static_cast<int>(kind)];
+      // A filling must lift the worst cell of its cluster by the least gain, as a fraction.
       const double worst = part.cluster.worst;
       if (!this->trial_.make(part, apex, worst + this->parameters_.leastGain * std::abs(worst)))
       {
@@ -168,6 +171,7 @@ void Reconnection<D, Shape>::collectCandidates(Index worst)
     std::unique(this->candidates_.begin(), this->candidates_.end()), this->candidates_.end());
 }
 
+/// The first filling that gains ends the turn: after it another cell may be the worst.
 template <int D, class Shape>
 void Reconnection<D, Shape>::improveAround(Index worst)
 {
@@ -299,6 +303,7 @@ ReconnectionResult Reconnection<D, Shape>::run(
     this->lookAhead(keepGoing))
   {
   }
+  // May be negative: fillings can also take cells away.
   this->result_.growth = this->parameters_.growth - this->judge_.growth.left;
   return this->result_;
 }
@@ -310,6 +315,7 @@ ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Meas
   const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
 {
   const FollowedMetric<D> follows(editor, metric);
+  // The measure is chosen here, once, and not in the loops.
   return dispatchOptimizable<D>(measure,
     [&](auto shape)
     {

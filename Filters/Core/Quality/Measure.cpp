@@ -9,6 +9,7 @@ namespace
 {
 constexpr std::size_t Count = std::tuple_size_v<MeasureTable>;
 
+/// Made from the table of types, so that nothing about a measure is written twice.
 template <std::size_t... K>
 constexpr std::array<MeasureInfo, Count> makeInfos(std::index_sequence<K...>)
 {

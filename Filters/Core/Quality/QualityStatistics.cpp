@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Sums over many cells that can be merged from parts: by chunk for threads, by rank for processes.
+// All are exact but for rounding, and the order of merging is the caller's.
 #include "Quality/QualityStatistics.h"
 
 #include <algorithm>
@@ -23,6 +25,7 @@ void QualityStatistics::add(double value)
   this->squares += d * (value - this->mean);
 }
 
+/// Two plain loops, which the compiler can vectorize, in place of an update per value.
 void QualityStatistics::add(const double* values, std::int64_t n)
 {
   QualityStatistics part;

@@ -173,12 +173,14 @@ struct SineKernel<2>
     }
     return node;
   }
+  /// The least weighted sine.
   static double value(const Corners<2>& x, double weight)
   {
     double factor = 0.0;
     least(x, weight, factor);
     return volumeDeterminant(x) * std::sqrt(factor);
   }
+  /// The same with its gradient, which is 0 if an edge is collapsed.
   static double gradient(const Corners<2>& x, double weight, std::array<Vec<2>, 3>& g)
   {
     double factor = 0.0;
@@ -237,12 +239,14 @@ struct SineKernel<3>
     }
     return edge;
   }
+  /// The least weighted sine.
   static double value(const Corners<3>& x, double weight)
   {
     double factor = 0.0;
     least(x, weight, factor);
     return volumeDeterminant(x) * std::sqrt(factor);
   }
+  /// The same with its gradient, which is 0 if a facet is collapsed.
   static double gradient(const Corners<3>& x, double weight, std::array<Vec<3>, 4>& g)
   {
     double factor = 0.0;

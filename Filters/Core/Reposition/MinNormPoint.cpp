@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Wolfe's method. The corral is a set of points whose affine hull is looked at; a Cholesky factor
+// of their products is kept up to date, row by row.
 #include "Reposition/MinNormPoint.h"
 
 #include <algorithm>
@@ -15,6 +17,7 @@ constexpr double LeastWeight = 1e-12;
 constexpr double LeastPivot = 1e-14;
 }
 
+/// The product of the present point and w: only the blocks that w has count.
 template <int D>
 double MinNormPoint<D>::product(const SparsePoint<D>& w) const
 {
@@ -26,6 +29,7 @@ double MinNormPoint<D>::product(const SparsePoint<D>& w) const
   return sum;
 }
 
+/// The point that the present weights stand for, and its squared norm.
 template <int D>
 void MinNormPoint<D>::formPoint(const std::vector<SparsePoint<D>>& points)
 {
@@ -77,6 +81,7 @@ bool MinNormPoint<D>::factorFrom(std::size_t row)
   return true;
 }
 
+/// Adds point k to the corral. False, with nothing changed, if it depends on the others.
 template <int D>
 bool MinNormPoint<D>::append(const std::vector<SparsePoint<D>>& points, int k)
 {
@@ -100,6 +105,7 @@ bool MinNormPoint<D>::append(const std::vector<SparsePoint<D>>& points, int k)
   return true;
 }
 
+/// Leaves the factor as it is: from row i on it is out of date until factorFrom().
 template <int D>
 void MinNormPoint<D>::drop(std::size_t i)
 {
@@ -219,6 +225,7 @@ void MinNormPoint<D>::sortCorral()
   }
 }
 
+/// Wolfe's major cycle: the point that lies lowest as seen along the present one joins the corral.
 template <int D>
 void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numberOfBlocks)
 {
@@ -265,6 +272,8 @@ void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numbe
     // If the best point is already in the corral, rounding has hidden the end of the search.
     const bool known = std::find(this->corral_.begin(), this->corral_.end(), best) !=
       this->corral_.end();
+    // Wolfe's criterion: if no point lies on the near side of the plane through the present point,
+    // this is the nearest one of the hull.
     if (known || lowest >= this->squaredNorm_ - Tolerance * this->scale_ ||
       !this->append(points, best))
     {

@@ -55,7 +55,8 @@ public:
   /// points. Converged when <x, w> >= |x|^2 - 1e-12 max |w|^2 for every point w.
   void solve(const std::vector<SparsePoint<D>>& points, int numberOfBlocks);
 
-  /// Points with a weight, ascending, and their weights (> 0, sum 1).
+  /// Points with a weight, ascending, and their weights (> 0, sum 1). They are the certificate of
+  /// the point of least norm, which is all that callers need: tests check it.
   const std::vector<int>& corral() const { return this->corral_; }
   const std::vector<double>& weights() const { return this->weights_; }
   /// The point of least norm: its scalar and its blocks.

@@ -21,6 +21,8 @@
 
 namespace meshopt
 {
+/// To be used in this order: clear(); addPoint() and addFacet() for the polyhedron; maximize().
+/// Keeps its memory, since it is loaded for each try.
 template <int D, class Shape>
 class StarProblem
 {
@@ -39,6 +41,7 @@ public:
   /// From now on maximize() moves the node only in these directions.
   void restrict(const Directions<D>& directions) { this->directions_ = directions; }
 
+  /// The local number of point p, which lies at x. A point that comes again keeps its number.
   int addPoint(Index p, const Vec<D>& x)
   {
     const int k = this->numbers_.add(p);
@@ -182,6 +185,7 @@ private:
     return c;
   }
 
+  /// Each point of the ring has one weight, which all elements at its edge share.
   void evaluateFast([[maybe_unused]] const Vec<D>& x)
   {
     if constexpr (HasSum)
@@ -220,6 +224,7 @@ private:
     evaluationsOfThread += static_cast<std::int64_t>(this->active_.size());
   }
 
+  /// Of the quality of element k, by the place of the node.
   Vec<D> gradient(std::size_t k, const Vec<D>& x) const
   {
     if constexpr (HasSum)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks options before a run, so that no later step has to doubt them.
 #include "Run/Options.h"
 
 #include <algorithm>
@@ -39,6 +40,7 @@ std::string checkQuality(const Options& o, bool hasSizes)
   return {};
 }
 
+/// Parameters of the paper's algorithms, by the names that they have in the paper.
 std::string checkPaper(const Options& o)
 {
   if (o.neighborhoodLevel < 0)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The stop reason in words for the user.
 #include "Run/Report.h"
 
 #include <utility>
@@ -9,6 +10,7 @@ namespace
 {
 const char* toString(StopReason reason)
 {
+  // Without a default, so that the compiler names a reason that has no sentence.
   switch (reason)
   {
     case StopReason::TargetReached:
@@ -34,6 +36,7 @@ const char* toString(StopReason reason)
 }
 }
 
+/// The reason; and what holds the nodes of the worst cell, if the surface takes part.
 std::string describeStop(const Report& report)
 {
   std::string text = toString(report.stopReason);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One pass over all cells each: qualities, and their summary. Both are serial, so that sums have
+// the same bits in each run.
 #include "Run/Summary.h"
 
 #include "Quality/ElementQuality.h"
@@ -8,6 +10,7 @@
 
 namespace meshopt
 {
+/// For a new mesh, and wherever the measure or the metric has changed as a whole.
 template <int D>
 void computeQualities(
   MeshEditor<D>& editor, const NodalMetric<D>& metric, Measure measure, double beta)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The rounds of the size stage: contract, split, contract, smooth, until few edges change; then h*
+// is corrected if the number of cells is not the predicted one.
 #include "Sizes/SizeStage.h"
 
 #include "Sizes/SizeStageRun.h"
@@ -124,6 +126,7 @@ bool SizeStage<D>::follow(double predicted)
 }
 }
 
+/// In the shape in the metric, without a size factor: lengths are what the stage itself looks at.
 template <int D>
 bool followSizes(Run<D>& run, double predicted)
 {

@@ -18,6 +18,7 @@ double SizeStage<D>::length(Index a, Index b) const
     this->scale_;
 }
 
+/// Queues the edges of the cell that are too long, or those that are too short.
 template <int D>
 void SizeStage<D>::push(Index c, bool isLong)
 {
@@ -124,6 +125,7 @@ bool SizeStage<D>::isThere(const Edge& edge) const
     this->mesh().localIndex(edge.cell, edge.b) >= 0;
 }
 
+/// The longest edge first. What a split leaves too long joins the queue.
 template <int D>
 long SizeStage<D>::split()
 {
@@ -169,6 +171,7 @@ std::optional<Span> SizeStage<D>::spanOf(const Edge& edge, bool& isKept) const
                                       : std::nullopt;
 }
 
+/// Splits the edge near its middle in the metric, if the judge agrees.
 template <int D>
 bool SizeStage<D>::splitEdge(const Edge& edge)
 {
@@ -212,6 +215,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
 
 // --- edges that are too short
 
+/// The shortest edge first.
 template <int D>
 long SizeStage<D>::contract()
 {

@@ -38,6 +38,7 @@ bool SizeStage<D>::tryPlace(
   return this->judge().acceptIf(p, [&] { return this->energyAround(v) < WorthMoving * energy; });
 }
 
+/// Moves v, unless nothing has changed at its edges since that last failed.
 template <int D>
 bool SizeStage<D>::moveNode(Index v)
 {
@@ -130,6 +131,8 @@ bool SizeStage<D>::moveFreeNode(Index v, double worst, double energy)
   return false;
 }
 
+/// Each node at most once in a sweep, in the order of ids. Then edges are swapped where nodes have
+/// moved.
 template <int D>
 void SizeStage<D>::smooth()
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The curves of a plane boundary. Either they are made from the boundary itself, or each chain of
+// it is put on the nearest curve of a given geometry.
 #include "Surface/BoundaryCurves.h"
 
 #include <algorithm>
@@ -81,6 +83,8 @@ void BoundaryCurves::markWhereSplinesOvershoot(
   }
 }
 
+/// First the corners that the geometry has by its angles, then those that only splines need: a
+/// spline depends on where its chain ends.
 void BoundaryCurves::build(
   MeshEditor<2>& editor, const CurveOptions& options, const std::vector<std::uint8_t>& corners)
 {
@@ -212,6 +216,7 @@ Index BoundaryCurves::nearestCurve(const SimplexMesh<2>& mesh, const LineChain& 
       this->curves_[g].closest(mesh.point(p), d);
       at = d > worst ? p : at;
       worst = std::max(worst, d);
+      // Too far away already to be the nearest one.
       if (worst > best)
       {
         break;
@@ -282,6 +287,7 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain,
   return {};
 }
 
+/// The geometry has the corners. The boundary of the mesh is only cut there.
 std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& given,
   const CurveOptions& options, const std::vector<std::uint8_t>& corners)
 {
@@ -326,6 +332,7 @@ std::string BoundaryCurves::build(MeshEditor<2>& editor, const LineNetwork& give
   return error;
 }
 
+/// Along the whole curve: the nearest place may be far from the old one.
 Place BoundaryCurves::project(const Place& place, const Vec<2>& x, Vec<2>& there) const
 {
   Place result = place;
@@ -343,6 +350,7 @@ int BoundaryCurves::tangents(const SimplexMesh<2>& mesh, const std::vector<Index
   return 1;
 }
 
+/// The two neighbours over kept facets, and their parameters.
 std::optional<SlidingRange> BoundaryCurves::range(
   const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const
 {
@@ -352,7 +360,7 @@ std::optional<SlidingRange> BoundaryCurves::range(
     for (int i = 0; i < 3; ++i)
     {
       const Facet<2> f = mesh.facet(c, i);
-      if (mesh.isConstrained(c, i) && (f[0] == v || f[1] == v))
+      if (mesh.isKept(c, i) && (f[0] == v || f[1] == v))
       {
         ends.push_back(f[0] == v ? f[1] : f[0]);
       }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Which piece of curve an edge is on. Places tell this for all nodes but corners, which several
+// pieces share.
 #include "Surface/CurvePieces.h"
 
 #include <algorithm>
@@ -36,6 +38,7 @@ void CurvePieces::join()
   }
 }
 
+/// Two corners are on no curve themselves: join() has found the piece between them.
 std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const Place& pb) const
 {
   const auto isOnCurve = [](const Place& place) { return place.freedom == Freedom::Curve; };
@@ -83,6 +86,8 @@ std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const P
   return span;
 }
 
+/// On a closed piece span() takes the shorter way round. It is the right one as long as neighbours
+/// are well under half of the piece apart.
 bool CurvePieces::mayBeNeighbours(const Span& s) const
 {
   const CurvePiece& piece = this->pieces_[s.part];

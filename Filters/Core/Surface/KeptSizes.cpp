@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Plane meshes only: finds the kept edges that are too long for the wanted sizes.
 #include "Surface/KeptSizes.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ std::shared_ptr<const SizeFloor<2>> keptSizeFloor<2>(const SimplexMesh<2>& mesh,
     {
       const Facet<2> f = mesh.facet(c, i);
       // Only edges that must stay count. One that can be divided gets its sizes.
-      if (!mesh.isConstrained(c, i) || (surface && surface->mayDivide(mesh, { c }, f[0], f[1])))
+      if (!mesh.isKept(c, i) || (surface && surface->mayDivide(mesh, { c }, f[0], f[1])))
       {
         continue;
       }
@@ -45,6 +46,7 @@ std::shared_ptr<const SizeFloor<2>> keptSizeFloor<2>(const SimplexMesh<2>& mesh,
       e.size = std::sqrt((e.b - e.a).dot(e.metric * (e.b - e.a)));
       longest = std::max(longest, e.size / m.desiredSize);
       least = std::min(least, m.desiredSize);
+      // The floor of a shorter edge is below the wanted size everywhere.
       if (e.size > m.desiredSize)
       {
         edges.push_back(e);

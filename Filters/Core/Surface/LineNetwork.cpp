@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Lines in the plane, divided into chains at corners. A corner is found by its angle, or because
+// its neighbours do not turn.
 #include "Surface/LineNetwork.h"
 
 #include <algorithm>
@@ -58,7 +60,7 @@ LineNetwork keptLines(const SimplexMesh<2>& mesh)
     {
       const Index h = mesh.adjacent(c, i);
       // From the cell with the lower number.
-      if (mesh.isConstrained(c, i) && (h == None || mesh.cellOf(h) > c))
+      if (mesh.isKept(c, i) && (h == None || mesh.cellOf(h) > c))
       {
         result.lines.push_back(mesh.facet(c, i));
       }
@@ -67,6 +69,7 @@ LineNetwork keptLines(const SimplexMesh<2>& mesh)
   return result;
 }
 
+/// By angle and by the number of lines. Corners of the caller stay corners.
 void markCorners(LineNetwork& network, double cornerAngle)
 {
   const Lines lines = linesOfPoints(network);
@@ -92,6 +95,7 @@ void markCorners(LineNetwork& network, double cornerAngle)
   }
 }
 
+/// From corner to corner; then what is left, which is closed.
 std::vector<LineChain> chains(const LineNetwork& network)
 {
   const Lines lines = linesOfPoints(network);
@@ -110,6 +114,7 @@ std::vector<LineChain> chains(const LineNetwork& network)
       {
         break;
       }
+      // No corner, so exactly two lines meet here.
       line = lines[p][0] == line ? lines[p][1] : lines[p][0];
     }
     if (!network.corners[start]) // closed: back at the start
@@ -171,6 +176,7 @@ void markKinks(LineNetwork& network)
     }
     const Index a = otherEnd(network, lines[k][0], p), b = otherEnd(network, lines[k][1], p);
     const double here = turn(a, p, b);
+    // Walked backwards from p, the turn at a has the other sign.
     const double before = -turn(p, a, next(p, a)), after = turn(p, b, next(p, b));
     network.corners[k] = std::fabs(here) > LeastKink && !(before / here > KinkShare) &&
       !(after / here > KinkShare);

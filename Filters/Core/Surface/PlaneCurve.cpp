@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A polyline, or a B-spline through its points. A closed spline is fitted as an open one that runs
+// on for some points beyond both ends: their influence has faded where it is used.
 #include "Surface/PlaneCurve.h"
 
 #include "Base/GoldenSection.h"
@@ -47,6 +49,7 @@ bool isStraight(const std::vector<Vec<2>>& points)
 }
 }
 
+/// A spline through points on a straight line stays a polyline: see isStraight().
 PlaneCurve::PlaneCurve(std::vector<Vec<2>> points, bool isClosed, bool isSpline)
   : points_(std::move(points))
   , isClosed_(isClosed)
@@ -103,6 +106,7 @@ void PlaneCurve::fit()
   }
   Eigen::SparseMatrix<double> matrix(total, total);
   matrix.setFromTriplets(entries.begin(), entries.end());
+  // A row has at most four entries, so that many points are no burden.
   Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(matrix);
   const Eigen::MatrixXd control = solver.solve(values);
   this->spline_ = Spline(knots, control.transpose().array());
@@ -154,6 +158,7 @@ Vec<2> PlaneCurve::direction(double s) const
 double PlaneCurve::refine(std::size_t segment, const Vec<2>& x, double& distance) const
 {
   const double s0 = this->knots_[segment], s1 = this->knots_[segment + 1];
+  // On a straight line the nearest point is known at once.
   if (!this->isSpline_)
   {
     const double s = s0 +
@@ -204,6 +209,7 @@ double PlaneCurve::closest(const Vec<2>& x, double& distance) const
   return best;
 }
 
+/// Sampled: good enough to compare segments, but no bound.
 double PlaneCurve::sagitta(double s0, double s1) const
 {
   const Vec<2> a = this->at(s0), b = this->at(s1);
@@ -216,6 +222,7 @@ double PlaneCurve::sagitta(double s0, double s1) const
   return result;
 }
 
+/// Relative to the length of the segment, so that all segments of a circle are alike.
 std::size_t PlaneCurve::mostCurvedSegment(double& share) const
 {
   std::size_t result = 0;

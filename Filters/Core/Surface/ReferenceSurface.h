@@ -89,6 +89,11 @@ private:
   };
   using Box = Eigen::AlignedBox<double, 3>;
 
+  /// What is left of the tolerance, beside needles and the sides of curves.
+  static constexpr double Share = 0.75;
+  /// An overlay of less than this part of a facet's area is none.
+  static constexpr double Touch = 1e-10;
+
   bool isNeedle(const Facet& r) const;
   Heights heights(const Facet& r, const Piece& piece) const;
   bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come,

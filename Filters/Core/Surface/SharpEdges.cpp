@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A tree of boxes around edges, and a line that is halved until each part is near one edge.
 #include "Surface/SharpEdges.h"
 
 #include <Eigen/Geometry>
@@ -9,6 +10,7 @@ namespace meshopt
 {
 namespace
 {
+/// From x to the nearest point between both ends.
 double squaredDistance(const std::array<Vec<3>, 2>& edge, const Vec<3>& x)
 {
   const Vec<3> d = edge[1] - edge[0];
@@ -50,6 +52,7 @@ bool SharpEdges::isNear(const Vec<3>& a, const Vec<3>& b, double distance) const
   {
     return false;
   }
+  // An edge that is near to some part of the line has a box that meets this one.
   Search search;
   search.box.extend(Eigen::Vector3d(a));
   search.box.extend(Eigen::Vector3d(b));

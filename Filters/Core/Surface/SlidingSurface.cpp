@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What the engine asks of a surface that takes part: where nodes may go, and which changes are
+// allowed. How the surface is made stands in SlidingSurfaceBuild.cpp.
 #include "Surface/SlidingSurface.h"
 
 #include "Mesh/Ids.h"
@@ -19,6 +21,7 @@ namespace
 constexpr double CurveShare = 0.6;
 }
 
+/// Points that slide ask their patch or curve: new points have no entry of their own.
 std::uint32_t SlidingSurface::sets(const SimplexMesh<3>& mesh, Index v) const
 {
   if (this->setsOfPoint_.empty())
@@ -45,6 +48,8 @@ const Facet<3>& SlidingSurface::inputFacet(Index patch, const Vec<3>& x) const
   return this->inputFacets_[this->reference_.project(patch, x, there)];
 }
 
+/// On a curve from the present parameter on; in the plane of an exact patch; otherwise to the
+/// nearest point of the patch as it was.
 Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there) const
 {
   Place result = place;
@@ -69,6 +74,7 @@ Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there
   return result;
 }
 
+/// On the straight way from the surface to x, as far as there is room.
 Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& there) const
 {
   if (this->isExact_)
@@ -95,11 +101,13 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   there = off > room ? Vec<3>(foot + (room / off) * (x - foot)) : x;
   if (place.freedom == Freedom::Patch)
   {
+    // distance() reads from it how far the node is off its patch.
     result.parameter = std::min(off, room);
   }
   return result;
 }
 
+/// Where the node may go: along its curve, in its plane, or in the mean plane of its facets.
 int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v,
   std::array<Vec<3>, 3>& basis) const
 {
@@ -121,6 +129,7 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
   }
   // Where facets bend, the first direction is the one along which they bend least, such as that of
   // a ridge.
+  const Patch& patch = this->patches_[place.part];
   Vec<3> normal = Vec<3>::Zero();
   Tensor<3> bends = Tensor<3>::Zero();
   for (Index c : star)
@@ -128,12 +137,14 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
     for (int i = 0; i < 4; ++i)
     {
       const Facet<3> f = mesh.facet(c, i);
-      if (mesh.isConstrained(c, i) && hasId(f, v))
+      if (mesh.isKept(c, i) && hasId(f, v))
       {
         const Vec<3>& a = mesh.point(f[0]);
         const Vec<3> n = (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
-        // Both sums are weighted by area.
-        normal += mesh.region(c) == this->patches_[place.part].region ? n : Vec<3>(-n);
+        // Both sides of a facet must add the same vector. Inside of a region no side is the outer
+        // one: the facets before say which one it is.
+        const bool isTurned = patch.isSigned ? mesh.region(c) != patch.region : n.dot(normal) < 0.0;
+        normal += isTurned ? Vec<3>(-n) : n; // weighted by area, and so are the bends
         bends += n * n.transpose() / std::max(n.norm(), std::numeric_limits<double>::min());
       }
     }
@@ -170,6 +181,7 @@ std::optional<Span> SlidingSurface::span(const SimplexMesh<3>& mesh, Index a, In
   return span;
 }
 
+/// The neighbours over kept edges. Inside of a curve there are two.
 std::optional<SlidingRange> SlidingSurface::range(
   const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v) const
 {
@@ -184,7 +196,7 @@ std::optional<SlidingRange> SlidingSurface::range(
     {
       const Index a = mesh.nodes(c)[Local<3>::edges[e][0]];
       const Index b = mesh.nodes(c)[Local<3>::edges[e][1]];
-      if ((a == v || b == v) && mesh.isEdgeConstrained(c, e))
+      if ((a == v || b == v) && mesh.isEdgeKeptByItself(c, e))
       {
         ends.push_back(a == v ? b : a);
       }
@@ -209,6 +221,7 @@ bool SlidingSurface::follows(const Span& span) const
     std::min(CurveShare * this->tolerance_, this->curves_[span.part].room(span.from, span.to));
 }
 
+/// Inside a patch, or where the edge is on one known curve; never beside a facet that stays.
 bool SlidingSurface::mayDivide(
   const SimplexMesh<3>& mesh, const std::vector<Index>& cells, Index a, Index b) const
 {
@@ -219,7 +232,7 @@ bool SlidingSurface::mayDivide(
     for (int i = 0; i < 4; ++i)
     {
       const Facet<3> f = mesh.facet(c, i);
-      if (mesh.isConstrained(c, i) && hasId(f, a) && hasId(f, b))
+      if (mesh.isKept(c, i) && hasId(f, a) && hasId(f, b))
       {
         const Facet<3> key = sortedIds(f);
         patches.push_back({ key[0], key[1], key[2], mesh.patch(c, i) });
@@ -228,7 +241,7 @@ bool SlidingSurface::mayDivide(
     for (int e = 0; e < 6; ++e)
     {
       const Simplex<3>& t = mesh.nodes(c);
-      isKept |= mesh.isEdgeConstrained(c, e) &&
+      isKept |= mesh.isEdgeKeptByItself(c, e) &&
         sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]) == sortedIds(a, b);
     }
   }
@@ -250,6 +263,7 @@ bool SlidingSurface::maySwap(const SimplexMesh<3>&, Index patch, Index other) co
   return patch != None && patch == other;
 }
 
+/// Only along the surface; on a curve only if the chord that comes stays near it.
 bool SlidingSurface::mayJoin(
   const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const
 {
@@ -263,7 +277,7 @@ bool SlidingSurface::mayJoin(
         for (int i = 0; i < 4; ++i)
         {
           const Facet<3> f = mesh.facet(c, i);
-          if (mesh.isConstrained(c, i) && hasId(f, v) && hasId(f, u))
+          if (mesh.isKept(c, i) && hasId(f, v) && hasId(f, u))
           {
             return true;
           }
@@ -289,6 +303,7 @@ bool SlidingSurface::mayJoin(
   return true;
 }
 
+/// A facet of the mesh is seen from its cell, one of the reference from outside of its region.
 SurfacePiece<3> SlidingSurface::oriented(const SurfacePiece<3>& piece) const
 {
   SurfacePiece<3> result = piece;
@@ -310,9 +325,11 @@ bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
       { return std::fabs(patch.plane.normal.dot(x - patch.plane.origin)) <= this->tolerance_; });
 }
 
+/// Locks, sets and curves first, which is cheap; then distances, patch by patch.
 bool SlidingSurface::allows(const SurfaceChange<3>& change) const
 {
   const auto isLocked = [](const SurfacePiece<3>& piece) { return piece.patch == None; };
+  // A facet with all its nodes in a set must belong to a patch of that set.
   const auto growsASet = [&](const SurfacePiece<3>& piece)
   { return (piece.sets & ~this->patches_[piece.patch].sets) != 0; };
   if (std::any_of(change.gone.begin(), change.gone.end(), isLocked) ||
@@ -384,7 +401,7 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
     {
-      const Index patch = mesh.isConstrained(c, i) ? mesh.patch(c, i) : None;
+      const Index patch = mesh.isKept(c, i) ? mesh.patch(c, i) : None;
       // A facet between regions counts once, from the side of its patch.
       if (patch == None || mesh.region(c) != this->patches_[patch].region)
       {
@@ -414,7 +431,7 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
     for (int e = 0; e < 6 && mesh.isAlive(c); ++e)
     {
       const Simplex<3>& t = mesh.nodes(c);
-      const auto span = mesh.isEdgeConstrained(c, e)
+      const auto span = mesh.isEdgeKeptByItself(c, e)
         ? this->span(mesh, t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]])
         : std::nullopt;
       if (span)

@@ -31,6 +31,7 @@ public:
   void build(MeshEditor<3>& editor, const SurfaceOptions& options);
 
   Index numberOfPatches() const { return static_cast<Index>(this->patches_.size()); }
+  /// Only tests ask, since it tells how the surface was divided.
   std::size_t numberOfCurves() const { return this->pieces_.size(); }
   bool isExact() const { return this->isExact_; }
   double tolerance() const { return this->tolerance_; }

@@ -9,6 +9,7 @@ namespace meshopt
 {
 void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
 {
+  // Nothing stays of a surface that was built before.
   *this = SlidingSurface();
   const SurfaceDivision division(editor.mesh(), options);
   this->isExact_ = division.isExact;
@@ -34,6 +35,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
     }
     else if (division.freedom[p] == Freedom::Corner)
     {
+      // Its room is measured from where it was: see placeNear().
       this->corners_[p] = editor.mesh().point(id);
       editor.setPlace(id, { Freedom::Corner, id, 0.0 });
     }
@@ -44,6 +46,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   }
 }
 
+/// Facets go into the reference as they are now. From here on it does not change.
 void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
@@ -68,6 +71,7 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
     }
     Patch& patch = this->patches_[part.patch];
     patch.region = part.region;
+    // With the same region on both sides, neither of them is the outer one.
     patch.isSigned = part.region != part.other;
     patch.label = part.label;
     this->reference_.add(
@@ -78,6 +82,8 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
   this->reference_.finish(this->tolerance_, division.rounding);
 }
 
+/// A curve for each chain that may change, and the places of its nodes. After that all edges on
+/// curves are kept, also of chains that stay.
 void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& division)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
@@ -131,6 +137,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
   };
   for (const SurfaceDivision::Part& part : division.parts)
   {
+    // From each facet and from both its sides: not all cells at an edge need be reachable from one.
     const Index handles[2] = { part.handle,
       mesh.adjacent(mesh.cellOf(part.handle), mesh.facetOf(part.handle)) };
     for (Index h : handles)
@@ -147,6 +154,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
   }
 }
 
+/// A patch is in a set if all its nodes are.
 void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
   const std::vector<std::uint32_t>& sets)
 {
@@ -169,6 +177,7 @@ void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision&
   {
     for (int i = 0; i < 3 && part.patch != None; ++i)
     {
+      // Edges inside of a patch have none.
       const auto span = this->span(mesh, part.nodes[i], part.nodes[(i + 1) % 3]);
       if (span)
       {
@@ -176,6 +185,7 @@ void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision&
       }
     }
   }
+  // A set with a node that slides where the set does not go says nothing about the surface.
   this->sets_ = all;
   for (std::size_t p = 0; p < sets.size(); ++p)
   {

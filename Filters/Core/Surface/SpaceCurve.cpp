@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A polyline in space with its length as parameter. Parameters of closed curves may be any number
+// of turns away: neighbours then have parameters near each other.
 #include "Surface/SpaceCurve.h"
 
 #include <algorithm>
@@ -12,6 +14,7 @@ namespace
 constexpr double Rounding = 1e-12; ///< of a length
 }
 
+/// A closed curve has its first point again at the end: then each line has a knot at both ends.
 SpaceCurve::SpaceCurve(std::vector<Vec<3>> points, bool isClosed)
   : points_(std::move(points))
   , isClosed_(isClosed)
@@ -33,6 +36,7 @@ double SpaceCurve::inRange(double s) const
   {
     return std::clamp(s, 0.0, this->length());
   }
+  // The remainder has the sign of s.
   const double rest = std::fmod(s, this->length());
   return rest < 0.0 ? rest + this->length() : rest;
 }
@@ -60,6 +64,8 @@ Vec<3> SpaceCurve::direction(double s) const
   return (this->points_[k + 1] - this->points_[k]).normalized();
 }
 
+/// Walks both ways as long as the distance falls. A branch of the curve that comes near elsewhere
+/// is not taken.
 double SpaceCurve::closest(const Vec<3>& x, double s) const
 {
   const std::size_t n = this->points_.size() - 1;
@@ -101,6 +107,7 @@ double SpaceCurve::closest(const Vec<3>& x, double s) const
       }
     }
   }
+  // On a closed curve s may be some turns away from r. The result stays on the turn of s.
   return (this->isClosed_ ? s : r) + nearest;
 }
 
@@ -113,6 +120,7 @@ void SpaceCurve::setRooms(std::vector<double> rooms)
   }
 }
 
+/// Of all lines that the span touches, even in part.
 double SpaceCurve::room(double from, double to) const
 {
   const std::size_t n = this->points_.size() - 1;
@@ -138,6 +146,7 @@ double SpaceCurve::deviation(double from, double to) const
   const double low = std::min(from, to), high = std::max(from, to);
   const Vec<3> a = this->at(low), chord = this->at(high) - a;
   const double l = chord.norm();
+  // A span that comes back to its start has no chord to be compared with.
   if (!(l > 0.0))
   {
     return high > low ? std::numeric_limits<double>::infinity() : 0.0;
@@ -145,6 +154,7 @@ double SpaceCurve::deviation(double from, double to) const
   const double slack = Rounding * l;
   double farthest = 0.0, last = 0.0;
   // The points between. The distance of a line from a convex set is greatest at one of its ends.
+  // Knots are within the first turn: they are shifted to that of the span.
   const double shift = this->isClosed_ ? std::floor(low / this->length()) * this->length() : 0.0;
   const std::size_t n = this->points_.size() - 1;
   std::size_t k = this->segmentAt(this->inRange(low)) + 1;

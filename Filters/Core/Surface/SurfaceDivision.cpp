@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The first half of the division: kept facets, their edges, which of these are curves, and patches.
+// Corners and curves follow in SurfaceDivisionCurves.cpp.
 #include "Surface/SurfaceDivision.h"
 
 #include "Mesh/Ids.h"
@@ -60,6 +62,8 @@ SurfaceDivision::SurfaceDivision(const SimplexMesh<3>& mesh, const SurfaceOption
   this->findChains();
 }
 
+/// Tolerances are relative to the diagonal, rounding to the greatest coordinate: a small body may
+/// lie far from the origin.
 void SurfaceDivision::measure()
 {
   Eigen::AlignedBox<double, 3> box;
@@ -84,13 +88,14 @@ void SurfaceDivision::measure()
     this->tolerance, this->rounding, std::max(this->rounding, Most * this->diagonal));
 }
 
+/// Each kept facet once: from the side with the lower region, or with the lower handle.
 void SurfaceDivision::collectParts(const SurfaceOptions& options)
 {
   for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
   {
     for (int i = 0; i < 4 && this->mesh_.isAlive(c); ++i)
     {
-      if (!this->mesh_.isConstrained(c, i))
+      if (!this->mesh_.isKept(c, i))
       {
         continue;
       }
@@ -135,6 +140,7 @@ void SurfaceDivision::lockTwins()
       const Vec<3>& p = this->mesh_.point(this->parts[k].nodes[i]);
       x[i] = { p[0], p[1], p[2] };
     }
+    // Both lips have the same corners, but in another order.
     std::sort(x.begin(), x.end());
     std::array<double, 9> key;
     for (int i = 0; i < 9; ++i)
@@ -153,6 +159,7 @@ void SurfaceDivision::lockTwins()
   }
 }
 
+/// All edges of the parts, each once, with the parts at it.
 void SurfaceDivision::collectEdges()
 {
   struct Incidence
@@ -171,6 +178,7 @@ void SurfaceDivision::collectEdges()
       all.push_back({ sortedIds(f[(i + 1) % 3], f[(i + 2) % 3]), static_cast<Index>(k), i });
     }
   }
+  // Incidences of one edge stand together, in the order of their parts.
   std::sort(all.begin(), all.end(),
     [](const Incidence& a, const Incidence& b)
     { return a.nodes != b.nodes ? a.nodes < b.nodes : a.part < b.part; });
@@ -246,6 +254,8 @@ bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
   return (alike ? 1.0 : -1.0) * n.dot(m) < cosine(featureAngle) * n.norm() * m.norm();
 }
 
+/// First the edges that the geometry makes curves, then kept edges of the caller. Of those that
+/// leave the surface only the ends count.
 void SurfaceDivision::findCurves(const SurfaceOptions& options)
 {
   for (Edge& edge : this->edges_)
@@ -260,11 +270,11 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
     }
   }
   this->isCorner_.assign(this->mesh_.numberOfPointSlots(), 0);
-  for (Index c = 0; this->mesh_.hasConstrainedEdges() && c < this->mesh_.numberOfCellSlots(); ++c)
+  for (Index c = 0; this->mesh_.hasKeptEdges() && c < this->mesh_.numberOfCellSlots(); ++c)
   {
     for (int e = 0; e < 6 && this->mesh_.isAlive(c); ++e)
     {
-      if (this->mesh_.isEdgeConstrained(c, e))
+      if (this->mesh_.isEdgeKeptByItself(c, e))
       {
         const Simplex<3>& t = this->mesh_.nodes(c);
         const auto key = sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]);
@@ -331,6 +341,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
   double sum = 0.0, count = 0.0;
   for (Index k : numbers)
   {
+    // By area: needles, whose normals are uncertain, hardly count.
     normal += this->normal(this->parts[k]);
   }
   plane.normal = normal.normalized();
@@ -342,6 +353,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
       count += 1.0;
     }
   }
+  // Through the mean of all corners: what rounding there is lies on both sides.
   plane.origin = base + plane.normal * (sum / count);
   return std::all_of(numbers.begin(), numbers.end(),
     [&](Index k)
@@ -355,6 +367,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
     });
 }
 
+/// Parts that hang together with no curve between them; if exact, divided further by planes.
 void SurfaceDivision::findPatches()
 {
   // The largest parts first: their planes are the most reliable.
@@ -393,6 +406,7 @@ void SurfaceDivision::findPatches()
       if (!this->fits(this->filled_, plane))
       {
         release();
+        // Not even that: the seed alone, which lies in its own plane.
         this->filled_.assign(1, seed);
         this->parts[seed].patch = this->numberOfPatches;
         this->fits(this->filled_, plane);

@@ -30,6 +30,7 @@ bool SurfaceDivision::isTouching(const Edge& edge) const
   {
     outer += this->parts[this->incidences_[i]].other == None;
   }
+  // Where the outer surface does not touch itself, two of its facets share the edge.
   return outer > 2;
 }
 
@@ -62,6 +63,7 @@ bool SurfaceDivision::isPinched(
         {
           continue;
         }
+        // A fan ends at curves: what lies beyond belongs to another fan.
         if (edge.isCurve)
         {
           ends.push_back(e);
@@ -79,20 +81,25 @@ bool SurfaceDivision::isPinched(
         }
       }
     }
+    // From one curve to the other, and not back to the same; inside of a patch there is none to
+    // meet.
     if (ends.size() != curves.size() || (ends.size() == 2 && ends[0] == ends[1]))
     {
       return true;
     }
   }
+  // At a curve each sheet that meets there has a fan of its own.
   return curves.empty() && fans != 1;
 }
 
+/// What each point of the surface may do. In doubt it stays.
 void SurfaceDivision::findCorners(const SurfaceOptions& options)
 {
   const Index n = this->mesh_.numberOfPointSlots();
   this->freedom.assign(n, Freedom::Free);
   this->patchOfPoint.assign(n, None);
   std::vector<std::uint8_t> touching = pinchedPoints<3>(this->mesh_);
+  // Empty if no point is pinched.
   touching.resize(n, 0);
   // Parts and curves at each point, as one list each, sorted by point.
   std::vector<std::array<Index, 2>> partsAt, curvesAt;
@@ -137,6 +144,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
     const bool isLocked = std::any_of(
       around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
     const bool isFixed = isMarked || isLocked || touching[p];
+    // It stays, unless it proves below to be inside of a patch or of a curve.
     this->freedom[p] = isFixed || this->isExact ? Freedom::Fixed : Freedom::Corner;
     if (isFixed || (!curves.empty() && curves.size() != 2) || this->isPinched(p, around, curves))
     {
@@ -165,6 +173,7 @@ bool SurfaceDivision::turns(Index p, const std::vector<Index>& curves, double an
     const std::array<Index, 2>& e = this->edges_[curves[k]].nodes;
     d[k] = this->mesh_.point(e[0] == p ? e[1] : e[0]) - this->mesh_.point(p);
   }
+  // Both lead away from p: on a straight curve they are opposite.
   return -d[0].dot(d[1]) < cosine(std::min(angle, 90.0)) * d[0].norm() * d[1].norm();
 }
 
@@ -182,6 +191,7 @@ void SurfaceDivision::findChains()
   }
   std::sort(ends.begin(), ends.end());
   std::vector<char> used(this->edges_.size(), 0);
+  // Walks from edge to edge up to a corner, or back to the start.
   const auto follow = [&](Index p, Index e)
   {
     Chain chain;
@@ -203,6 +213,8 @@ void SurfaceDivision::findChains()
       {
         break;
       }
+      // A point inside of a curve stands twice in the list, with the edge before it and the one
+      // after.
       auto next = std::lower_bound(ends.begin(), ends.end(), std::array<Index, 2>{ p, 0 });
       e = (*next)[1] == e ? (*(next + 1))[1] : (*next)[1];
     }
@@ -238,6 +250,7 @@ void SurfaceDivision::straighten()
     {
       const Vec<3> d = this->mesh_.point(points[k]) - a;
       const double t = d.dot(along) / l;
+      // Each point beyond the last one: a chain that turns back is not straight.
       if (!(t > last && t < l) || (d - along * (t / l)).norm() > this->slab())
       {
         return false;
@@ -268,6 +281,7 @@ void SurfaceDivision::straighten()
     }
     for (std::size_t from = 0; from + 1 < chain.points.size();)
     {
+      // As far as it goes, tested as a whole each time: small turns cannot add up unseen.
       std::size_t to = from + 1;
       while (to + 1 < chain.points.size() && isStraight(chain.points, from, to + 1))
       {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Pairs of kept facets that fold or cross, found by a sweep along x with exact signs; and the test
+// whether cells can overlap.
 #include "Surface/SurfaceFaults.h"
 
 #include "Mesh/Ids.h"
@@ -63,12 +65,13 @@ std::vector<Kept<D>> keptFacets(const SimplexMesh<D>& mesh, const std::vector<ch
   {
     for (int i = 0; i <= D && isNear[c]; ++i)
     {
-      if (mesh.isConstrained(c, i))
+      if (mesh.isKept(c, i))
       {
         facets.push_back({ sortedIds(mesh.facet(c, i)), SimplexMesh<D>::handle(c, i) });
       }
     }
   }
+  // Stable: of the two sides of a facet, that of the lower cell stays.
   std::stable_sort(facets.begin(), facets.end());
   facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
   return facets;
@@ -79,6 +82,7 @@ bool hasNoArea(const SimplexMesh<2>& mesh, const Facet<2>& f)
   return mesh.point(f[0]) == mesh.point(f[1]);
 }
 
+/// Relative to the longest edge: the test does not depend on units.
 bool hasNoArea(const SimplexMesh<3>& mesh, const Facet<3>& f)
 {
   const Vec<3> a = mesh.point(f[1]) - mesh.point(f[0]), b = mesh.point(f[2]) - mesh.point(f[0]);
@@ -136,10 +140,11 @@ double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
   double sum = 0.0;
   for (int step = 0; step < 1000; ++step)
   {
+    // Inverted cells count negatively: together the angles are what is between both facets.
     sum += angle(mesh, c, a, w);
     const int i = mesh.localIndex(c, a);
     a = w;
-    if (mesh.isConstrained(c, i))
+    if (mesh.isKept(c, i))
     {
       return sum;
     }
@@ -147,6 +152,7 @@ double filledAngle(const SimplexMesh<D>& mesh, Index handle, Index& a)
     c = SimplexMesh<D>::cellOf(next);
     w = mesh.nodes(c)[SimplexMesh<D>::facetOf(next)];
   }
+  // The walk has not come to an end: nothing is known.
   return 1e9;
 }
 
@@ -160,6 +166,7 @@ bool isFolded(const SimplexMesh<D>& mesh, const Kept<D>& f, Index a, Index b)
   for (Index handle : { f.handle, other })
   {
     Index end = a;
+    // About 0 if the mesh is between them, a full turn if it is around them: 1 is far from both.
     if (handle != None && std::fabs(filledAngle(mesh, handle, end)) < 1.0 && end == b)
     {
       return true;
@@ -176,12 +183,14 @@ bool pierces(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b,
   {
     return false;
   }
+  // One sign of 0 is a hit on an edge, two are a hit on a node.
   const int s[3] = { orient(p, q, a, b), orient(p, q, b, c), orient(p, q, c, a) };
   const int sum = s[0] + s[1] + s[2];
   const bool agree = *std::min_element(s, s + 3) * *std::max_element(s, s + 3) >= 0;
   return agree && (sum >= 2 || sum <= -2);
 }
 
+/// An end that lies on the other edge is a touch, not a crossing.
 bool cross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
 {
   const Vec<2>&a = mesh.point(f[0]), &b = mesh.point(f[1]), &c = mesh.point(g[0]),
@@ -196,6 +205,7 @@ bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
     for (int i = 0; i < 3; ++i)
     {
       const Index p = edges[i], q = edges[(i + 1) % 3];
+      // An edge with a node of the face meets it there: this is no crossing.
       const bool shared = std::find(face.begin(), face.end(), p) != face.end() ||
         std::find(face.begin(), face.end(), q) != face.end();
       if (!shared &&
@@ -268,6 +278,7 @@ std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>
 }
 }
 
+/// A sweep along x: only pairs whose boxes overlap are looked at.
 template <int D>
 std::vector<SurfaceFault<D>> findSurfaceFaults(
   const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
@@ -321,6 +332,8 @@ double shareOfDirections(const std::array<Vec<3>, 3>& e)
   return half / (2.0 * std::acos(-1.0));
 }
 
+/// Cells that fill more than all directions around a point overlap there. Points of the surface
+/// have fewer directions to fill, so that not all overlaps show.
 template <int D>
 bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
 {
@@ -344,6 +357,7 @@ bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
 }
 }
 
+/// From the cheapest test to the dearest.
 template <int D>
 bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pinched)
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The analysis step by step. What the steps share is in Analyst, so that each is a short function.
 #include "Thermoelastic/Analysis.h"
 
 #include "Thermoelastic/RigidModes.h"
@@ -95,6 +96,7 @@ private:
       return Error{ begin + this->modes_.describe() +
         ". Constrain it, or have rigid motion pinned or projected out." };
     }
+    // A body that may move freely is at rest only if its loads are in equilibrium.
     const std::string imbalance = findImbalance(
       this->mesh_, this->modes_, this->problem_.forces, Equilibrium);
     if (!imbalance.empty())
@@ -115,6 +117,7 @@ private:
     return std::nullopt;
   }
 
+  /// Displacements of all points: those that are solved for, and those that are prescribed.
   void assembleAndSolve(Stopwatch& watch)
   {
     const Unknowns unknowns = numberUnknowns(this->mesh_, this->constraints_);
@@ -128,6 +131,7 @@ private:
     this->solution_.solveSeconds = watch.lap();
     std::vector<Vec<D>>& u = this->solution_.displacement;
     u.assign(this->mesh_.numberOfPointSlots(), Vec<D>::Zero());
+    // Component i of point p is number D p + i.
     for (std::size_t dof = 0; dof < unknowns.numbers.size(); ++dof)
     {
       const Index number = unknowns.numbers[dof];
@@ -140,6 +144,7 @@ private:
     }
   }
 
+  /// As weights of the points: only their ratios count.
   std::vector<double> pointVolumes() const
   {
     std::vector<double> volumes(this->mesh_.numberOfPointSlots(), 0.0);
@@ -153,6 +158,7 @@ private:
     return volumes;
   }
 
+  /// In the order of the cells, so that the energy has the same bits in each run.
   void findStresses()
   {
     Solution<D>& s = this->solution_;
@@ -180,6 +186,7 @@ private:
     }
   }
 
+  /// Nodal stresses and the error estimate, unless the caller wants none.
   void recover()
   {
     Solution<D>& s = this->solution_;

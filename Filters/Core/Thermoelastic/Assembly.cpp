@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The matrix, row by row, from the cells around a point: each thread writes rows of its own.
 #include "Thermoelastic/Assembly.h"
 
 #include "Thermoelastic/Parallel.h"
@@ -13,6 +14,7 @@ namespace meshopt::fem
 {
 namespace
 {
+/// Gradients of the shape functions are constant in a linear element, and so is its strain.
 template <int D>
 ElementGeometry<D> elementGeometry(const Corners<D>& x)
 {
@@ -51,6 +53,7 @@ Rows findCellsOfPoints(const SimplexMesh<D>& mesh)
   {
     rows.offsets[p] += rows.offsets[p - 1];
   }
+  // Filled in the order of the cells, which fixes the order of all later sums.
   rows.items.resize(rows.offsets.back());
   std::vector<Index> next(rows.offsets.begin(), rows.offsets.end() - 1);
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
@@ -135,6 +138,7 @@ public:
   }
 
 private:
+  /// A block for each neighbour of p, and the load at p.
   void gather(Index p)
   {
     this->blocks_.assign(this->neighbours_.size(), Tensor<D>::Zero());
@@ -155,6 +159,7 @@ private:
     }
   }
 
+  /// Row a of point p, into the place that assemble() has given to it.
   void write(Index p, int a)
   {
     const Index row = this->unknowns_.numbers[D * p + a];
@@ -163,6 +168,7 @@ private:
       return;
     }
     double right = this->force_[a];
+    // Neighbours ascend, and so do the columns: a row is sorted as it is written.
     int next = this->system_.matrix.outerIndexPtr()[row];
     for (std::size_t k = 0; k < this->neighbours_.size(); ++k)
     {
@@ -220,6 +226,7 @@ std::vector<int> countEntries(const SimplexMesh<D>& mesh, const Discretization<D
 }
 }
 
+/// All that depends on the mesh and on materials, once: matrix, stresses and reactions use it.
 template <int D>
 Discretization<D> discretize(
   const SimplexMesh<D>& mesh, const Problem<D>& problem, const Control& control)
@@ -239,6 +246,8 @@ Discretization<D> discretize(
       for (Index c = begin; c < end; ++c)
       {
         d.elements[c] = elementGeometry<D>(mesh.corners(c));
+        // One temperature per element, the mean of its nodes: the thermal strain is then constant,
+        // as the strain is.
         double sum = 0.0;
         for (int i = 0; i <= D && !problem.temperature.empty(); ++i)
         {
@@ -254,6 +263,7 @@ Discretization<D> discretize(
   return d;
 }
 
+/// In the order of points, so that a good numbering of points is one of the unknowns, too.
 template <int D>
 Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint>& constraints)
 {
@@ -278,6 +288,8 @@ Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint
   return u;
 }
 
+/// Two passes over the points: the first one counts the entries of each row, the second one fills
+/// them in.
 template <int D>
 LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   const Unknowns& unknowns, const std::vector<Vec<D>>& forces, const Control& control)
@@ -320,6 +332,7 @@ LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   return system;
 }
 
+/// From the gradient of the displacement, which is constant in each cell.
 template <int D>
 std::vector<Stress<D>> elementStresses(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   const std::vector<Vec<D>>& displacement, const Control& control)
@@ -341,6 +354,7 @@ std::vector<Stress<D>> elementStresses(const SimplexMesh<D>& mesh, const Discret
   return stress;
 }
 
+/// Gathered by point, as the matrix is: no two threads add to the same sum.
 template <int D>
 std::vector<Vec<D>> internalForces(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   const std::vector<Stress<D>>& stress, const Control& control)
@@ -363,6 +377,7 @@ std::vector<Vec<D>> internalForces(const SimplexMesh<D>& mesh, const Discretizat
   return forces;
 }
 
+/// Eigen's own product does not use the caller's threads.
 void multiply(
   const SparseMatrix& a, const Eigen::VectorXd& x, const Control& control, Eigen::VectorXd& y)
 {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Three solvers behind one function. Conjugate gradients are written out, since Eigen's report
+// nothing between start and end.
 #include "Thermoelastic/LinearSolver.h"
 
 #include "Base/Progress.h"
@@ -15,6 +17,7 @@ namespace
 {
 using Eigen::VectorXd;
 
+/// Jacobi's: cheap, and it evens out elements of very different size or stiffness.
 class DiagonalPreconditioner
 {
 public:
@@ -28,6 +31,7 @@ private:
   VectorXd inverse_;
 };
 
+/// Costs more memory and time for each step than the diagonal, and needs fewer steps.
 class CholeskyPreconditioner
 {
 public:
@@ -49,6 +53,8 @@ double fractionDone(double residual, double tolerance)
   return std::isfinite(f) ? std::min(1.0, std::max(0.0, f)) : 0.0;
 }
 
+/// `first` and `last`: progress at the begin and at the end. The residual comes from the
+/// recurrence, as in Eigen; it is not computed again.
 template <class Preconditioner>
 SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& options,
   const Control& control, double first, double last, VectorXd& x)
@@ -58,6 +64,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
   const double norm2 = b.squaredNorm();
   const double goal = options.tolerance * options.tolerance;
   const Preconditioner preconditioner(system.matrix);
+  // From x = 0: the first residual is the load.
   VectorXd r = b, p(b.size()), z(b.size()), product(b.size());
   preconditioner.apply(r, p);
   double rz = r.dot(p);
@@ -102,6 +109,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
   return report;
 }
 
+/// There are no steps: the history has the residual before and after.
 SolverReport factorize(const LinearSystem& system, const SolverOptions& options, VectorXd& x)
 {
   SolverReport report;
@@ -117,6 +125,8 @@ SolverReport factorize(const LinearSystem& system, const SolverOptions& options,
     report.history.push_back(report.relativeResidual);
   }
   const bool solved = factor.info() == Eigen::Success && std::isfinite(report.relativeResidual);
+  // A solution that misses the tolerance is reported like too few iterations: the user's choices
+  // are the same.
   report.status = !solved                          ? SolverStatus::Breakdown
     : report.relativeResidual <= options.tolerance ? SolverStatus::Converged
                                                    : SolverStatus::IterationLimit;

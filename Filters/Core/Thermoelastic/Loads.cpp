@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Forces at points that do the same work as loads on facets, for loads that are linear on a facet.
 #include "Thermoelastic/Loads.h"
 
 #include <Eigen/Geometry>
@@ -22,6 +23,7 @@ std::vector<Facet<D>> surfaceFacets(const SimplexMesh<D>& mesh)
   return facets;
 }
 
+/// A quarter turn to the left, where the body lies.
 template <>
 Vec<2> areaVector<2>(const std::array<Vec<2>, 2>& x)
 {

@@ -8,6 +8,7 @@ namespace meshopt::fem
 {
 std::string checkMaterial(const Material& m, const std::string& where)
 {
+  // Written as !(x > 0), so that NaN is refused, too.
   std::ostringstream text;
   if (!(m.youngsModulus > 0.0) || !std::isfinite(m.youngsModulus))
   {

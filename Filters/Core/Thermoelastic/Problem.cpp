@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks a problem before it is assembled, and prepares generalised plane strain.
 #include "Thermoelastic/Problem.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ std::optional<Error> checkLength(
   return Error{ text.str() };
 }
 
+/// Arrays may be left out, but one that is there must have all its values.
 template <int D>
 std::optional<Error> checkLengths(const SimplexMesh<D>& mesh, const Problem<D>& problem)
 {
@@ -64,6 +66,7 @@ std::optional<Error> checkMaterials(const Problem<D>& problem)
   return std::nullopt;
 }
 
+/// What belongs to points that cells use, and the reference temperature.
 template <int D>
 std::optional<Error> checkPoints(const SimplexMesh<D>& mesh, const Problem<D>& problem)
 {
@@ -134,6 +137,7 @@ double shape(const Corners<D>& x)
   return scale * signedVolume(x) / std::pow(perimeter, D);
 }
 
+/// With an inverted or flat cell the matrix is not positive definite.
 template <int D>
 std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
 {
@@ -157,6 +161,7 @@ std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
   return std::nullopt;
 }
 
+/// Of a temperature that is linear in the cell the mean over the nodes is that over the cell.
 template <int D>
 double meanTemperatureRise(const SimplexMesh<D>& mesh, const Problem<D>& problem, Index cell)
 {
@@ -173,6 +178,7 @@ double meanTemperatureRise(const SimplexMesh<D>& mesh, const Problem<D>& problem
 }
 }
 
+/// Lengths come first: all other checks index the arrays.
 template <int D>
 std::optional<Error> check(const SimplexMesh<D>& mesh, const Problem<D>& problem)
 {
@@ -215,6 +221,7 @@ double freeAxialStrain(const SimplexMesh<D>& mesh, const Problem<D>& problem)
   return strain / weight;
 }
 
+/// By coordinates with a tolerance: the ends of a mesh are planes only up to rounding.
 template <int D>
 void constrainEnds(
   const SimplexMesh<D>& mesh, int axis, double strain, double tolerance, Problem<D>& problem)
@@ -237,6 +244,7 @@ void constrainEnds(
     }
     if (mesh.point(p)[axis] <= low + near)
     {
+      // The low end stays where it is, and the high end moves by the whole elongation.
       problem.constraints.push_back({ p, axis, 0.0 });
     }
     else if (mesh.point(p)[axis] >= high - near)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Rigid motions as a small eigenproblem: what must not move is a row, the sum of squared rows is a
+// matrix, and its null space are the motions that are free.
 #include "Thermoelastic/RigidModes.h"
 
 #include <Eigen/Dense>
@@ -157,6 +159,7 @@ private:
   using Group = typename RigidModes<D>::Group;
   static constexpr int M = MotionSize<D>;
 
+  /// Cells that hang together over facets.
   void findBodies()
   {
     const Index n = this->mesh_.numberOfCellSlots();
@@ -187,6 +190,7 @@ private:
     }
   }
 
+  /// Points in cells of several bodies. bodyOfPoint is the first of these.
   void findHinges()
   {
     std::vector<Index>& bodyOf = this->modes_.bodyOfPoint;
@@ -208,6 +212,7 @@ private:
     }
   }
 
+  /// Bodies that hang together over hinges.
   void findGroups()
   {
     std::vector<Body>& bodies = this->modes_.bodies;
@@ -241,6 +246,7 @@ private:
     }
   }
 
+  /// The centre and the size of each group: the origin and the unit of length of its motions.
   void measureGroups()
   {
     std::vector<Group>& groups = this->modes_.groups;
@@ -251,6 +257,7 @@ private:
     {
       if (this->modes_.bodyOfPoint[p] != None)
       {
+        // A hinge belongs to several bodies, but all of them are in one group.
         const Index g = this->modes_.bodies[this->modes_.bodyOfPoint[p]].group;
         low[g] = low[g].cwiseMin(this->mesh_.point(p));
         high[g] = high[g].cwiseMax(this->mesh_.point(p));
@@ -263,6 +270,7 @@ private:
     }
   }
 
+  /// What is held goes into the matrix of its group.
   void addConstraints(const std::vector<Constraint>& constraints)
   {
     for (const Constraint& c : constraints)
@@ -281,6 +289,7 @@ private:
     }
   }
 
+  /// The same for points at which two bodies hang together.
   void addHinges()
   {
     for (const Hinge& h : this->hinges_)
@@ -299,6 +308,7 @@ private:
     }
   }
 
+  /// One dense eigenproblem per group, which is small.
   void solve()
   {
     for (std::size_t g = 0; g < this->normals_.size(); ++g)
@@ -366,6 +376,7 @@ std::string describeMotion(const Vec<3>& t, const Vec<3>& w, const Vec<3>& centr
   const Vec<3> r = Vec<3>(w[1] * t[2] - w[2] * t[1], w[2] * t[0] - w[0] * t[2],
                      w[0] * t[1] - w[1] * t[0]) /
     w.squaredNorm();
+  // A screw: what goes along the axis is no part of a rotation.
   const std::string pitch = std::abs(t.dot(axis)) > 1e-6 ? " (and translate along it)" : "";
   return "rotate about the axis through " + list<3>(Vec<3>(centre + length * r), length) +
     " along " + list<3>(axis, 1.0) + pitch;
@@ -383,6 +394,7 @@ Index RigidModes<D>::count() const
   return n;
 }
 
+/// Only the numbers of the body of the point count.
 template <int D>
 Eigen::Matrix<double, D, Eigen::Dynamic> RigidModes<D>::displacements(
   const SimplexMesh<D>& mesh, Index p, const Eigen::MatrixXd& motions) const
@@ -393,6 +405,7 @@ Eigen::Matrix<double, D, Eigen::Dynamic> RigidModes<D>::displacements(
     motions.template middleRows<M>(M * body.place);
 }
 
+/// By the body that moves most: in a mechanism others move, too, but this one shows it best.
 template <int D>
 std::string RigidModes<D>::describe(Index group, Index mode) const
 {

@@ -49,6 +49,7 @@ Constraint findPin(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
 }
 }
 
+/// Greedy: each pin holds the component that the motions left over displace most.
 template <int D>
 std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes)
 {
@@ -70,6 +71,7 @@ std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidM
   return pins;
 }
 
+/// Group by group, since groups move independently of each other.
 template <int D>
 void removeRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
   const std::vector<double>& weight, std::vector<Vec<D>>& displacement)
@@ -99,6 +101,7 @@ void removeRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
   }
 }
 
+/// With motions that have names, since the user reads which one is not balanced.
 template <int D>
 std::string findImbalance(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
   const std::vector<Vec<D>>& forces, double tolerance)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Patch recovery and the error estimate. Points are split where regions meet, so that no patch
+// looks across a jump of the stress.
 #include "Thermoelastic/StressRecovery.h"
 
 #include "Thermoelastic/Parallel.h"
@@ -43,6 +45,8 @@ struct Fit
   Stress<D> at(const Vec<D>& x) const { return this->mean + this->slope * (x - this->centre); }
 };
 
+/// The linear polynomial nearest to the stresses at the centroids, by least squares. It is not
+/// valid with fewer than `leastCells` cells, or if these lie in a plane (2D: on a line).
 template <int D>
 Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D>>& stress,
   const Index* begin, const Index* end, Index leastCells)
@@ -80,6 +84,7 @@ Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D
   return fit;
 }
 
+/// By volume: the division of a cell into two changes nothing.
 template <int D>
 Stress<D> volumeAverage(const SimplexMesh<D>& mesh, const std::vector<Stress<D>>& stress,
   const Index* begin, const Index* end)
@@ -106,6 +111,8 @@ template <int D>
 class PatchRecovery
 {
 public:
+  /// A fit needs as many cells as a linear polynomial has coefficients; a local one, as many as a
+  /// quadratic one has.
   PatchRecovery(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
     const std::vector<Stress<D>>& stress, bool isLocal)
     : mesh_(mesh)
@@ -122,6 +129,7 @@ public:
     }
   }
 
+  /// For the nodes [begin, end): different threads write different fits.
   void fitOwn(Index begin, Index end)
   {
     for (Index n = begin; n < end; ++n)
@@ -136,6 +144,7 @@ public:
     }
   }
 
+  /// By the node's own fit, if it is valid.
   Stress<D> at(Index node) const
   {
     const Vec<D>& x = this->mesh_.point(this->nodes_.pointOfNode[node]);
@@ -147,6 +156,7 @@ public:
   }
 
 private:
+  /// The mean of what the fits of the nodes around say at x.
   Stress<D> byNeighbours(Index node, const Vec<D>& x) const
   {
     Stress<D> sum = Stress<D>::Zero();
@@ -177,6 +187,7 @@ private:
     return around;
   }
 
+  /// By the smallest enlarged patch that determines a polynomial.
   Stress<D> byEnlargedPatch(Index node, const Vec<D>& x) const
   {
     const Rows& cells = this->nodes_.cellsOfNode;
@@ -305,6 +316,7 @@ std::vector<Stress<D>> recoverStress(const SimplexMesh<D>& mesh, const RecoveryM
   return stress;
 }
 
+/// Nodes of one point stand in a row: see makeRecoveryMesh().
 template <int D>
 std::vector<Stress<D>> stressAtPoints(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
   const std::vector<Stress<D>>& nodalStress)

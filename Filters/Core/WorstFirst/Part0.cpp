@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Part 0 of the engine: see Parts.h.
 #include "WorstFirst/Schedule.h"
 
 namespace meshopt

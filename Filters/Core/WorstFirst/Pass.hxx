@@ -17,6 +17,7 @@ long Schedule<D, Shape>::fewCells() const
   return std::max({ FewestCells, std::min(FewCells, cells / FewCellsPart), cells / FewOfMany });
 }
 
+/// A drain by chunks, and one without borders for what these have held up.
 template <int D, class Shape>
 void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
 {

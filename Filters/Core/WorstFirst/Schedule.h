@@ -23,6 +23,8 @@ namespace meshopt
 {
 namespace worstfirst
 {
+/// Stages (Stage.hxx) make passes (Pass.hxx), and a pass shares out its cells among chunks. At the
+/// end of a stage the worst cells are polished (Polish.hxx).
 template <int D, class Shape>
 class Schedule
 {
@@ -232,6 +234,8 @@ int Schedule<D, Shape>::levelOf(int pass) const
   return this->guard_ ? levels[std::min(pass, this->passesThatRise())] : Level::LongLookAhead;
 }
 
+/// Stage after stage up to the target, or beyond it. Polishes after the first stage, at the target,
+/// and after each stage above it.
 template <int D, class Shape>
 void Schedule<D, Shape>::optimize()
 {
@@ -360,6 +364,7 @@ void Schedule<D, Shape>::noteWorst()
   }
 }
 
+/// Why the run ends, by what is left under the target.
 template <int D, class Shape>
 StopReason Schedule<D, Shape>::reason()
 {
@@ -401,6 +406,7 @@ namespace meshopt
 {
 namespace worstfirst
 {
+/// Runs row K of the table of measures, if this part has it and the run wants it.
 template <int D, int Part, std::size_t K>
 bool runRow(Run<D>& run)
 {

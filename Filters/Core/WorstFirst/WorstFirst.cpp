@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The engine is compiled once for each measure, in several files of about equal size. Each of them
+// returns false for a measure that it does not have.
 #include "WorstFirst/WorstFirst.h"
 
 #include "WorstFirst/Parts.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The arrays that Mesh Optimize and Mesh Quality Min Max read, in one table.
 #include "vtkMeshOptimizeArrays.h"
 
 #include "vtkMeshBridgeArrays.h"
@@ -63,6 +64,7 @@ void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name)
 
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays)
 {
+  // In the order of ArrayIndex.
   vtkDataArray** targets[NumberOfInputArrays] = { &arrays.Region, &arrays.FixedPoints, &arrays.Size,
     &arrays.Metric, &arrays.Corners, &arrays.Patch };
   arrays = InputArrays();

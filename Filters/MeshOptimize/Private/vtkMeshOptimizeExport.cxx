@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From the optimized mesh to a grid. What has not changed is copied from the input, so that it is
+// the same to the last bit; ids of points and cells stay in the order of the input.
 #include "vtkMeshOptimizeExport.h"
 
 #include "vtkCellArray.h"
@@ -21,6 +23,9 @@ using meshopt::SimplexMesh;
 namespace
 {
 
+/**
+ * Compared in the core: on the way back to the grid a tilted plane would round.
+ */
 template <int D>
 bool HasMoved(const Model<D>& model, Index p)
 {
@@ -29,6 +34,9 @@ bool HasMoved(const Model<D>& model, Index p)
   return model.Frame.ToCore(x) != model.Mesh.point(p);
 }
 
+/**
+ * Old points first, in their order. Those that have moved, or are new, are noted for sampling.
+ */
 template <int D>
 void MapPoints(const Model<D>& model, OutputMap& map)
 {
@@ -75,6 +83,9 @@ bool IsStillThere(vtkUnstructuredGrid* grid, vtkIdType cell, const SimplexMesh<D
   return std::is_permutation(nodes.begin(), nodes.end(), ids);
 }
 
+/**
+ * Old cells first, in their order; then the new ones, each with the data of its parent.
+ */
 template <int D>
 void MapCells(const Model<D>& model, OutputMap& map)
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The report of the core as a table, and as field data.
 #include "vtkMeshOptimizeHistory.h"
 
 #include "vtkDataObject.h"
@@ -23,6 +24,9 @@ void AddColumn(vtkTable* table, const std::string& name)
   table->AddColumn(column);
 }
 
+/**
+ * By name: the order of the columns is for the eye only.
+ */
 template <class Array, class Value>
 void Append(vtkTable* table, const std::string& name, Value value)
 {
@@ -68,6 +72,7 @@ void StartHistory(vtkTable* table, bool isComposite, bool slides)
     AddColumn<vtkIdTypeArray>(table, name + "Tried");
     AddColumn<vtkIdTypeArray>(table, name + "Done");
   }
+  // Where nothing slides these columns would hold only zeros.
   if (slides)
   {
     AddColumn<vtkIdTypeArray>(table, "SurfaceChangeTried");
@@ -84,6 +89,7 @@ void AppendHistory(const meshopt::Report& report, int block, vtkTable* table)
 {
   for (const meshopt::PassRecord& row : report.history)
   {
+    // StartHistory() has decided which columns there are.
     if (table->GetColumnByName("Block"))
     {
       Append<vtkIntArray>(table, "Block", block);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From a grid to the mesh of the core. Cells that are not optimized hold their points, and
+// triangles and lines among them keep faces and edges.
 #include "vtkMeshOptimizeImport.h"
 
 #include "vtkMeshBridgeImport.h"
@@ -32,18 +34,21 @@ void ImportFixedPoints(const Cells& cells, vtkDataArray* mask, MeshInput<D>& inp
   }
 }
 
-void KeepEdge(Index a, Index b, MeshInput<2>& input)
-{
-  input.constrainedFacets.push_back({ a, b });
-}
+/**
+ * An edge of a plane mesh is a facet.
+ */
+void KeepEdge(Index a, Index b, MeshInput<2>& input) { input.keptFacets.push_back({ a, b }); }
 
-void KeepEdge(Index a, Index b, MeshInput<3>& input) { input.constrainedEdges.push_back({ a, b }); }
+void KeepEdge(Index a, Index b, MeshInput<3>& input) { input.keptEdges.push_back({ a, b }); }
 
+/**
+ * A triangle is a cell of a plane mesh, not a facet.
+ */
 void KeepTriangle(const vtkIdType*, MeshInput<2>&) {}
 
 void KeepTriangle(const vtkIdType* ids, MeshInput<3>& input)
 {
-  input.constrainedFacets.push_back(
+  input.keptFacets.push_back(
     { static_cast<Index>(ids[0]), static_cast<Index>(ids[1]), static_cast<Index>(ids[2]) });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The quality of each cell of the output, in the same measure and metric as in the run.
 #include "vtkMeshOptimizeQuality.h"
 
 #include "vtkCellData.h"

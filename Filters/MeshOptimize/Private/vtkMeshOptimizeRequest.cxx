@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Outcomes of several grids are added to one: what the user reads is about all of them.
 #include "vtkMeshOptimizeRequest.h"
 
 #include <algorithm>

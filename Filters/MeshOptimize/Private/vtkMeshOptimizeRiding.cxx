@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Triangles on the surface of tetrahedra carry boundary conditions. Where the surface slides they
+// cannot stay: they are made again from the facets of the result.
 #include "vtkMeshOptimizeRiding.h"
 
 #include "vtkMeshBridgeValues.h"
@@ -232,6 +234,10 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
 
 void MapRiding(const Model<2>&, const meshopt::BoundaryCurves&, OutputMap&) {}
 
+/**
+ * First takes out the triangles that are no facets any more, then adds one for each new facet of a
+ * patch that had triangles.
+ */
 void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, OutputMap& map)
 {
   if (model.Riding.empty())

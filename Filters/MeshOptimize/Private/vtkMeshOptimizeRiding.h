@@ -24,7 +24,7 @@ void ForKeptFacets(const meshopt::SimplexMesh<3>& mesh, F&& f)
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
     {
-      if (mesh.isConstrained(c, i) && mesh.adjacent(c, i) < mesh.handle(c, i))
+      if (mesh.isKept(c, i) && mesh.adjacent(c, i) < mesh.handle(c, i))
       {
         f(c, i);
       }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One grid from input to output, as steps that read like the header says: each is one call.
 #include "vtkMeshOptimizeRun.h"
 
 #include "vtkMeshBridgeCells.h"
@@ -50,6 +51,9 @@ void AddVolumes(const Request& request, const Model<D>& model, int when, Outcome
   }
 }
 
+/**
+ * The run itself, and what can be said of it before the export.
+ */
 template <int D>
 void Optimize(const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model,
   Outcome& outcome)
@@ -87,6 +91,7 @@ void OptimizeZone(const Request& request, const typename SurfaceOf<D>::type& sur
   std::vector<meshopt::Simplex<D>> others;
   const LeftOut rest = RestrictToZone(request, model, others);
   std::optional<std::pair<meshopt::SimplexMesh<D>, meshopt::NodalMetric<D>>> before;
+  // A copy of the state before, in case that the zone does not fit to the rest afterwards.
   if (!others.empty())
   {
     before.emplace(model.Mesh, model.Metric);
@@ -109,6 +114,9 @@ double DistanceOf(const meshopt::SlidingSurface& surface, const meshopt::Simplex
   return surface.distance(mesh);
 }
 
+/**
+ * Node sets come after the other point data, whose interpolated values they replace.
+ */
 template <int D>
 void Export(const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model,
   vtkUnstructuredGrid* output, Outcome& outcome)
@@ -161,6 +169,7 @@ Model<D> StartModel(vtkUnstructuredGrid* input, const InputArrays& arrays,
 template <int D>
 std::string MakeModel(const Request& request, Model<D>& model, typename SurfaceOf<D>::type& surface)
 {
+  // Before the mesh is built, since it changes which points are held.
   if (request.Slide)
   {
     FindRiding(model);
@@ -196,6 +205,9 @@ std::string OptimizeSimplices(
   return {};
 }
 
+/**
+ * A deep copy, since the output shares nothing with the input.
+ */
 void PassThrough(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output, Outcome& outcome)
 {
   output->DeepCopy(input);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Where a new point lies in the input, which decides the data it gets.
 #include "vtkMeshOptimizeSampling.h"
 
 #include "vtkMeshBridgeImport.h"

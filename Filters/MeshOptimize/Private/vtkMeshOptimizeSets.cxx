@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Node sets are seen as parts of the surface: a set that covers whole patches keeps its area, while
+// its points come and go.
 #include "vtkMeshOptimizeSets.h"
 
 #include "vtkMeshOptimizeRiding.h"
@@ -153,6 +155,8 @@ Sample SampleFacet(
   {
     model.Grid->GetPoint(facet[i], corners[i].data());
   }
+  // Barycentric weights as seen along the normal. A point beside the facet has a negative one,
+  // which becomes 0.
   const Vec<3> n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   Sample sample;
   double sum = 0.0;
@@ -238,6 +242,7 @@ std::vector<std::uint32_t> FindNodeSets(Model<3>& model)
     {
       vtkDataArray* array = data->GetArray(k);
       const int attribute = data->IsArrayAnAttribute(k);
+      // Ids tell points apart: they are no sets.
       const bool isId = attribute == vtkDataSetAttributes::GLOBALIDS ||
         attribute == vtkDataSetAttributes::PEDIGREEIDS;
       if (array && !isId && (array == model.Arrays.Patch) == (round == 0))

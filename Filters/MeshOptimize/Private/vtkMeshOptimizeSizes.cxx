@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Sizes and metric on their way into the core, and what the user has to know about their result.
 #include "vtkMeshOptimizeSizes.h"
 
 #include "vtkMeshBridgeGridView.h"
@@ -71,6 +72,7 @@ std::string SetMetric(const Request& request, Model<D>& model)
   {
     return {};
   }
+  // The core knows points, not arrays: it says which of the two the sentence is about.
   meshopt::NodalValues blamed;
   const std::string error = model.Metric.set(model.Mesh, vtkMeshBridge::ReadSizes(sizes),
     vtkMeshBridge::ReadTensors(tensors, model.Frame), &blamed);
@@ -83,6 +85,9 @@ std::string SetMetric(const Request& request, Model<D>& model)
     error;
 }
 
+/**
+ * Only points that no simplex of the mesh uses: the values of a run must not depend on ghosts.
+ */
 template <int D>
 void SetMetricOfGhosts(const Request& request, Model<D>& model)
 {
@@ -128,6 +133,9 @@ std::string CheckCount(const Request& request, const Model<D>& model)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * More than one sentence may apply; each says what the user can do.
+ */
 std::string DescribeSizes(const meshopt::Report& report, const Request& request)
 {
   const meshopt::SizeReport& sizes = report.sizes;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Reads what the boundary is to slide along: lines of a geometry, corner arrays, labels of patches;
+// and finds the faces that blocks share.
 #include "vtkMeshOptimizeSurface.h"
 
 #include "vtkMeshOptimizeRiding.h"
@@ -81,6 +83,9 @@ void ForLines(vtkPolyData* geometry, F&& f)
   }
 }
 
+/**
+ * Points that no line uses may have any coordinates.
+ */
 std::string FindUsedPoints(vtkPolyData* geometry, std::vector<char>& used)
 {
   const vtkIdType all = geometry->GetNumberOfPoints();
@@ -193,6 +198,7 @@ std::string ReadLines(
         const Index from = ids[points[k - 1]], to = ids[points[k]];
         if (from != to)
         {
+          // Lower end first, so that both sides of a crack become the same line.
           network.lines.push_back({ std::min(from, to), std::max(from, to) });
         }
       }
@@ -281,6 +287,7 @@ Place PlaceOf(vtkUnstructuredGrid* grid, const meshopt::Facet<3>& face)
   {
     grid->GetPoint(face[i], x[i].data());
   }
+  // Different blocks number the corners differently.
   std::sort(x.begin(), x.end());
   Place place;
   for (int i = 0; i < 9; ++i)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Explains cells that stay inverted. Users can mend a surface if they know where it is wrong: so
+// each reason comes with examples.
 #include "vtkMeshOptimizeTangle.h"
 
 #include "vtkIdList.h"
@@ -123,6 +125,7 @@ private:
   {
     for (const SurfaceFault<D>& fault : this->Faults)
     {
+      // Faults are sorted by kind: those without area come first.
       if (fault.kind != SurfaceFault<D>::NoArea)
       {
         break;
@@ -158,6 +161,9 @@ Reason FindReason(const SimplexMesh<D>& mesh, const meshopt::Report& report, Ind
     : NothingFound;
 }
 
+/**
+ * A part of a sentence, which follows a number of cells.
+ */
 std::string Explain(Reason reason, const std::string& faces, int dimension)
 {
   const std::string noun = dimension == 3 ? "faces" : "edges";

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Data of points and cells. Floating values are interpolated, all others are taken from the nearest
+// point: a mean of two ids is no id.
 #include "vtkMeshOptimizeTransfer.h"
 
 #include "vtkAbstractArray.h"
@@ -122,6 +124,10 @@ void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool 
 
 } // namespace
 
+/**
+ * Ids belong to a point, values to its place: a point that has moved keeps the first and gets
+ * others of the second.
+ */
 void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
   const std::vector<Sample>& samples, vtkDataSetAttributes* output)
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Warnings come after the results are stored: whoever observes them can ask the filter for figures.
 #include "vtkMeshOptimizeWarnings.h"
 
 #include "vtkMeshBridgeArrays.h"

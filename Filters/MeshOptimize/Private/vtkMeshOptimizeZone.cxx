@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Only a part of the mesh may change: it becomes a mesh of its own, whose surface is kept like any
+// other, and the rest is added to the report.
 #include "vtkMeshOptimizeZone.h"
 
 #include "vtkMeshOptimizeImport.h"
@@ -20,6 +22,9 @@ using meshopt::SimplexMesh;
 namespace
 {
 
+/**
+ * Not those stored in the mesh: only a run computes these.
+ */
 template <int D>
 std::vector<double> Qualities(const Model<D>& model, const meshopt::Options& options)
 {
@@ -37,6 +42,9 @@ std::vector<double> Qualities(const Model<D>& model, const meshopt::Options& opt
   return values;
 }
 
+/**
+ * The core swaps the last two nodes of a cell that it renumbers.
+ */
 template <int D>
 bool IsReversed(vtkUnstructuredGrid* grid, vtkIdType cell, const meshopt::Simplex<D>& nodes)
 {
@@ -88,6 +96,7 @@ LeftOut SumUp(const SimplexMesh<D>& mesh, const std::vector<double>& qualities, 
 {
   LeftOut rest;
   rest.Worst = std::numeric_limits<double>::infinity();
+  // Points of the zone are counted by its own run.
   std::vector<char> isKnown = MarkPoints(mesh, isInside);
   for (Index k = 0; k < mesh.numberOfInputCells(); ++k)
   {
@@ -221,9 +230,13 @@ bool FitsTogether(const SimplexMesh<D>& zone, const std::vector<meshopt::Simplex
     }
   }
   SimplexMesh<D> whole;
+  // It refuses a facet with more than two cells.
   return !SimplexMesh<D>::build(input, whole);
 }
 
+/**
+ * Rows of the history get the rest, too: they are about the whole mesh.
+ */
 void AddLeftOut(const LeftOut& rest, Outcome& outcome)
 {
   if (rest.NumberOfCells == 0)

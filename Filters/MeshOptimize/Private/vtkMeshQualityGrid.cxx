@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A grid as it is measured: unlike the optimizer, this takes curved cells by their corners,
+// triangles in space, and cells that cannot be used, which get NaN.
 #include "vtkMeshQualityGrid.h"
 
 #include "vtkMeshBridgeValues.h"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Measures cells in chunks of one length, which are merged in their order: figures have the same
+// bits for any number of threads.
 #include "vtkMeshQualityMeasure.h"
 
 #include "Metric/TensorFunctions.h"
@@ -170,10 +172,14 @@ struct Chunk
   std::vector<meshopt::WorstElement> Worst;
 };
 
+/**
+ * Measures the cells [begin, end) and adds them up. Ghosts are measured, but do not count.
+ */
 template <class Shape>
 void MeasureChunk(const Grid& grid, const Evaluator<Shape>& evaluate, std::size_t worst,
   std::int64_t part, vtkIdType begin, vtkIdType end, double* quality, Chunk& chunk)
 {
+  // Collected first, since statistics of an array are faster than those of single values.
   std::array<double, meshopt::StatisticsChunk> counted;
   std::int64_t n = 0;
   meshopt::WorstElements worstCells(worst);

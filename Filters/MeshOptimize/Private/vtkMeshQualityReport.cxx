@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Figures of all ranks are brought together, and become tables.
 #include "vtkMeshQualityReport.h"
 
 #include "vtkCell.h"
@@ -49,6 +50,9 @@ void Put(vtkMultiProcessStream& stream, const Sums& s)
   stream << q.minimum << q.maximum << q.mean << q.squares << s.Bound;
 }
 
+/**
+ * In the order in which Put() has written.
+ */
 Sums TakeSums(vtkMultiProcessStream& stream)
 {
   Sums s;
@@ -61,6 +65,9 @@ Sums TakeSums(vtkMultiProcessStream& stream)
   return s;
 }
 
+/**
+ * The order here is the format: TakeFigures() reads in the same.
+ */
 void Put(vtkMultiProcessStream& stream, const Figures& f)
 {
   stream << f.HasTetrahedra << f.HasTriangles;
@@ -88,6 +95,7 @@ Figures TakeFigures(vtkMultiProcessStream& stream, std::size_t numberOfWorstCell
   stream >> f.HasTetrahedra >> f.HasTriangles;
   f.GhostSimplices = TakeCount(stream);
   f.Total = TakeSums(stream);
+  // Lists begin with their length.
   for (std::int64_t n = TakeCount(stream); n > 0; --n)
   {
     const long long region = TakeCount(stream);
@@ -177,6 +185,7 @@ meshopt::QualityHistogram MakeHistogram(
   const Options& options, const Figures& figures, int numberOfBins)
 {
   const meshopt::QualityStatistics& q = figures.Total.Quality;
+  // From 0, or from the worst inverted cell.
   const double low = std::min(0.0, q.minimum);
   const double high = std::max(GreatestQuality(options, figures), q.maximum);
   return meshopt::QualityHistogram(low, high, numberOfBins);
@@ -279,6 +288,7 @@ void FillWorstCells(const Options& options, const std::vector<meshopt::WorstElem
     {
       double x[3];
       block->Mesh->GetPoint(nodes->GetId(k), x);
+      // Points that several cells share come once.
       const auto at = known.emplace(nodes->GetId(k), points->GetNumberOfPoints());
       if (at.second)
       {

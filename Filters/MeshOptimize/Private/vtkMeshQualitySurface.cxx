@@ -56,6 +56,7 @@ public:
   {
   }
 
+  /// Two passes: all facets are combined; then the facets at points with a remainder are collected.
   std::vector<Candidate> Find()
   {
     const vtkIdType n = this->Mesh.GetNumberOfCells();
@@ -148,6 +149,7 @@ private:
   void Add(vtkIdType point, Key key, bool alone)
   {
     std::atomic<Key>& number = this->Numbers[point];
+    // One thread needs no atomic exchange, which is slower.
     if (alone)
     {
       number.store(number.load(std::memory_order_relaxed) ^ key, std::memory_order_relaxed);
@@ -158,6 +160,7 @@ private:
     }
   }
 
+  /// Also facets with two cells, if they lie at such a point: KeepSingle() sorts these out.
   void Collect(vtkIdType cell, std::vector<Candidate>& out) const
   {
     Facets f;
@@ -256,6 +259,7 @@ void MeasureSurfaceOf(
 {
   const std::vector<Candidate> facets = SurfaceFinder<D>(grid).Find();
   SurfacePoints<D> points(grid);
+  // Region by region, since each has a bound of its own.
   std::vector<std::vector<KeptSide<D>>> sides(std::max<std::size_t>(1, grid.GetRegions().size()));
   for (const Candidate& facet : facets)
   {
@@ -271,6 +275,7 @@ void MeasureSurfaceOf(
       side.nodes[k] = points.Number(ids[meshopt::Local<D>::facets[facet.Facet][k]]);
     }
     side.cell = static_cast<Index>(facet.Cell);
+    // On which side of a flat or inverted cell the mesh lies is not known.
     side.oriented = quality[facet.Cell] > 0.0;
     sides[grid.GetRegion(facet.Cell)].push_back(side);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From a solution or an error indicator of a grid to arrays that Mesh Optimize reads.
 #include "vtkSolutionMetricRun.h"
 
 #include "vtkMeshBridgeArrays.h"
@@ -129,6 +130,7 @@ std::string ReadSolution(
   for (std::size_t p = 0; p < cells.PointUse.size(); ++p)
   {
     double* tuple = &values[p * components];
+    // Elsewhere the solution may have any value.
     if (!(cells.PointUse[p] & bridge::UsedBySimplex))
     {
       continue;
@@ -149,6 +151,9 @@ std::string ReadSolution(
   return {};
 }
 
+/**
+ * In the order of the simplices, as the core numbers its cells.
+ */
 std::string ReadErrors(vtkDataArray* array, const bridge::Cells& cells, std::vector<double>& values)
 {
   for (vtkIdType cell : cells.Simplices)
@@ -189,6 +194,9 @@ Tensor<3> ToGrid(const Tensor<2>& m, const bridge::Frame<2>& frame)
     std::sqrt(m.determinant()) * n * n.transpose();
 }
 
+/**
+ * From 1 / length^2 to lengths.
+ */
 template <int D>
 Tensor<D> InverseRoot(const Tensor<D>& m)
 {

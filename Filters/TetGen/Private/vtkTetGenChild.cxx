@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// TetGen runs in a process of its own, which a crash or an abort may end. Two pipes lead back from
+// it: what it prints, which tells the phase, and the mesh.
 #include "vtkTetGenChild.h"
 
 #include <algorithm>
@@ -82,6 +84,9 @@ private:
 };
 
 //------------------------------------------------------------------------------
+/**
+ * A pipe takes as much as it has room for: the rest goes with the next calls.
+ */
 bool WriteAll(int file, const void* data, std::size_t bytes)
 {
   auto from = static_cast<const char*>(data);
@@ -187,6 +192,7 @@ constexpr std::array<Phase, 10> Phases = { {
 class TextReader
 {
 public:
+  /// A line may come in pieces, so the search begins where the last line began.
   void Add(const char* data, std::size_t bytes)
   {
     const std::size_t begin = this->Text.rfind('\n') + 1; // npos + 1 is 0
@@ -240,6 +246,7 @@ bool Listen(int textFile, int meshFile, const ChildProgress& progress, TextReade
     {
       files[1].fd = -1;
     }
+    // Asked at least every PollMilliseconds, so that an abort does not wait for TetGen.
     if (!progress(text.Current.Fraction, text.Current.Text))
     {
       return false;

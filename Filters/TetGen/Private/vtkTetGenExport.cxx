@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From TetGen's mesh to a grid: points of the input keep their ids and their data.
 #include "vtkTetGenExport.h"
 
 #include "vtkCellArray.h"
@@ -46,6 +47,9 @@ void ExportPoints(
   output->SetPoints(points);
 }
 
+/**
+ * Points of the surface take back their ids; those that TetGen has added come behind all others.
+ */
 void ExportCells(
   vtkIdType old, const Surface& surface, const Mesh& mesh, vtkUnstructuredGrid* output)
 {
@@ -109,6 +113,9 @@ void ExportPointData(vtkPolyData* input, vtkUnstructuredGrid* output)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Six times the volume of (a, b, c, x).
+ */
 double Side(const double* a, const double* b, const double* c, const double* x)
 {
   double u[3], v[3], w[3];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The only file that calls TetGen.
 #include "vtkTetGenJob.h"
 
 #include <tetgen.h>
@@ -13,6 +14,9 @@ namespace vtkTetGenBridge
 namespace
 {
 
+/**
+ * TetGen's structure owns its arrays and deletes them.
+ */
 double* NewArray(const std::vector<double>& values)
 {
   double* array = new double[values.size()];

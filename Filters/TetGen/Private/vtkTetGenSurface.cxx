@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks a surface before TetGen sees it, so that the user reads where it is wrong instead of how
+// TetGen failed.
 #include "vtkTetGenSurface.h"
 
 #include "vtkCellArray.h"
@@ -46,6 +48,9 @@ std::string Coordinates(const double* x)
   return text.str();
 }
 
+/**
+ * With the id that the user knows, and the place.
+ */
 std::string DescribePoint(const Surface& surface, int point)
 {
   return "point " + std::to_string(surface.PointIds[point]) + " " + Coordinates(At(surface, point));
@@ -149,6 +154,9 @@ vtkSmartPointer<vtkPolyData> CutIntoTriangles(vtkPolyData* input)
 }
 
 //------------------------------------------------------------------------------
+/**
+ * TetGen cannot start from points in one plane.
+ */
 std::string CheckCoordinates(const Surface& surface)
 {
   double lower[3], upper[3];
@@ -179,6 +187,10 @@ std::string CheckCoordinates(const Surface& surface)
   return {};
 }
 
+/**
+ * Sorted by place: points at the same place stand together. Of several pairs the one with the
+ * lowest id is named.
+ */
 std::string CheckDuplicatePoints(const Surface& surface)
 {
   std::vector<int> order(surface.PointIds.size());
@@ -224,6 +236,9 @@ bool HasArea(const Surface& surface, const Triangle& t)
   return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > Flat * longest2;
 }
 
+/**
+ * Sorted by their points, equal facets stand together.
+ */
 std::string CheckTriangles(const Surface& surface)
 {
   std::vector<std::pair<Triangle, int>> sorted;
@@ -250,6 +265,9 @@ std::string CheckTriangles(const Surface& surface)
   return {};
 }
 
+/**
+ * Every edge must have facets on two sides, or the inside would leak out.
+ */
 std::string CheckClosed(const Surface& surface)
 {
   std::vector<std::pair<Edge, int>> edges;
@@ -323,6 +341,7 @@ std::string ReadSurface(vtkPolyData* input, Surface& surface)
     {
       number[ids[k]] = 0;
     }
+    // For messages, which name cells of the input.
     surface.CellIds.push_back(cellIds->GetValue(i));
   }
   for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)
@@ -452,6 +471,9 @@ std::string DescribeIntersections(
   return text + (pairs.size() > shown ? "; ..." : ".");
 }
 
+/**
+ * Compared as sorted triples: the mesh numbers its faces in another order.
+ */
 int FindLostTriangle(const Surface& surface, const std::vector<int>& tetrahedra)
 {
   std::vector<Triangle> faces;

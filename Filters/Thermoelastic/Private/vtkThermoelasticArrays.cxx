@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The arrays that the filter reads, in one table, with the names that it looks for if none is
+// chosen.
 #include "vtkThermoelasticArrays.h"
 
 #include "vtkMeshBridgeArrays.h"
@@ -36,6 +38,7 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
   for (int i = 0; i < NumberOfInputArrays; ++i)
   {
     vtkAbstractArray* found = vtkMeshBridge::FindArray(filter, grid, i, Roles[i]);
+    // Only an array that was chosen must be there: the default names are offers.
     if (!found && vtkMeshBridge::IsWanted(filter, i))
     {
       return vtkMeshBridge::DescribeMissing(

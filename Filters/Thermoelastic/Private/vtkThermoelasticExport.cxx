@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The solution as arrays of the grid. Vectors and stresses of plane meshes are turned back into
+// space.
 #include "vtkThermoelasticExport.h"
 
 #include "vtkCellData.h"
@@ -38,6 +40,9 @@ Vec<3> VectorToGrid(const Frame<2>& frame, const Vec<2>& u)
 }
 
 Tensor<3> StressToGrid(const Frame<3>&, const Stress<3>& s) { return meshopt::fem::toTensor<3>(s); }
+/**
+ * From the axes of the plane and its normal to those of the grid.
+ */
 Tensor<3> StressToGrid(const Frame<2>& frame, const Stress<2>& s)
 {
   Tensor<3> axes;
@@ -111,6 +116,9 @@ void ExportPointStress(
   }
 }
 
+/**
+ * The solution counts simplices; other cells of the grid have no value.
+ */
 template <int D>
 void ExportCellValues(const Model<D>& model, const std::vector<double>& values, const char* name,
   vtkUnstructuredGrid* output)
@@ -153,6 +161,9 @@ void ExportSolution(const Model<D>& model, const Solution<D>& solution, vtkUnstr
   }
 }
 
+/**
+ * Under the name that is looked for by default: the output can be the input of another run.
+ */
 void ExportTemperature(const std::vector<double>& temperature, vtkUnstructuredGrid* output)
 {
   vtkDoubleArray* array = AddArray(

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Pressure and tractions on the surface. A load that would be lost is an error, since the result
+// would look right.
 #include "vtkThermoelasticLoads.h"
 
 #include "vtkCellType.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// From arrays and properties to the problem of the core: temperature, materials, what is held.
 #include "vtkThermoelasticProblem.h"
 
 #include "vtkThermoelasticFilter.h"
@@ -65,6 +66,7 @@ std::string SetTemperature(const Request& request, Model<D>& model)
     {
       double x[3];
       model.Grid->GetPoint(p, x);
+      // The square of the distance from the axis, which runs through the origin.
       const double a = x[(request.Axis + 1) % 3], b = x[(request.Axis + 2) % 3];
       temperature[p] = request.AxisTemperature - request.RadialCoefficient * (a * a + b * b);
     }
@@ -72,6 +74,9 @@ std::string SetTemperature(const Request& request, Model<D>& model)
   return {};
 }
 
+/**
+ * One material for all, unless an array makes them differ.
+ */
 template <int D>
 void SetMaterials(const Request& request, Model<D>& model)
 {

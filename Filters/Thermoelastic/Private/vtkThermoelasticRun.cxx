@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One grid from input to output.
 #include "vtkThermoelasticRun.h"
 
 #include "vtkMeshBridgeImport.h"
@@ -119,7 +120,9 @@ std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnst
   KeepFigures(solution, outcome);
   if (solution.solver.status != SolverStatus::Cancelled)
   {
+    // Results are added to the copy. The arrays of the input are shared.
     output->ShallowCopy(input);
+    // A temperature by formula is shown, too; one from an array is there already.
     if (request.TemperatureMode != vtkThermoelasticFilter::PointArray)
     {
       ExportTemperature(model.Problem.temperature, output);

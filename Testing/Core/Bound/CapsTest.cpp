@@ -40,7 +40,7 @@ std::map<Facet<3>, double> facetCaps(const SimplexMesh<3>& mesh)
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
     {
-      if (mesh.isConstrained(c, i))
+      if (mesh.isKept(c, i))
       {
         Facet<3> f = mesh.facet(c, i);
         const double cap = facetCap(mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2]));

@@ -242,7 +242,7 @@ void keepSome(MeshInput<D>& in, TestRandom& random, double share)
         {
           f[k] = cell[Local<D>::facets[i][k]];
         }
-        in.constrainedFacets.push_back(f);
+        in.keptFacets.push_back(f);
       }
     }
   }

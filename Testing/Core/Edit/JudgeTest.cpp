@@ -244,7 +244,7 @@ TEST(Judge, WhereCellsOverlapNoEdgeMayCome)
 TEST(Judge, KeptEdgesStayUnlessTheProposalSaysOtherwise)
 {
   MeshInput<3> in = ringOf(3);
-  in.constrainedEdges = { { 1, 0 } };
+  in.keptEdges = { { 1, 0 } };
   Bench<3> b(in);
   Proposal<3> p = threeToTwo(b);
   expectRefused(b, [&] { return b.judge.accept(p); });

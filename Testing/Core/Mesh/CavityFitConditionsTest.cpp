@@ -85,7 +85,7 @@ TEST(CavityFitCondition3D, ANodeInARingIsNoFilling)
     for (int i = 0; i < 4; ++i)
     {
       const Facet<3> f = mesh.facet(c, i);
-      if (mesh.isConstrained(c, i))
+      if (mesh.isKept(c, i))
       {
         cone.push_back({ f[0], f[1], f[2], 3 * sections });
       }

@@ -274,9 +274,9 @@ TEST(CavityFit3D, KeptEdgesMustBeThereOrGo)
   const std::vector<Index> all{ 0, 1, 2 };
   MeshInput<3> in = ringOf(3);
   EXPECT_TRUE(keepsEdges<3>(buildMesh(in), all, two)); // none is kept
-  in.constrainedEdges = { { 2, 3 } };
+  in.keptEdges = { { 2, 3 } };
   EXPECT_TRUE(keepsEdges<3>(buildMesh(in), all, two));
-  in.constrainedEdges = { { 1, 0 } };
+  in.keptEdges = { { 1, 0 } };
   const SimplexMesh<3> mesh = buildMesh(in);
   EXPECT_FALSE(keepsEdges<3>(mesh, all, two));
   EXPECT_TRUE(keepsEdges<3>(mesh, all, { mesh.nodes(1) }));

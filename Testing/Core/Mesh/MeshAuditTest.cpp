@@ -60,7 +60,7 @@ TYPED_TEST(MeshAudit, FindsWhatIsBroken)
         s = k;
         side = i;
       }
-      else if (good.isConstrained(k, i))
+      else if (good.isKept(k, i))
       {
         r = k;
         rSide = i;

@@ -19,7 +19,7 @@ TEST(Editor2D, SwapAndBack)
   MeshEditor<2> editor(mesh);
   const Index c = 9;
   int i = 0;
-  while (mesh.isConstrained(c, i))
+  while (mesh.isKept(c, i))
   {
     ++i;
   }
@@ -139,7 +139,7 @@ TEST(Editor3D, ContractionBuriesAnInputPointButKeepsItsSlot)
 TEST(Editor3D, KeptEdgesAreHandedOn)
 {
   MeshInput<3> in = ringOf(4);
-  in.constrainedEdges = { { 0, 1 }, { 2, 3 } };
+  in.keptEdges = { { 0, 1 }, { 2, 3 } };
   SimplexMesh<3> mesh = buildMesh(in);
   MeshEditor<3> editor(mesh);
   const Index p = editor.addPoint(Vec<3>(0.3, 0.3, 0.0));
@@ -149,7 +149,7 @@ TEST(Editor3D, KeptEdgesAreHandedOn)
   {
     for (int e = 0; e < 6; ++e)
     {
-      marks += mesh.isEdgeConstrained(c, e);
+      marks += mesh.isEdgeKeptByItself(c, e);
     }
   }
   EXPECT_EQ(marks, 4); // each of both edges in two of the four cells
@@ -170,7 +170,7 @@ TYPED_TEST(Editor, RollbackRestoresEveryByte)
     if (seed == 3 && D == 3)
     {
       in = jitteredGrid<D>(3, 0.1, seed);
-      in.constrainedEdges = { { 21, 22 }, { 21, 37 } };
+      in.keptEdges = { { 21, 22 }, { 21, 37 } };
     }
     SimplexMesh<D> mesh = buildMesh(in);
     const auto kept = keptFacets(mesh);

@@ -95,14 +95,14 @@ void replaceAndCheck(MeshEditor<D>& editor, const std::vector<Index>& cavity,
       const Index h = mesh.adjacent(c, i);
       if (h == None || std::find(cavity.begin(), cavity.end(), mesh.cellOf(h)) == cavity.end())
       {
-        sides[sorted<D>(mesh.facet(c, i))] = { h, mesh.parent(c), mesh.isConstrained(c, i) };
+        sides[sorted<D>(mesh.facet(c, i))] = { h, mesh.parent(c), mesh.isKept(c, i) };
       }
     }
     for (int e = 0; e < Local<D>::numberOfEdges; ++e)
     {
       const Index a = mesh.nodes(c)[Local<D>::edges[e][0]];
       const Index b = mesh.nodes(c)[Local<D>::edges[e][1]];
-      if (mesh.isEdgeConstrained(c, e))
+      if (mesh.isEdgeKeptByItself(c, e))
       {
         keptEdges.insert({ std::min(a, b), std::max(a, b) });
       }
@@ -136,12 +136,12 @@ void replaceAndCheck(MeshEditor<D>& editor, const std::vector<Index>& cavity,
       const auto side = sides.find(sorted<D>(mesh.facet(c, i)));
       if (side == sides.end())
       {
-        EXPECT_FALSE(mesh.isConstrained(c, i));
+        EXPECT_FALSE(mesh.isKept(c, i));
         continue;
       }
       parents.insert(side->second.parent);
       EXPECT_EQ(mesh.adjacent(c, i), side->second.outside);
-      EXPECT_EQ(mesh.isConstrained(c, i), side->second.kept);
+      EXPECT_EQ(mesh.isKept(c, i), side->second.kept);
       sides.erase(side);
     }
     EXPECT_TRUE(parents.empty() ? mesh.parent(c) == parent : parents.count(mesh.parent(c)) == 1);
@@ -149,7 +149,7 @@ void replaceAndCheck(MeshEditor<D>& editor, const std::vector<Index>& cavity,
     {
       const Index a = cells[k][Local<D>::edges[e][0]], b = cells[k][Local<D>::edges[e][1]];
       EXPECT_EQ(
-        mesh.isEdgeConstrained(c, e), keptEdges.count({ std::min(a, b), std::max(a, b) }) == 1);
+        mesh.isEdgeKeptByItself(c, e), keptEdges.count({ std::min(a, b), std::max(a, b) }) == 1);
     }
     for (Index p : cells[k])
     {
@@ -226,7 +226,7 @@ private:
   std::vector<Index> pairOf(Index c)
   {
     const int i = this->below(D + 1);
-    return this->mesh().isConstrained(c, i)
+    return this->mesh().isKept(c, i)
       ? std::vector<Index>{ c }
       : std::vector<Index>{ c, this->mesh().cellOf(this->mesh().adjacent(c, i)) };
   }

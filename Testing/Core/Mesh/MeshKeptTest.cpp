@@ -61,7 +61,7 @@ TEST(MeshRing, AcrossKeptFacets)
   EXPECT_EQ(sorted(ring), sorted({ 0, 1, 2, 3, 4, 5 }));
 
   MeshInput<3> one = ringOf(6); // one kept facet only: an open ring of all cells
-  one.constrainedFacets = { { 1, 4, 0 } };
+  one.keptFacets = { { 1, 4, 0 } };
   const SimplexMesh<3> cut = buildMesh(one);
   EXPECT_FALSE(cut.ring(0, 0, 1, false, ring));
   EXPECT_EQ(sorted(ring), sorted({ 0, 1, 2, 3, 4, 5 }));
@@ -85,7 +85,7 @@ TYPED_TEST(MeshKept, RegionsAreKeptApart)
     {
       const Index h = mesh.adjacent(c, i);
       const bool kept = h == None || in.regions[mesh.cellOf(h)] != in.regions[c];
-      EXPECT_EQ(mesh.isConstrained(c, i), kept);
+      EXPECT_EQ(mesh.isKept(c, i), kept);
       interfaces += kept && h != None;
     }
   }
@@ -125,12 +125,12 @@ TYPED_TEST(MeshKept, ListedFacetsAndFixedPointsAreKept)
   ASSERT_NE(inner, None);
   Facet<D> kept = plain.facet(inner, facet);
   std::reverse(kept.begin(), kept.end()); // any order
-  in.constrainedFacets = { kept };
+  in.keptFacets = { kept };
   for (Index& p : kept)
   {
     p = 0; // nonsense is ignored
   }
-  in.constrainedFacets.push_back(kept);
+  in.keptFacets.push_back(kept);
   in.fixedPoints.assign(in.points.size(), 0);
   Index fixed = None;
   for (Index p = 0; p < plain.numberOfPointSlots(); ++p)
@@ -143,9 +143,9 @@ TYPED_TEST(MeshKept, ListedFacetsAndFixedPointsAreKept)
   ASSERT_NE(fixed, None);
   in.fixedPoints[fixed] = 1;
   const SimplexMesh<D> mesh = buildMesh(in);
-  EXPECT_TRUE(mesh.isConstrained(inner, facet));
+  EXPECT_TRUE(mesh.isKept(inner, facet));
   const Index h = mesh.adjacent(inner, facet);
-  EXPECT_TRUE(mesh.isConstrained(mesh.cellOf(h), mesh.facetOf(h)));
+  EXPECT_TRUE(mesh.isKept(mesh.cellOf(h), mesh.facetOf(h)));
   for (Index p : mesh.facet(inner, facet))
   {
     EXPECT_TRUE(!mesh.isFree(p) && mesh.isBoundary(p));
@@ -164,16 +164,16 @@ TYPED_TEST(MeshKept, ListedFacetsAndFixedPointsAreKept)
 TEST(MeshKept3D, EdgeIsMarkedInAllItsCells)
 {
   MeshInput<3> in = ringOf(5);
-  EXPECT_FALSE(buildMesh(in).hasConstrainedEdges());
-  in.constrainedEdges = { { 1, 0 }, { 77, -3 } };
+  EXPECT_FALSE(buildMesh(in).hasKeptEdges());
+  in.keptEdges = { { 1, 0 }, { 77, -3 } };
   const SimplexMesh<3> mesh = buildMesh(in);
-  EXPECT_TRUE(mesh.hasConstrainedEdges());
+  EXPECT_TRUE(mesh.hasKeptEdges());
   for (Index c = 0; c < 5; ++c)
   {
     int marked = 0;
     for (int e = 0; e < 6; ++e)
     {
-      if (mesh.isEdgeConstrained(c, e))
+      if (mesh.isEdgeKeptByItself(c, e))
       {
         ++marked;
         EXPECT_LE(mesh.nodes(c)[Local<3>::edges[e][0]], 1);
@@ -208,8 +208,8 @@ TEST(MeshKept3D, ListedAtAPointWhereBodiesTouch)
     in.cells = order ? second : first;
     const auto& then = order ? first : second;
     in.cells.insert(in.cells.end(), then.begin(), then.end());
-    in.constrainedFacets = { { 0, 1, 2 }, { 0, n, n + 1 } };
-    in.constrainedEdges = { { 0, 1 }, { 0, n } };
+    in.keptFacets = { { 0, 1, 2 }, { 0, n, n + 1 } };
+    in.keptEdges = { { 0, 1 }, { 0, n } };
     const SimplexMesh<3> mesh = buildMesh(in);
     EXPECT_EQ(mesh.eulerCharacteristic(), 1);
     int facets = 0, edges = 0;
@@ -217,11 +217,11 @@ TEST(MeshKept3D, ListedAtAPointWhereBodiesTouch)
     {
       for (int i = 0; i < 4; ++i)
       {
-        facets += mesh.isConstrained(c, i) && mesh.adjacent(c, i) != None;
+        facets += mesh.isKept(c, i) && mesh.adjacent(c, i) != None;
       }
       for (int e = 0; e < 6; ++e)
       {
-        edges += mesh.isEdgeConstrained(c, e);
+        edges += mesh.isEdgeKeptByItself(c, e);
       }
     }
     EXPECT_EQ(facets, 4);

@@ -162,7 +162,9 @@ TEST(CubeRoot, IsTheCubeRoot)
     }
   }
   EXPECT_EQ(cubeRoot(0.0), 0.0);
-  EXPECT_EQ(cubeRoot(27.0), 3.0);
+  // Not to the last bit: the C library's cbrt(3.375) is not exactly 1.5. A compiler that computes
+  // the constant itself finds 3.
+  EXPECT_DOUBLE_EQ(cubeRoot(27.0), 3.0);
   EXPECT_EQ(cubeRoot(-8.0), -2.0);
 }
 

@@ -300,7 +300,7 @@ TYPED_TEST(Mesh, FacetsLeadToTheCellBehind)
       std::vector<Index> both = cellsAt(mesh, std::vector<Index>(f.begin(), f.end()));
       const Index h = mesh.adjacent(c, i);
       ASSERT_EQ(both.size(), h == None ? 1u : 2u);
-      EXPECT_EQ(mesh.isConstrained(c, i), h == None);
+      EXPECT_EQ(mesh.isKept(c, i), h == None);
       if (h != None)
       {
         const Index o = mesh.cellOf(h);

@@ -81,7 +81,7 @@ struct Bench
       for (int i = 0; i <= D && (set >> c & 1); ++i)
       {
         const Index h = this->mesh.adjacent(c, i);
-        if (h != None && !this->mesh.isConstrained(c, i) && (set >> this->mesh.cellOf(h) & 1))
+        if (h != None && !this->mesh.isKept(c, i) && (set >> this->mesh.cellOf(h) & 1))
         {
           continue;
         }
@@ -106,7 +106,7 @@ struct Bench
         for (int i = 0; i <= D && (reached >> c & 1); ++i)
         {
           const Index h = this->mesh.adjacent(c, i);
-          if (h != None && !this->mesh.isConstrained(c, i))
+          if (h != None && !this->mesh.isKept(c, i))
           {
             reached |= set & (1u << this->mesh.cellOf(h));
           }
@@ -236,11 +236,11 @@ TEST(Cavity3D, KeptFacetsAreNotCrossed)
   for (unsigned k = 1; k <= 4; ++k)
   {
     MeshInput<3> in = doubleRing(5, k);
-    in.constrainedFacets = { { 0, 2, 3 }, { 2, 4, 5 } };
+    in.keptFacets = { { 0, 2, 3 }, { 2, 4, 5 } };
     equalsAll<3, MeanEdgeShape<3>>(in, Measure::Shape, k, largest);
     in.regions.assign(10, 0);
     in.regions[2] = in.regions[3] = in.regions[4] = 1;
-    in.constrainedFacets.clear();
+    in.keptFacets.clear();
     equalsAll<3, MeanEdgeShape<3>>(in, Measure::Shape, k, largest);
   }
   EXPECT_GE(largest, 2u);
@@ -253,7 +253,7 @@ TEST(Cavity2D, BestPrefixIsTheBestOfAllCavities)
   {
     MeshInput<2> in = disc(k);
     equalsAll<2, MeanEdgeShape<2>>(in, Measure::Shape, k, largest);
-    in.constrainedFacets = { { 0, 1 } };
+    in.keptFacets = { { 0, 1 } };
     equalsAll<2, VolumeLengthShape<2>>(in, Measure::VolumeLength, k, largest);
   }
   EXPECT_GE(largest, 4u);
@@ -327,7 +327,7 @@ TEST(Cavity3D, KeptEdgesStay)
     const auto& cells = free.cavity.cells();
     EXPECT_EQ(std::count(cells.begin(), cells.end(), c), 1);
   }
-  in.constrainedEdges = { { 2, 0 } };
+  in.keptEdges = { { 2, 0 } };
   for (Index seed = 0; seed < 10; seed += 2)
   {
     Bench<3, MeanEdgeShape<3>> kept(in, Measure::Shape);

@@ -33,7 +33,7 @@ struct Plane
     Vec<2> x = 0.5 * (this->mesh.point(f[0]) + this->mesh.point(f[1]));
     Place place;
     const auto span = this->curves.span(this->mesh, f[0], f[1]);
-    if (this->mesh.isConstrained(t, i) && span)
+    if (this->mesh.isKept(t, i) && span)
     {
       place = { Freedom::Curve, span->part, 0.5 * (span->from + span->to) };
       x = this->curves.at(place.part, place.parameter);
@@ -116,7 +116,7 @@ TEST(EdgeChange, EveryEdgeCanBeSplit)
     {
       for (int i = 0; i < 3 && plane.mesh.isAlive(t); ++i)
       {
-        const bool isKept = plane.mesh.isConstrained(t, i);
+        const bool isKept = plane.mesh.isKept(t, i);
         const Index cells = plane.mesh.countCells();
         const bool onSurface = plane.mesh.adjacent(t, i) == None;
         const Snapshot<2> before(plane.editor);
@@ -143,7 +143,7 @@ TEST(EdgeChange, OneAfterTheOther)
     {
       for (int i = 0; i < 3 && plane.mesh.isAlive(t); ++i)
       {
-        splits += plane.mesh.isConstrained(t, i) && plane.split(t, i);
+        splits += plane.mesh.isKept(t, i) && plane.split(t, i);
       }
     }
     EXPECT_GE(splits, 4);
@@ -239,7 +239,7 @@ TEST(EdgeChange, InterfacesKeepTheirRegionsOnBothSides)
       for (int i = 0; i < 3 && plane.mesh.isAlive(t); ++i)
       {
         const Index h = plane.mesh.adjacent(t, i);
-        if (h == None || !plane.mesh.isConstrained(t, i))
+        if (h == None || !plane.mesh.isKept(t, i))
         {
           continue;
         }

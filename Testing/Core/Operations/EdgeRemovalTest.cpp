@@ -156,15 +156,15 @@ TEST(EdgeRemoval3D, RefusesWhatMustStay)
   EXPECT_GT(proposed(good), 0.1);
 
   MeshInput<3> edge = good;
-  edge.constrainedEdges = { { 1, 0 } };
+  edge.keptEdges = { { 1, 0 } };
   EXPECT_EQ(proposed(edge), Never);
-  edge.constrainedEdges = { { 0, 2 } }; // another edge
+  edge.keptEdges = { { 0, 2 } }; // another edge
   EXPECT_GT(proposed(edge), 0.1);
 
   for (Index k = 0; k < 5; ++k) // wherever the kept facet lies, also at the cell asked about
   {
     MeshInput<3> facet = good;
-    facet.constrainedFacets = { { 0, 1, 2 + k } };
+    facet.keptFacets = { { 0, 1, 2 + k } };
     EXPECT_EQ(proposed(facet), Never) << k;
     MeshInput<3> open = good; // the same for the surface
     open.cells.erase(open.cells.begin() + k);
@@ -211,7 +211,7 @@ TEST(EdgeRemoval2D, Swap)
     {
       if (kept)
       {
-        in.constrainedFacets = { { 1, 0 } };
+        in.keptFacets = { { 1, 0 } };
       }
       SimplexMesh<2> mesh = buildMesh(in);
       MeshEditor<2> editor(mesh);

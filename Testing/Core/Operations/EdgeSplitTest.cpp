@@ -158,13 +158,13 @@ TYPED_TEST(SplittingEdge, KeptEdgesAndOthersCellsStay)
   expectRefused(away, [&] { return split<D>(away, Vec<D>::Zero()); });
   if (D == 2)
   {
-    in.constrainedFacets.emplace_back();
-    in.constrainedFacets[0][0] = 0;
-    in.constrainedFacets[0][1] = 1;
+    in.keptFacets.emplace_back();
+    in.keptFacets[0][0] = 0;
+    in.keptFacets[0][1] = 1;
   }
   else
   {
-    in.constrainedEdges = { { 0, 1 } };
+    in.keptEdges = { { 0, 1 } };
   }
   Bench<D> kept(in);
   expectRefused(kept, [&] { return split<D>(kept, Vec<D>::Zero()); });

@@ -190,9 +190,9 @@ TEST(FaceRemoval, KeptFacesStay)
   MeshInput<3> in = bipyramid(0.4);
   EXPECT_GT(proposed(in), 0.0);
   EXPECT_EQ(proposed(in, true), Never); // the other cell is another worker's
-  in.constrainedFacets = { { 2, 3, 4 } };
+  in.keptFacets = { { 2, 3, 4 } };
   EXPECT_EQ(proposed(in), Never);
-  in.constrainedFacets.clear();
+  in.keptFacets.clear();
   in.regions = { 0, 1 };
   EXPECT_EQ(proposed(in), Never);
   in = bipyramid(0.4);

@@ -43,7 +43,7 @@ double withoutFacet(const Bench<D>& b, Index t, Index a)
   std::copy_if(b.mesh.nodes(t).begin(), b.mesh.nodes(t).end(), std::back_inserter(facet),
     [&](Index p) { return p != a; });
   const std::vector<Index> pair = cellsAt(b.mesh, facet);
-  if (pair.size() != 2 || b.mesh.isConstrained(t, b.mesh.localIndex(t, a)))
+  if (pair.size() != 2 || b.mesh.isKept(t, b.mesh.localIndex(t, a)))
   {
     return Never;
   }

@@ -113,7 +113,7 @@ TEST(Retriangulation, KeptFacetsAndOthersCellsStay)
   free.switches.insertNodes = false;
   Again again;
   ASSERT_TRUE(again.improve(free.judge, 0, Level::LongLookAhead));
-  in.constrainedFacets = { { 4, 5, 0 }, { 4, 5, 1 }, { 4, 5, 2 }, { 4, 5, 3 } };
+  in.keptFacets = { { 4, 5, 0 }, { 4, 5, 1 }, { 4, 5, 2 }, { 4, 5, 3 } };
   Bench<3> kept(in);
   kept.switches.insertNodes = false;
   expectRefused(kept, [&] { return again.improve(kept.judge, 0, Level::LongLookAhead); });

@@ -267,14 +267,14 @@ TEST(SmallPolyhedron, KeepsWhatMustStay)
   const MeshInput<3> good = ringOf(5, 1.5, 0.0, 1);
   EXPECT_GT(proposed(good), 0.1);
   MeshInput<3> in = good;
-  in.constrainedEdges = { { 0, 1 } };
+  in.keptEdges = { { 0, 1 } };
   EXPECT_EQ(proposed(in), Never);
-  in.constrainedEdges = { { 0, 2 } }; // at the surface anyway
+  in.keptEdges = { { 0, 2 } }; // at the surface anyway
   EXPECT_GT(proposed(in), 0.1);
   for (Index k = 0; k < 5; ++k)
   {
     in = good;
-    in.constrainedFacets = { { 0, 1, 2 + k } };
+    in.keptFacets = { { 0, 1, 2 + k } };
     EXPECT_EQ(proposed(in), Never) << k;
     EXPECT_EQ(proposed(good, 2 + k), Never) << k;
   }
@@ -299,7 +299,7 @@ TEST(SmallPolyhedron, WhatIsEnoughDoesNotCount)
   const double all = r.propose(b.editor, b.model, 0, above, {},
     [&](Index c, int i)
     {
-      EXPECT_TRUE(b.mesh.isConstrained(c, i));
+      EXPECT_TRUE(b.mesh.isKept(c, i));
       ++asked;
       return 0.5 * q;
     });
@@ -317,7 +317,7 @@ TEST(SmallPolyhedron, WholeMeshes)
     if (seed == 3)
     {
       splitRegions<3>(in);
-      in.constrainedEdges = { { 31, 62 } };
+      in.keptEdges = { { 31, 62 } };
     }
     Reconnection::Limits limits;
     limits.newPoints = seed == 2 ? 6 : 0;

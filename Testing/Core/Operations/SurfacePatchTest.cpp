@@ -111,7 +111,7 @@ protected:
     {
       for (int i = 0; i < 4 && this->mesh.isAlive(c); ++i)
       {
-        if (this->mesh.isConstrained(c, i))
+        if (this->mesh.isKept(c, i))
         {
           f(c, i);
         }

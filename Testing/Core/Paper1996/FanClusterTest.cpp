@@ -51,7 +51,7 @@ struct Facets
         this->kept.insert(f);
       }
     }
-    for (const Facet<D>& f : in.constrainedFacets)
+    for (const Facet<D>& f : in.keptFacets)
     {
       this->kept.insert(sorted(Face(f.begin(), f.end())));
     }
@@ -251,7 +251,7 @@ TYPED_TEST(FanClusters, OnBothSidesOfAKeptFacetAreNotGiven)
     {
       Facet<D> f;
       std::transform(std::begin(local), std::end(local), f.begin(), [&](int k) { return cell[k]; });
-      in.constrainedFacets = { f };
+      in.keptFacets = { f };
       across += compareAll<D>(in)[Outcome::AcrossKept];
     }
   }

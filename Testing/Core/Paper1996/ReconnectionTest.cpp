@@ -184,10 +184,10 @@ TEST(Reconnection, InterfaceAndFixedNodesStay)
   expectSound(flat);
 }
 
-TEST(Reconnection, ConstrainedEdgeStays)
+TEST(Reconnection, KeptEdgeStays)
 {
   MeshInput<3> in = ring(4, 3.0);
-  in.constrainedEdges = { { 0, 1 } };
+  in.keptEdges = { { 0, 1 } };
   SimplexMesh<3> mesh = buildMesh(in);
   run<3>(mesh, {});
   bool found = false;

@@ -51,7 +51,7 @@ TEST(KeptSizes, NoFloorWhereNoEdgeIsTwiceTooLong)
 TEST(KeptSizes, KeptEdgesInsideCount)
 {
   MeshInput<2> in = twoTriangles();
-  in.constrainedFacets = { { 0, 3 } };
+  in.keptFacets = { { 0, 3 } };
   double longest = 0.0;
   EXPECT_NE(floorOf<2>(buildMesh(in), NodalMetric<2>(0.6), longest), nullptr);
   EXPECT_NEAR(longest, std::sqrt(2.0) / 0.6, 1e-15);

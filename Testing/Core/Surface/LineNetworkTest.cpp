@@ -47,7 +47,7 @@ TEST(LineNetwork, KeptLinesAreThoseAtOneCellOrTwoRegions)
 {
   MeshInput<2> in = jitteredGrid<2>(6, 0.2);
   splitRegions(in);
-  in.constrainedFacets = { { 8, 9 } };
+  in.keptFacets = { { 8, 9 } };
   in.fixedPoints.assign(in.points.size(), 0);
   in.fixedPoints[3] = in.fixedPoints[24] = 1;
   std::map<std::set<Index>, std::set<Index>> cells; // of each edge

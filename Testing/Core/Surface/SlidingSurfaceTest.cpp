@@ -288,4 +288,72 @@ TEST(SlidingSurface, AThinPlateIsNotPressedFlat)
   EXPECT_NEAR(slid.mesh.volume(), thickness, 0.22 * thickness);
   EXPECT_LE(sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 3), thickness / 7.0);
 }
+
+/// Keeps the facets whose points all are in the middle of the first direction, then bends the body.
+/// Both sides of this sheet are of one region.
+std::vector<Index> addBentSheet(MeshInput<3>& in, int n)
+{
+  std::vector<Index> points;
+  const auto isOn = [&](Index p) { return p % (n + 1) == n / 2; };
+  for (const Simplex<3>& t : in.cells)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      const Facet<3> f{ t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4] };
+      if (std::all_of(f.begin(), f.end(), isOn))
+      {
+        in.keptFacets.push_back(f);
+      }
+    }
+  }
+  for (std::size_t p = 0; p < in.points.size(); ++p)
+  {
+    Vec<3>& x = in.points[p];
+    const bool on = isOn(static_cast<Index>(p));
+    x[0] = (on ? 0.5 : x[0]) + 0.13 * x[1] * x[1] + 0.07 * x[2];
+    if (on)
+    {
+      points.push_back(static_cast<Index>(p));
+    }
+  }
+  return points;
+}
+
+TEST(SlidingSurface, PointsOfASheetInsideOfARegionSlideInIt)
+{
+  constexpr int n = 4;
+  MeshInput<3> in = slidingBox(n, 0.2, 7);
+  const std::vector<Index> points = addBentSheet(in, n);
+  SurfaceOptions options;
+  options.tolerance = 1e-2;
+  Sliding made(in, options);
+  int inside = 0;
+  std::vector<Index> star;
+  for (Index p : points)
+  {
+    if (made.mesh.freedom(p) == Freedom::Patch)
+    {
+      ++inside;
+      made.editor.star(p, star);
+      std::array<Vec<3>, 3> basis;
+      ASSERT_EQ(made.surface.tangents(made.mesh, star, p, basis), 2) << p;
+      const Vec<3> normal = Vec<3>(1.0, -0.26 * in.points[p][1], -0.07).normalized();
+      EXPECT_NEAR(std::fabs(basis[0].cross(basis[1]).dot(normal)), 1.0, 0.02) << p;
+    }
+  }
+  EXPECT_EQ(inside, (n - 1) * (n - 1));
+}
+
+TEST(SlidingSurface, ASheetInsideOfARegionStaysWithinItsTolerance)
+{
+  constexpr double tolerance = 1e-2;
+  MeshInput<3> in = slidingBox(6, 0.3, 7);
+  addBentSheet(in, 6);
+  const SimplexMesh<3> before = buildMesh(in);
+  const Outcome kept = optimized(in, tolerance, false), slid = optimized(in, tolerance);
+  EXPECT_GT(slid.report.worstAfter, kept.report.worstAfter);
+  EXPECT_LE(slid.distance, tolerance);
+  EXPECT_LE(sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 4), tolerance);
+  EXPECT_LE(sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 4), tolerance);
+}
 }

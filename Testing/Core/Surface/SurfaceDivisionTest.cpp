@@ -99,7 +99,7 @@ TEST(SurfaceDivision, ARidgeThatEndsOnABorderEndsInACorner)
     {
       if (onRidge(a) && onRidge(b) && std::fabs(in.points[b][1] - in.points[a][1] - 0.25) < 1e-9)
       {
-        in.constrainedEdges.push_back({ a, b });
+        in.keptEdges.push_back({ a, b });
       }
     }
   }
@@ -174,7 +174,7 @@ TEST(SurfaceDivision, WhatTheCallerMarksStays)
       const Facet<3> f = locked.mesh.facet(c, i);
       const bool isFloor = std::all_of(
         f.begin(), f.end(), [&](Index p) { return locked.mesh.point(p)[2] == 0.0; });
-      if (locked.mesh.isConstrained(c, i))
+      if (locked.mesh.isKept(c, i))
       {
         EXPECT_EQ(locked.mesh.patch(c, i) == None, isFloor);
       }
@@ -193,7 +193,7 @@ TEST(SurfaceDivision, NumbersOfFacetsAndLinesDivideAFace)
     {
       const Facet<3> f = mesh.facet(c, i);
       double x = 0.0;
-      bool isFloor = mesh.isConstrained(c, i);
+      bool isFloor = mesh.isKept(c, i);
       for (Index p : f)
       {
         x += mesh.point(p)[0] / 3.0;
@@ -223,11 +223,11 @@ TEST(SurfaceDivision, NumbersOfFacetsAndLinesDivideAFace)
       const Vec<3>&a = in.points[p], &b = in.points[q];
       if (a[0] == 0.5 && a[2] == 0.0 && b == Vec<3>(0.5, a[1] + 0.25, 0.0))
       {
-        in.constrainedEdges.push_back({ static_cast<Index>(p), static_cast<Index>(q) });
+        in.keptEdges.push_back({ static_cast<Index>(p), static_cast<Index>(q) });
       }
     }
   }
-  ASSERT_EQ(in.constrainedEdges.size(), 4u);
+  ASSERT_EQ(in.keptEdges.size(), 4u);
   const Sliding lined(in, {});
   EXPECT_EQ(lined.surface.numberOfPatches(), 7); // the line goes from side to side
   EXPECT_EQ(lined.surface.numberOfCurves(), 15u);

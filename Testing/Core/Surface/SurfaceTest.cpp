@@ -156,8 +156,8 @@ TEST(Surface, SpansGoFromPointToPoint)
         const auto back = made.surface().span(mesh, f[1], f[0]);
         ASSERT_EQ(span.has_value(), back.has_value());
         EXPECT_EQ(made.surface().mayDivide(mesh, {}, f[0], f[1]), span.has_value());
-        EXPECT_TRUE(span || !mesh.isConstrained(c, i));
-        if (!span || !mesh.isConstrained(c, i))
+        EXPECT_TRUE(span || !mesh.isKept(c, i));
+        if (!span || !mesh.isKept(c, i))
         {
           continue;
         }

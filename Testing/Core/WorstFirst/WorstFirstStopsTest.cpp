@@ -60,7 +60,7 @@ MeshInput<3> conedCube(const Vec<3>& apex)
   {
     for (int i = 0; i < 4; ++i)
     {
-      if (cube.isConstrained(c, i))
+      if (cube.isKept(c, i))
       {
         const Facet<3> f = cube.facet(c, i);
         in.cells.push_back({ f[0], f[1], f[2], static_cast<Index>(in.points.size()) - 1 });

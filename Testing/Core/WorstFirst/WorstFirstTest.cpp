@@ -125,7 +125,7 @@ TYPED_TEST(WorstFirst, KeepsWhatMustStay)
   {
     edges.push_back({ plain.nodes(c)[0], plain.nodes(c)[3] });
   }
-  in.constrainedEdges = edges;
+  in.keptEdges = edges;
   SimplexMesh<D> mesh = buildMesh(in);
   double regionVolume = 0.0;
   run<D>(mesh, target(0.6));
