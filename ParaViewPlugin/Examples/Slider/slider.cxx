@@ -1,4 +1,6 @@
-// The worst elements of a mesh in its pale body, and a slider for the target: slider IN.vtu [TARGET, and no waiting]
+// The worst elements of a mesh in its pale body, and a slider for the target:
+//   slider IN.vtu            until the window is closed
+//   slider IN.vtu TARGET     once
 #include <vtkActor.h>
 #include <vtkCommand.h>
 #include <vtkCoordinate.h>
@@ -23,7 +25,8 @@ struct Program
   vtkNew<vtkRenderer> Renderer;
   vtkNew<vtkSliderRepresentation2D> Bar;
 
-  void Show(int port, double opacity) // port 0: the mesh, 3: its worst elements, coloured by quality
+  // Port 0 is the mesh, 3 its worst elements, coloured by quality.
+  void Show(int port, double opacity)
   {
     vtkNew<vtkDataSetMapper> mapper;
     mapper->SetInputConnection(Measure->GetOutputPort(port));
@@ -38,7 +41,8 @@ struct Program
   {
     Optimize->SetTargetQuality(Bar->GetValue());
     Measure->Update();
-    std::cout << "target " << Bar->GetValue() << ": worst " << Measure->GetMinimumQuality() << std::endl;
+    std::cout << "target " << Bar->GetValue() << ": worst " << Measure->GetMinimumQuality()
+              << std::endl;
   }
 };
 
