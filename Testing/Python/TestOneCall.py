@@ -277,8 +277,9 @@ def test_types_of_views():
     def public(name):
         nodes = ast.parse((PACKAGE / name).read_text()).body
         functions = {node.name: node for node in nodes if isinstance(node, ast.FunctionDef) and node.name[0] != "_"}
-        names = {target.id for node in nodes if isinstance(node, (ast.Assign, ast.AnnAssign))
-                 for target in (node.targets if isinstance(node, ast.Assign) else [node.target])}
+        assigned = [node for node in nodes if isinstance(node, (ast.Assign, ast.AnnAssign))]
+        names = {part.id for node in assigned for target in getattr(node, "targets", [getattr(node, "target", None)])
+                 for part in ast.walk(target) if isinstance(part, ast.Name)}
         return functions, {name for name in names if name[0] != "_"}
 
     (functions, names), (shown, shown_names) = public("paraview.py"), public("paraview.pyi")

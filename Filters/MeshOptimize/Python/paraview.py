@@ -15,7 +15,7 @@ import math
 from paraview import servermanager, simple
 
 BAD = 0.3  # elements under it are shown in comparisons
-PALE = [0.72, 0.78, 0.85]
+PALE, INK = [0.72, 0.78, 0.85], [0.12, 0.16, 0.22]
 
 
 def _measured(source, **options):
@@ -41,6 +41,8 @@ def _show_body(source, view):
 def _show_bad(source, view):
     display = simple.Show(source, view)  # coloured by quality: the active scalars
     display.SetRepresentationType("Surface With Edges")
+    display.Ambient = 0.4  # so that colours stay apart in the shade
+    display.EdgeColor = INK
     display.SetScalarBarVisibility(view, True)
 
 
@@ -78,6 +80,21 @@ def _traced(function, source, **options):
         yield
     finally:
         del silence  # traced again
+
+
+def _look(view, centre, size, flat):
+    """From the front, the right and above; on a mesh in a plane from above."""
+    view.CameraFocalPoint = centre
+    view.CameraPosition = [centre[0] + (0 if flat else size), centre[1] - (0 if flat else 2 * size), centre[2] + size]
+    view.CameraViewUp = [0, 1, 0] if flat else [0, 0, 1]
+
+
+def _finish(source, *views):
+    """Draws the views, which the window does not by itself; the first one and the source are the active ones."""
+    for view in views:
+        simple.Render(view)
+    simple.SetActiveView(views[0])
+    simple.SetActiveSource(source)
 
 
 def _chart(name, kind):
@@ -118,14 +135,11 @@ def _show_worst_elements(source, number):
     bounds = measure.GetDataInformation().GetBounds()
     centre = servermanager.Fetch(measure, idx=3).GetCellData().GetArray("Center").GetTuple3(0)
     size = math.dist(bounds[::2], bounds[1::2])
-    flat = bounds[4] == bounds[5]
-    view.CameraFocalPoint = view.CenterOfRotation = centre
-    view.CameraPosition = [centre[0] + (0 if flat else size), centre[1] - (0 if flat else 2 * size), centre[2] + size]
-    view.CameraViewUp = [0, 1, 0] if flat else [0, 0, 1]
+    view.CenterOfRotation = centre
+    _look(view, centre, size, bounds[4] == bounds[5])
     view.CameraParallelProjection = 1
     view.CameraParallelScale = 0.3 * size
-    simple.SetActiveView(view)
-    simple.SetActiveSource(measure)
+    _finish(measure, view, table)
     return view, table, measure
 
 
@@ -143,7 +157,7 @@ def _compare_before_and_after(optimized):
     layout = simple.CreateLayout("Before and after")
     right = layout.SplitHorizontal(0, 0.5) + 1
     places = [layout.SplitVertical(place, 0.65) for place in (right - 1, right)]
-    views = []
+    views, charts = [], []
     for name, source, place in (("before", optimized.Input, places[0]), ("after", optimized, places[1])):
         measure = _measured(simple.MeshQualityMinMax(Input=source), QualityMeasure=optimized.QualityMeasure)
         view, chart = simple.CreateView("RenderView"), simple.CreateView("XYBarChartView")
@@ -159,12 +173,15 @@ def _compare_before_and_after(optimized):
         _show_bars(measure, chart)
         chart.ChartTitle = f"{name}: worst {measure.MinimumQuality:.4f}, {count} under {BAD}"
         views.append(view)
+        charts.append(chart)
+    bounds = measure.GetDataInformation().GetBounds()
+    _look(views[0], [(low + high) / 2 for low, high in zip(bounds[::2], bounds[1::2])],
+          math.dist(bounds[::2], bounds[1::2]), bounds[4] == bounds[5])
     simple.ResetCamera(views[0])
     simple.AddCameraLink(views[0], views[1], "Before and after")
     for name in ("CameraPosition", "CameraFocalPoint", "CameraViewUp", "CameraParallelScale", "CenterOfRotation"):
         setattr(views[1], name, getattr(views[0], name))
-    simple.SetActiveView(views[1])
-    simple.SetActiveSource(optimized)
+    _finish(optimized, views[1], views[0], *charts)
     return layout
 
 
@@ -176,8 +193,7 @@ def show_histogram(source=None):
         chart = _chart("Histogram", "XYBarChartView")
         _show_bars(measure, chart)
         chart.ChartTitle = f"worst {measure.MinimumQuality:.4f}, mean {measure.MeanQuality:.4f}"
-        simple.SetActiveView(chart)
-        simple.SetActiveSource(measure)
+        _finish(measure, chart)
         return chart, measure
 
 
@@ -200,6 +216,5 @@ def show_history(optimized=None):
         chart.BottomAxisTitle, chart.LeftAxisTitle = "pass", "quality"
         chart.LeftAxisUseCustomRange, chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 1, 0, 1
         chart.LegendLocation = "TopLeft"
-        simple.SetActiveView(chart)
-        simple.SetActiveSource(optimized)
+        _finish(optimized, chart)
         return chart

@@ -5,6 +5,7 @@ from typing import Any
 
 BAD: float
 PALE: list[float]
+INK: list[float]
 
 _Proxy = Any
 
