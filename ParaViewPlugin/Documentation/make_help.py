@@ -64,6 +64,8 @@ def page(name):
     text = (HERE / f"{name}.md").read_text(encoding="utf-8")
     blocks = [block(part) for part in re.split(r"\n\s*\n", text.strip())]
     title = text.splitlines()[0].lstrip("# ")
+    if name in PROPERTIES.values():
+        title += ": what it is for"  # ParaView's page of properties has the other name
     return ('<!DOCTYPE html>\n<html>\n<head><meta charset="utf-8"><title>' + f"{html.escape(title)}</title></head>\n<body>\n"
             + "\n".join(blocks) + "\n</body>\n</html>\n")
 
