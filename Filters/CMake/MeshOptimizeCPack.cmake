@@ -48,7 +48,7 @@ if (MESHOPTIMIZE_DPKG)
   # dpkg-shlibdeps (of dpkg-dev) finds what the libraries need. Without it: what they need on Debian 12 and 13.
   find_program(MESHOPTIMIZE_SHLIBDEPS dpkg-shlibdeps)
   mark_as_advanced(MESHOPTIMIZE_SHLIBDEPS)
-  if (MESHOPTIMIZE_SHLIBDEPS)
+  if (MESHOPTIMIZE_SHLIBDEPS AND MESHOPTIMIZE_WITH_PARAVIEW)  # a plain VTK may be no package
     set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
   else ()
