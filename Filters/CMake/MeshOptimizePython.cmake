@@ -28,3 +28,13 @@ foreach (command IN ITEMS mesh-optimize mesh-quality)
     FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
   install(PROGRAMS "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${command}" DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT python)
 endforeach ()
+
+# pip install BUILD/python: a wheel of what is built.
+foreach (_file IN ITEMS pyproject.toml backend.py)
+  configure_file("${_source}/Wheel/${_file}.in" "${CMAKE_BINARY_DIR}/python/${_file}" @ONLY)
+endforeach ()
+# Debian's Python looks into lib/python3/dist-packages of /usr: there it reads where the package is.
+set(_pth "${CMAKE_BINARY_DIR}/python/meshoptimize.pth")
+file(RELATIVE_PATH _package_from_pth "/lib/python3/dist-packages" "/${MESHOPTIMIZE_PYTHON_DIR}")
+file(WRITE "${_pth}" "${_package_from_pth}\n")
+install(FILES "${_pth}" DESTINATION lib/python3/dist-packages COMPONENT python)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""meshoptimize.paraview: the worst elements, and before and after; data first, then that something is drawn."""
+"""meshoptimize.paraview: worst elements, before and after, history, histogram; data first, then that something is drawn."""
 import os
 
-from meshoptimize.paraview import compare_before_and_after, show_worst_elements
-from paraview import simple
+from meshoptimize.paraview import compare_before_and_after, show_histogram, show_history, show_worst_elements
+from paraview import servermanager, simple, smtrace
 
 from paraview_case import OUTPUT, check, jittered_box, load_plugin, source_of
 
@@ -37,7 +37,37 @@ check("0 under 0.3" in titles[0] and titles[1].startswith("before"), titles)
 layout.SetSize(1000, 800)
 simple.SaveScreenshot(os.path.join(OUTPUT, "compare.png"), layout)
 
-for call in (lambda: compare_before_and_after(source), lambda: show_worst_elements(simple.Line())):
+chart = show_history(optimized)
+history = servermanager.Fetch(optimized, idx=1)
+lines = simple.GetRepresentation(simple.OutputPort(optimized, 1), chart)
+check(chart.GetXMLName() == "XYChartView" and list(lines.SeriesVisibility) == ["Worst", "Mean"], lines.SeriesVisibility)
+check(lines.XArrayName == "Pass" and history.GetNumberOfRows() > 2, "passes", history.GetNumberOfRows())
+check(f"{optimized.WorstQualityAfter:.4f}" in chart.ChartTitle, chart.ChartTitle)
+chart.ViewSize = [800, 500]
+simple.SaveScreenshot(os.path.join(OUTPUT, "history.png"), chart)
+
+chart, measured = show_histogram(source)
+bars = simple.GetRepresentation(simple.OutputPort(measured, 2), chart)
+check(chart.GetXMLName() == "XYBarChartView" and list(bars.SeriesVisibility) == ["Count"], bars.SeriesVisibility)
+counts = servermanager.Fetch(measured, idx=2).GetColumnByName("Count")
+check(sum(counts.GetValue(k) for k in range(counts.GetNumberOfTuples())) == 3072, "elements in the bars")
+check(f"{measured.MinimumQuality:.4f}" in chart.ChartTitle, chart.ChartTitle)
+chart.ViewSize = [800, 500]
+simple.SaveScreenshot(os.path.join(OUTPUT, "histogram.png"), chart)
+
+# Each is one call in the trace, which runs.
+simple.SetActiveSource(source)
+smtrace.start_trace()
+show_worst_elements(number=3)
+simple.SetActiveSource(optimized)
+show_history()
+trace = smtrace.stop_trace()
+check("show_worst_elements(" in trace and "number=3)" in trace and "show_history(meshOptimize1)" in trace, trace)
+check("SplitVertical" not in trace and "MeshQualityMinMax(" not in trace, "more than the calls:", trace)
+body = trace[trace.index("from meshoptimize.paraview import show_history"):].split("\n\n")[0]
+exec(body, {"meshOptimize1": optimized})  # the two lines
+
+for call in (lambda: show_history(source), lambda: compare_before_and_after(source), lambda: show_worst_elements(simple.Line())):
     try:
         call()
     except (ValueError, RuntimeError):

@@ -272,6 +272,25 @@ def test_types():
     assert public | {"vtkTetGenFilter"} == {*functions, *classes} - {"_Report"} | {"vtkTetGenFilter"}
 
 
+def test_types_of_views():
+    """paraview.pyi has the public names, parameters and defaults of paraview.py, and what it returns. Read, not imported."""
+    def public(name):
+        nodes = ast.parse((PACKAGE / name).read_text()).body
+        functions = {node.name: node for node in nodes if isinstance(node, ast.FunctionDef) and node.name[0] != "_"}
+        assigned = [node for node in nodes if isinstance(node, (ast.Assign, ast.AnnAssign))]
+        names = {part.id for node in assigned for target in getattr(node, "targets", [getattr(node, "target", None)])
+                 for part in ast.walk(target) if isinstance(part, ast.Name)}
+        return functions, {name for name in names if name[0] != "_"}
+
+    (functions, names), (shown, shown_names) = public("paraview.py"), public("paraview.pyi")
+    assert functions.keys() == shown.keys() and names == shown_names, (functions.keys() ^ shown.keys(), names ^ shown_names)
+    for name, function in functions.items():
+        given, typed = function.args, shown[name].args
+        assert [a.arg for a in given.args] == [a.arg for a in typed.args], name
+        assert [ast.dump(d) for d in given.defaults] == [ast.dump(d) for d in typed.defaults], name
+        assert all(a.annotation for a in typed.args) and shown[name].returns, name
+
+
 def test_docstrings():
     if not hasattr(sys.stdout, "encoding"):
         print("skipped: doctest does not work in pvpython")

@@ -1,16 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Views of a mesh in ParaView (pvpython, pvbatch, the window's Python Shell), with the plugin loaded.
 
-    from meshoptimize.paraview import compare_before_and_after, show_worst_elements
+    from meshoptimize.paraview import compare_before_and_after, show_histogram, show_history, show_worst_elements
     show_worst_elements(mesh)              # any source; without one: the active source
+    show_histogram(mesh)
     compare_before_and_after(optimized)    # a Mesh Optimize filter
+    show_history(optimized)
+
+The buttons of the plugin's toolbar call them. In ParaView's trace each is one line.
 """
+import contextlib
 import math
 
 from paraview import servermanager, simple
 
 BAD = 0.3  # elements under it are shown in comparisons
-PALE = [0.72, 0.78, 0.85]
+PALE, INK = [0.72, 0.78, 0.85], [0.12, 0.16, 0.22]
 
 
 def _measured(source, **options):
@@ -36,14 +41,73 @@ def _show_body(source, view):
 def _show_bad(source, view):
     display = simple.Show(source, view)  # coloured by quality: the active scalars
     display.SetRepresentationType("Surface With Edges")
+    display.Ambient = 0.4  # so that colours stay apart in the shade
+    display.EdgeColor = INK
     display.SetScalarBarVisibility(view, True)
 
 
 def _source(source):
     source = source or simple.GetActiveSource()
     if source is None:
-        raise ValueError("there is no active source")
+        raise ValueError("there is no active source: choose one in the pipeline browser")
     return source
+
+
+def _optimized(source, what):
+    source = _source(source)
+    if source.GetXMLName() != "MeshOptimize":
+        raise ValueError("choose a Mesh Optimize filter " + what)
+    return source
+
+
+@contextlib.contextmanager
+def _traced(function, source, **options):
+    """What happens inside is one call in ParaView's trace, if there is one."""
+    if not servermanager.vtkSMTrace.GetActiveTracer():
+        yield
+        return
+    from paraview import smtrace
+
+    name = str(smtrace.Trace.get_accessor(source))
+    words = ", ".join([name, *(f"{option}={value!r}" for option, value in options.items())])
+    text = f"from meshoptimize.paraview import {function}\n{function}({words})"
+    try:
+        smtrace._create_trace_item_internal("TraceText", [text])
+        silence = smtrace._create_trace_item_internal("BlockTraceItems")
+    except smtrace.Untraceable:  # inside of something else that is traced
+        silence = None
+    try:
+        yield
+    finally:
+        del silence  # traced again
+
+
+def _look(view, centre, size, flat):
+    """From the front, the right and above; on a mesh in a plane from above."""
+    view.CameraFocalPoint = centre
+    view.CameraPosition = [centre[0] + (0 if flat else size), centre[1] - (0 if flat else 2 * size), centre[2] + size]
+    view.CameraViewUp = [0, 1, 0] if flat else [0, 0, 1]
+
+
+def _finish(source, *views):
+    """Draws the views, which the window does not by itself; the first one and the source are the active ones."""
+    for view in views:
+        simple.Render(view)
+    simple.SetActiveView(views[0])
+    simple.SetActiveSource(source)
+
+
+def _chart(name, kind):
+    layout = simple.CreateLayout(name)
+    chart = simple.CreateView(kind)
+    simple.AssignViewToLayout(chart, layout, 0)
+    return chart
+
+
+def _show_bars(measure, chart):
+    bars = simple.Show(simple.OutputPort(measure, 2), chart)
+    bars.UseIndexForXAxis, bars.XArrayName, bars.SeriesVisibility = 0, "BinCenter", ["Count"]
+    chart.BottomAxisTitle, chart.LeftAxisTitle, chart.ShowLegend = "quality", "elements", 0
 
 
 def show_worst_elements(source=None, number=10):
@@ -52,7 +116,13 @@ def show_worst_elements(source=None, number=10):
     Returns the view, the spreadsheet and the Mesh Quality Min Max filter that both show. Rows that are selected in the
     table are selected in the view.
     """
-    measure = _measured(_source(source), NumberOfWorstCells=number)
+    source = _source(source)
+    with _traced("show_worst_elements", source, number=number):
+        return _show_worst_elements(source, number)
+
+
+def _show_worst_elements(source, number):
+    measure = _measured(source, NumberOfWorstCells=number)
     worst = simple.OutputPort(measure, 3)
     layout = simple.CreateLayout("Worst elements")
     view, table = simple.CreateView("RenderView"), simple.CreateView("SpreadSheetView")
@@ -65,14 +135,11 @@ def show_worst_elements(source=None, number=10):
     bounds = measure.GetDataInformation().GetBounds()
     centre = servermanager.Fetch(measure, idx=3).GetCellData().GetArray("Center").GetTuple3(0)
     size = math.dist(bounds[::2], bounds[1::2])
-    flat = bounds[4] == bounds[5]
-    view.CameraFocalPoint = view.CenterOfRotation = centre
-    view.CameraPosition = [centre[0] + (0 if flat else size), centre[1] - (0 if flat else 2 * size), centre[2] + size]
-    view.CameraViewUp = [0, 1, 0] if flat else [0, 0, 1]
+    view.CenterOfRotation = centre
+    _look(view, centre, size, bounds[4] == bounds[5])
     view.CameraParallelProjection = 1
     view.CameraParallelScale = 0.3 * size
-    simple.SetActiveView(view)
-    simple.SetActiveSource(measure)
+    _finish(measure, view, table)
     return view, table, measure
 
 
@@ -81,13 +148,16 @@ def compare_before_and_after(optimized=None):
 
     The two cameras move together. Measured as the filter measures, sizes and metric left out. Returns the layout.
     """
-    optimized = _source(optimized)
-    if optimized.GetXMLName() != "MeshOptimize":
-        raise ValueError("choose a Mesh Optimize filter to compare its input with its output")
+    optimized = _optimized(optimized, "to compare its input with its output")
+    with _traced("compare_before_and_after", optimized):
+        return _compare_before_and_after(optimized)
+
+
+def _compare_before_and_after(optimized):
     layout = simple.CreateLayout("Before and after")
     right = layout.SplitHorizontal(0, 0.5) + 1
     places = [layout.SplitVertical(place, 0.65) for place in (right - 1, right)]
-    views = []
+    views, charts = [], []
     for name, source, place in (("before", optimized.Input, places[0]), ("after", optimized, places[1])):
         measure = _measured(simple.MeshQualityMinMax(Input=source), QualityMeasure=optimized.QualityMeasure)
         view, chart = simple.CreateView("RenderView"), simple.CreateView("XYBarChartView")
@@ -100,15 +170,51 @@ def compare_before_and_after(optimized=None):
         count = bad.GetDataInformation().GetNumberOfCells()
         if count:
             _show_bad(bad, view)
-        bars = simple.Show(simple.OutputPort(measure, 2), chart)
-        bars.UseIndexForXAxis, bars.XArrayName, bars.SeriesVisibility = 0, "BinCenter", ["Count"]
+        _show_bars(measure, chart)
         chart.ChartTitle = f"{name}: worst {measure.MinimumQuality:.4f}, {count} under {BAD}"
-        chart.BottomAxisTitle, chart.LeftAxisTitle, chart.ShowLegend = "quality", "elements", 0
         views.append(view)
+        charts.append(chart)
+    bounds = measure.GetDataInformation().GetBounds()
+    _look(views[0], [(low + high) / 2 for low, high in zip(bounds[::2], bounds[1::2])],
+          math.dist(bounds[::2], bounds[1::2]), bounds[4] == bounds[5])
     simple.ResetCamera(views[0])
     simple.AddCameraLink(views[0], views[1], "Before and after")
     for name in ("CameraPosition", "CameraFocalPoint", "CameraViewUp", "CameraParallelScale", "CenterOfRotation"):
         setattr(views[1], name, getattr(views[0], name))
-    simple.SetActiveView(views[1])
-    simple.SetActiveSource(optimized)
+    _finish(optimized, views[1], views[0], *charts)
     return layout
+
+
+def show_histogram(source=None):
+    """How many elements have which quality, as bars. Returns the view and the Mesh Quality Min Max filter."""
+    source = _source(source)
+    with _traced("show_histogram", source):
+        measure = _measured(source)
+        chart = _chart("Histogram", "XYBarChartView")
+        _show_bars(measure, chart)
+        chart.ChartTitle = f"worst {measure.MinimumQuality:.4f}, mean {measure.MeanQuality:.4f}"
+        _finish(measure, chart)
+        return chart, measure
+
+
+def show_history(optimized=None):
+    """The worst and the mean quality after each pass of a Mesh Optimize filter, as lines. Returns the view."""
+    optimized = _optimized(optimized, "to see what its passes did")
+    with _traced("show_history", optimized):
+        optimized.UpdatePipeline()
+        optimized.UpdatePropertyInformation()
+        chart = _chart("History", "XYChartView")
+        lines = simple.Show(simple.OutputPort(optimized, 1), chart)
+        lines.UseIndexForXAxis, lines.XArrayName = 0, "Pass"
+        lines.SeriesVisibility = ["Worst", "Mean"]
+        lines.SeriesLabel = ["Worst", "worst element", "Mean", "mean"]
+        lines.SeriesColor = ["Worst", "0.8", "0.1", "0.11", "Mean", "0.2", "0.4", "0.6"]
+        lines.SeriesLineThickness = ["Worst", "3", "Mean", "2"]
+        lines.SeriesMarkerStyle = ["Worst", "4", "Mean", "0"]
+        chart.ChartTitle = (f"worst {optimized.WorstQualityBefore:.4f} -> {optimized.WorstQualityAfter:.4f}: "
+                            f"{optimized.StopReason}")
+        chart.BottomAxisTitle, chart.LeftAxisTitle = "pass", "quality"
+        chart.LeftAxisUseCustomRange, chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 1, 0, 1
+        chart.LegendLocation = "TopLeft"
+        _finish(optimized, chart)
+        return chart

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# MESHOPTIMIZE_WITH_TOOLBAR  The toolbar in ParaView's window is built: on by default where ParaView has a window, and the headers of
+#                            the widgets that it is made of are installed. Nothing else needs them.
+set(_has_widgets OFF)
+if (MESHOPTIMIZE_WITH_PARAVIEW AND PARAVIEW_USE_QT AND TARGET VTK::PythonInterpreter)
+  set(_qt Qt5)  # ParaView 5.11 does not say
+  if (PARAVIEW_QT_MAJOR_VERSION)
+    set(_qt "Qt${PARAVIEW_QT_MAJOR_VERSION}")
+  endif ()
+  find_package(${_qt} QUIET COMPONENTS Widgets)
+  set(_has_widgets "${${_qt}_FOUND}")
+  set(MESHOPTIMIZE_QT_WIDGETS "${_qt}::Widgets")
+endif ()
+option(MESHOPTIMIZE_WITH_TOOLBAR "Build the toolbar for ParaView's window" ${_has_widgets})
