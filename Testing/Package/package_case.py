@@ -7,11 +7,11 @@ import subprocess
 import sys
 
 BUILD, WORK = map(pathlib.Path, sys.argv[1:3])
-PVPYTHON = sys.argv[3] if len(sys.argv) > 3 else ""
+PVPYTHON, GENERATOR = sys.argv[3:5]  # the last one is CMake's
 SOURCE = pathlib.Path(os.environ["MESHOPTIMIZE_SOURCE"])
 PELLET = pathlib.Path(os.environ["MESHOPTIMIZE_DATA"]) / "crack40.vtu"
 OURS = ("PYTHONPATH", "PV_PLUGIN_PATH", "MESHOPTIMIZE_PLUGIN", "LD_LIBRARY_PATH")
-BARE = {name: value for name, value in os.environ.items() if name not in OURS}
+BARE = {name: value for name, value in os.environ.items() if name not in OURS} | {"CMAKE_GENERATOR": GENERATOR}
 SKIPPED = 77
 
 
