@@ -11,6 +11,7 @@
 #include "Surface/SharpEdges.h"
 #include "Surface/SpaceCurve.h"
 #include "Surface/Surface.h"
+#include "Surface/SurfaceAngles.h"
 #include "Surface/SurfaceDivision.h"
 
 #include <memory>
@@ -36,6 +37,9 @@ public:
   double tolerance() const { return this->tolerance_; }
   /// Freedom of each point of the input; Free if it is not on the surface.
   const std::vector<Freedom>& freedom() const { return this->freedom_; }
+
+  /// The angles that every mesh of this body has to fill; nothing unless exact.
+  const SurfaceAngles& angles() const { return this->angles_; }
 
   /// The number that the facets of a patch had in SurfaceOptions::labels.
   Index label(Index patch) const { return this->patches_[patch].label; }
@@ -100,6 +104,7 @@ private:
   std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
   CurvePieces pieces_;
   ReferenceSurface reference_;
+  SurfaceAngles angles_;
   SharpEdges bent_;                   ///< by more than half of the feature angle
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;

@@ -16,6 +16,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   this->freedom_ = division.freedom;
   this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
   this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
+  this->angles_ = surfaceAngles(editor.mesh(), division);
   // First the patches: curves ask the reference how much room they have.
   this->addPatches(editor, division);
   this->addCurves(editor, division);
