@@ -18,6 +18,8 @@ constexpr double LeastCosine = 0.2588;
 constexpr double Needle = 0.1, NeedleShape = 0.05;
 /// What is left of the tolerance, beside needles and the sides of curves.
 constexpr double Share = 0.75;
+/// What facets beside a curve may use that has moved sideways: both together.
+constexpr double ShareBesideCurves = 0.96;
 /// An overlay of less than this part of a facet's area is none.
 constexpr double Touch = 1e-10;
 /// How far to look for the reference, in tolerances.
@@ -224,14 +226,14 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
   return search.facet;
 }
 
-double ReferenceSurface::clearance(const Vec<3>& x) const
+std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
 {
   constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
   const double reach = this->tolerance_ / RoomOfWalls;
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
   std::vector<int> near;
   this->findNear(Box(Eigen::Vector3d(x) - margin, Eigen::Vector3d(x) + margin), None, near);
-  double room = this->tolerance_;
+  std::vector<RoomLimit> limits;
   for (int k : near)
   {
     const Facet& f = this->facets_[k];
@@ -240,10 +242,24 @@ double ReferenceSurface::clearance(const Vec<3>& x) const
     const bool isApart = length > Touch * f.l; // the others have x
     if (isApart && std::fabs(along) > faces * length)
     {
-      room = std::min(room, (f.isOuter && along < 0.0 ? RoomOfGaps : RoomOfWalls) * length);
+      const double share = f.isOuter && along < 0.0 ? RoomOfGaps : RoomOfWalls;
+      limits.push_back({ way, share * way.squaredNorm() });
     }
   }
-  return room;
+  return limits;
+}
+
+Vec<3> ReferenceSurface::withinRoom(const Vec<3>& x, const Vec<3>& to, double most) const
+{
+  const Vec<3> move = to - x;
+  const double off = move.norm();
+  double part = off > most ? most / off : 1.0;
+  for (const RoomLimit& limit : this->limits(x))
+  {
+    const double towards = move.dot(limit.way);
+    part = towards > limit.most ? std::min(part, limit.most / towards) : part;
+  }
+  return part < 1.0 ? Vec<3>(x + part * move) : to;
 }
 
 double ReferenceSurface::tolerance(int facet) const
@@ -377,10 +393,10 @@ bool ReferenceSurface::covers(
 bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
   const std::vector<Piece>& come, double sideways, std::vector<std::uint8_t>& unclear) const
 {
-  const double allowed = Share * r.tolerance;
+  double allowed = Share * r.tolerance;
   const auto stands = [](const Heights& h, double most)
   { return h.most >= 0.0 && h.most <= most && h.cosine >= LeastCosine; };
-  bool isClear = true;
+  bool isClear = true, isRaised = false;
   for (std::size_t k = 0; k < come.size(); ++k)
   {
     if (this->isFlatOn(r, come[k], allowed))
@@ -388,6 +404,17 @@ bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
       continue;
     }
     const Heights h = this->heights(r, come[k]);
+    if (!isRaised && stands(h, ShareBesideCurves * r.tolerance) && !stands(h, allowed))
+    {
+      // Beside a curve that has moved, what was there may have been higher: it may stay so.
+      isRaised = true;
+      for (const Piece& piece : gone)
+      {
+        const Heights old = this->heights(r, piece);
+        allowed = stands(old, ShareBesideCurves * r.tolerance) ? std::max(allowed, old.most)
+                                                               : allowed;
+      }
+    }
     if (h.most >= 0.0 && !stands(h, allowed))
     {
       isClear = false;
@@ -445,7 +472,7 @@ bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near, 
     const auto isNearTo = [&](int k)
     {
       const Facet& r = this->facets_[k];
-      const double allowed = part * Share * r.tolerance;
+      const double allowed = part * ShareBesideCurves * r.tolerance;
       return r.patch == piece.patch && (!r.isSigned || r.normal.dot(normal) > 0.0) &&
         std::all_of(t.begin(), t.end(),
           [&](const Vec<3>& x)
@@ -494,7 +521,7 @@ bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& n
   return away < this->tolerance_ * this->tolerance_ && same * away <= distance(false);
 }
 
-double ReferenceSurface::height(const Piece& piece) const
+ReferenceSurface::Offset ReferenceSurface::offset(const Piece& piece) const
 {
   Box box;
   for (const Vec<3>& x : piece.x)
@@ -512,15 +539,16 @@ double ReferenceSurface::height(const Piece& piece) const
   };
   if (std::any_of(near.begin(), near.end(), isSame))
   {
-    return 0.0; // it has not changed
+    return {}; // it has not changed
   }
-  double most = 0.0;
+  Offset offset;
   bool isClear = true;
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
     const Heights h = this->isNeedle(r) ? Heights{ 0.0, -1.0, 1.0, 0.0 } : this->heights(r, piece);
-    const bool stands = h.most <= Share * r.tolerance && h.cosine >= LeastCosine;
+    const bool stands = h.most <= ShareBesideCurves * r.tolerance && h.cosine >= LeastCosine;
+    double& most = h.most <= Share * r.tolerance ? offset.height : offset.distance;
     most = stands ? std::max(most, h.most) : most;
     isClear = isClear &&
       (stands || h.most < 0.0 || h.least > Reach * r.tolerance || !(h.cosine > 0.0));
@@ -531,6 +559,7 @@ double ReferenceSurface::height(const Piece& piece) const
   {
     part *= 2.0;
   }
-  return std::max(most, part * Share * this->tolerance_);
+  offset.distance = std::max(offset.distance, part * ShareBesideCurves * this->tolerance_);
+  return offset;
 }
 }

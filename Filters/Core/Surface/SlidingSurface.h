@@ -95,6 +95,7 @@ private:
   void addCurves(MeshEditor<3>& editor, const SurfaceDivision& division);
   void addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
     const std::vector<std::uint32_t>& sets);
+  Span measured(Span span, const Vec<3>& a, const Vec<3>& b) const;
   bool follows(const Span& span) const;
   bool isFlat(const SurfacePiece<3>& piece) const;
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;

@@ -93,13 +93,13 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     {
       points.push_back(mesh.point(p));
     }
-    std::vector<double> rooms;
+    std::vector<std::vector<RoomLimit>> limits;
     for (std::size_t k = 0; k < points.size() && !this->isExact_; ++k)
     {
-      rooms.push_back(this->reference_.clearance(points[k]));
+      limits.push_back(this->reference_.limits(points[k]));
     }
     SpaceCurve curve(std::move(points), chain.isClosed);
-    curve.setRooms(std::move(rooms));
+    curve.setLimits(std::move(limits));
     const auto number = static_cast<Index>(this->curves_.size());
     CurvePiece piece;
     piece.curve = number;

@@ -83,10 +83,10 @@ private:
   void watch(Worker& worker, const Task& task);
   bool hasNext(Worker& worker) const;
   long fewCells() const;
-  /// Of polish(), up to the target; where a bound tells how far there is to go.
+  /// Of polish(), up to the target; where there is hope: see isFarBelowBound().
   long mostLooks() const
   {
-    return this->caps_.bound() < 1.0
+    return this->caps_.bound() < 1.0 || this->slides()
       ? std::max(FewestLooks, this->mesh().numberOfCellSlots() / CellsPerLook)
       : std::numeric_limits<long>::max();
   }
@@ -95,10 +95,11 @@ private:
     return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
   }
   bool worthTrying(Index c, int level) const;
-  /// False where no bound is known.
+  /// False where no bound is known, unless the surface takes part: then hardly anything is bound.
   bool isFarBelowBound() const
   {
-    return this->caps_.bound() < 1.0 && this->worst() < NearBound * this->caps_.bound();
+    return (this->caps_.bound() < 1.0 || this->slides()) &&
+      this->worst() < NearBound * this->caps_.bound();
   }
   /// Whether a quick run leaves the many bad cells as they are: a pass over them creeps, and the
   /// surface, that holds most of such cells, is kept. Only the worst get more effort.

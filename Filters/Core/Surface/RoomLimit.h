@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file RoomLimit.h
+/// How far a point of the surface may go towards another sheet of it.
+#ifndef meshopt_Surface_RoomLimit_h
+#define meshopt_Surface_RoomLimit_h
+
+#include "Mesh/Types.h"
+
+namespace meshopt
+{
+/// A motion u of the point is within the limit if u . way <= most. Then at least the wanted part of
+/// the distance is left: the distance from a facet is convex, so it shrinks by no more than the
+/// motion along the way there. Motions along the other sheet and away from it are free.
+struct RoomLimit
+{
+  Vec<3> way;  ///< to the nearest point of a facet of the other sheet
+  double most; ///< the part of the distance that may be used, times the distance
+};
+}
+
+#endif
