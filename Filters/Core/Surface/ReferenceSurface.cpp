@@ -105,7 +105,8 @@ struct Polygon
 };
 }
 
-void ReferenceSurface::add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter)
+void ReferenceSurface::add(
+  const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, bool isThin)
 {
   Facet f;
   // The longest edge first: the frame is then as exact as it can be.
@@ -129,6 +130,7 @@ void ReferenceSurface::add(const std::array<Vec<3>, 3>& x, Index patch, bool isS
   f.patch = patch;
   f.isSigned = isSigned;
   f.isOuter = isOuter;
+  f.isThin = isThin;
   f.x = x;
   this->facets_.push_back(f);
 }
@@ -242,8 +244,9 @@ std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
     const bool isApart = length > Touch * f.l; // the others have x
     if (isApart && std::fabs(along) > faces * length)
     {
-      const double share = f.isOuter && along < 0.0 ? RoomOfGaps : RoomOfWalls;
-      limits.push_back({ way, share * way.squaredNorm() });
+      const bool isGap = f.isOuter && along < 0.0;
+      const double share = isGap ? RoomOfGaps : RoomOfWalls;
+      limits.push_back({ way, share * way.squaredNorm(), f.isThin && !isGap });
     }
   }
   return limits;
@@ -256,8 +259,7 @@ Vec<3> ReferenceSurface::withinRoom(const Vec<3>& x, const Vec<3>& to, double mo
   double part = off > most ? most / off : 1.0;
   for (const RoomLimit& limit : this->limits(x))
   {
-    const double towards = move.dot(limit.way);
-    part = towards > limit.most ? std::min(part, limit.most / towards) : part;
+    part = std::min(part, limit.part(move));
   }
   return part < 1.0 ? Vec<3>(x + part * move) : to;
 }

@@ -45,8 +45,9 @@ public:
 
   /// Adds a facet: corners in order, seen from outside counter-clockwise. `isSigned` is false if
   /// outside cannot be told from inside, as with a facet within one region; `isOuter` is true if
-  /// there is nothing outside.
-  void add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter);
+  /// there is nothing outside; `isThin` if it bounds a region whose volume could change by much.
+  void add(
+    const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, bool isThin = false);
   /// To be called once, after the last facet. `tolerance`: a length; `least`: that of rounding. No
   /// facet may use more of the tolerance than a seventh of the thickness of the wall that it is a
   /// side of, and a quarter of the gap in front of it: no wall is pressed flat, and no gap closed.
@@ -86,7 +87,7 @@ private:
     Vec<3> origin, along, across, normal; ///< a frame: the corners are (0, 0), (l, 0), (p, q)
     double l, p, q;
     Index patch;
-    bool isSigned, isOuter;
+    bool isSigned, isOuter, isThin;
     std::array<Vec<3>, 3> x;
     double tolerance = 0.0; ///< its own
   };

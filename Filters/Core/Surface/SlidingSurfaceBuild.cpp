@@ -4,6 +4,9 @@
 #include "Surface/SlidingSurface.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 
 namespace meshopt
 {
@@ -45,9 +48,50 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   }
 }
 
+namespace
+{
+/// The regions whose volume could change by a quarter if all of their surface moved as far as it
+/// may.
+std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
+{
+  constexpr double most = 0.25, farthest = 0.75; // of the volume; of the tolerance
+  std::map<Index, double> left;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      left[mesh.region(c)] += most * std::fabs(signedVolume(mesh.corners(c)));
+    }
+  }
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    const Vec<3>& a = mesh.point(part.nodes[0]);
+    const double area = 0.5 *
+      (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
+    for (Index region : { part.region, part.other })
+    {
+      if (region != None)
+      {
+        left[region] -= area * farthest * division.tolerance;
+      }
+    }
+  }
+  std::set<Index> thin;
+  for (const auto& [region, volume] : left)
+  {
+    if (volume < 0.0)
+    {
+      thin.insert(region);
+    }
+  }
+  return thin;
+}
+}
+
 void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
+  const std::set<Index> thin = thinRegions(mesh, division);
   this->patches_.resize(division.numberOfPatches);
   for (Index k = 0; k < division.numberOfPatches && this->isExact_; ++k)
   {
@@ -73,7 +117,8 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
     patch.label = part.label;
     this->reference_.add(
       { mesh.point(part.nodes[0]), mesh.point(part.nodes[1]), mesh.point(part.nodes[2]) },
-      part.patch, patch.isSigned, part.other == None);
+      part.patch, patch.isSigned, part.other == None,
+      thin.count(part.region) + thin.count(part.other) > 0);
     this->inputFacets_.push_back(sortedIds(part.nodes));
   }
   this->reference_.finish(this->tolerance_, division.rounding);

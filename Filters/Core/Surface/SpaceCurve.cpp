@@ -116,7 +116,7 @@ bool SpaceCurve::leavesRoom(double from, double to, const Vec<3>& a, const Vec<3
   {
     for (const RoomLimit& limit : this->limits_[k])
     {
-      good = good && -away.dot(limit.way) <= limit.most;
+      good = good && !(limit.part(-away) < 1.0);
     }
   };
   return this->limits_.empty() || (this->forBetween(from, to, a, b, check) && good);
@@ -135,8 +135,8 @@ double SpaceCurve::deviation(double from, double to, const Vec<3>& a, const Vec<
 }
 
 /// Calls f(k, away) for the points between two parameters: the number in the constructor, and the
-/// way from the line from a to b. False where the curve turns back as seen along the line, which may
-/// then be far from it.
+/// way from the line from a to b. False where the curve turns back as seen along the line, which
+/// may then be far from it.
 template <class F>
 bool SpaceCurve::forBetween(double from, double to, Vec<3> a, Vec<3> b, F&& f) const
 {

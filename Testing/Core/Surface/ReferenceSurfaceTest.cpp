@@ -230,6 +230,15 @@ TEST(ReferenceSurface, RoomIsKeptTowardsSheetsThatFaceThePoint)
   EXPECT_EQ(wall.withinRoom(x, up, 0.1), up); // the wall becomes thicker
   const Vec<3> along(0.58, 0.5, 0.0);
   EXPECT_EQ(wall.withinRoom(x, along, 0.1), along);
+  // A region that is thin as a whole may not become much thicker either.
+  ReferenceSurface thin;
+  for (const Piece& piece : two)
+  {
+    thin.add(piece.x, piece.patch, true, true, true);
+  }
+  thin.finish(0.1, 1e-15);
+  EXPECT_NEAR(thin.withinRoom(x, up, 0.1)[2], 0.04 / 7.0, 1e-15);
+  EXPECT_EQ(thin.withinRoom(x, along, 0.1), along);
 }
 
 TEST(ReferenceSurface, WhatWasHighMayBeReplacedByWhatIsAsHigh)
