@@ -50,11 +50,11 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
 
 namespace
 {
-/// The regions whose volume could change by a quarter if all of their surface moved as far as it
-/// may.
+/// The regions whose volume would change by a quarter if their surface moved by a quarter of the
+/// tolerance, on average.
 std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
 {
-  constexpr double most = 0.25, farthest = 0.75; // of the volume; of the tolerance
+  constexpr double most = 0.25, farthest = 0.25; // of the volume; of the tolerance
   std::map<Index, double> left;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
