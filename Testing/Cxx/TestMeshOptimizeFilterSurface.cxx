@@ -62,6 +62,38 @@ void AddRoof(vtkUnstructuredGrid* grid)
   }
 }
 
+TEST(MeshOptimizeFilterSurface, TheBoundIsThatOfRidgesThatStay)
+{
+  // A tetrahedron with the dihedral angle of 20 degrees, the best one by the mean ratio.
+  const double phi = vtkMath::RadiansFromDegrees(20.0), s = std::sin(0.5 * phi);
+  const double r = 1.0 / std::sqrt(1.0 + s * s);
+  auto grid = Grid::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  points->InsertNextPoint(1.0, 0.0, 0.0);
+  points->InsertNextPoint(0.5, r, 0.0);
+  points->InsertNextPoint(0.5, r * std::cos(phi), r * std::sin(phi));
+  grid->SetPoints(points);
+  const vtkIdType cell[4] = { 0, 1, 2, 3 };
+  grid->InsertNextCell(VTK_TETRA, 4, cell);
+  const double best = std::cbrt(std::pow(std::sqrt(2.0) * std::sin(phi) / (1.0 + s * s), 2));
+  for (double tolerance : { 0.0, 1e-3 })
+  {
+    Sliding slid(tolerance);
+    slid->SetInputData(grid);
+    slid->SetQualityMeasureToMeanRatio();
+    slid->SetTargetQuality(0.9);
+    slid->SetGrowthBudget(10.0);
+    slid->Update();
+    EXPECT_NEAR(slid->GetWorstQualityBefore(), best, 1e-12);
+    // Where the surface may move, nothing is certain.
+    EXPECT_NEAR(slid->GetQualityBound(), tolerance > 0.0 ? 1.0 : best, 1e-5);
+    EXPECT_EQ(Figure(slid->GetOutput(), "QualityBound"), slid->GetQualityBound());
+    EXPECT_GE(slid->GetQualityBound(), slid->GetWorstQualityAfter());
+  }
+}
+
 vtkIdType CountPlaces(vtkUnstructuredGrid* grid, int place)
 {
   vtkDataArray* places = grid->GetPointData()->GetArray("BoundaryPlace");

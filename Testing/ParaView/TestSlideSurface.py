@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The example of a surface that takes part, as a user runs it: what it reaches, and that the surface is the same set of points."""
+import contextlib
+import io
 import os
 import runpy
 import sys
@@ -61,3 +63,23 @@ for chosen in (["POINTS", "Held"], "Held", ["CELLS", "Number"], "Number"):
     check((where[:, 2] == -3).all() and where[:, 0].max() < 0.1, "nodes of the set", chosen, where.max(axis=0))
 places = vtk_to_numpy(after_grid.GetPointData().GetArray("BoundaryPlace"))
 check(set(np.unique(places)) == {0, 1, 2, 3}, "places", np.bincount(places))
+
+# From an STL to a good mesh, and what holds its worst elements.
+if hasattr(simple, "TetrahedralizeTetGen"):  # a build may lack it
+    example = os.path.join(source, "ParaViewPlugin", "Examples", "slide_stl.py")
+    body = os.path.join(OUTPUT, "slide_stl.vtu")
+    sys.argv = [example, os.path.join(OUTPUT, "slide_stl.stl"), body, "--make"]
+    names = runpy.run_path(example)
+    check(names["kept"].WorstQualityAfter < 0.4, "needles that stay", names["kept"].WorstQualityAfter)
+    check(names["slid"].WorstQualityAfter >= 0.6, "from STL", names["slid"].WorstQualityAfter)
+    diagonal = read(body)[0].GetLength()
+    check(0 < names["slid"].SurfaceDistance <= 1.001e-3 * diagonal, "within the tolerance", names["slid"].SurfaceDistance / diagonal)
+    script = os.path.join(source, "Testing", "Benchmarks", "what_holds.py")
+    sys.argv = [script, body, "--below", "0.65"]
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        runpy.run_path(script, run_name="__main__")
+    rows = [line.split("|")[1:-1] for line in printed.getvalue().splitlines() if line.startswith("| ")][1:]
+    worst = names["slid"].WorstQualityAfter
+    check(rows and abs(float(rows[0][1]) - worst) < 1e-4, "the first row is that of the worst element", rows[:1], worst)
+    allowed = [float(row[k]) for row in rows for k in (5, 7) if row[k].strip()]
+    check(allowed and min(allowed) >= worst - 1e-3, "no element is above what its angles allow", min(allowed, default=0))

@@ -27,6 +27,8 @@ public:
   }
 
 private:
+  static constexpr int Parts = 4; ///< of the way that are tried: 1, 1/2, 1/4, 1/8
+
   /// `leaves`: nodes of the surface may leave it, as far as the tolerance allows.
   bool move(Judge<D, Shape>& judge, Index t, bool leaves)
   {
@@ -53,24 +55,13 @@ private:
       this->metrics_, judge.enough(old), 0.5 * judge.gain(old));
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
     // the nodes must also lie among their neighbours.
-    bool better = now > judge.required(old) && (now > 0.0 || this->cluster_.isAmidPoints());
-    if (better)
+    const bool mayGain = now > judge.required(old) && (now > 0.0 || this->cluster_.isAmidPoints());
+    bool better = false;
+    double part = 1.0;
+    // What is too far for the surface may be good half of the way.
+    for (int k = 0; k < (slides ? Parts : 1) && mayGain && !better; ++k, part *= 0.5)
     {
-      this->proposal_.clear();
-      this->proposal_.cavity = cells;
-      for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
-      {
-        const Index p = this->cluster_.points[k];
-        Vec<D> x = this->cluster_.x[k];
-        Place place;
-        if (!mesh.isFree(p))
-        {
-          place = leaves || mesh.freedom(p) == Freedom::Corner
-            ? judge.surface()->placeNear(mesh.place(p), x, x)
-            : judge.surface()->project(mesh.place(p), x, x);
-        }
-        this->proposal_.moves.push_back({ p, x, place });
-      }
+      this->propose(judge, leaves, part);
       this->proposal_.oldWorst = old;
       // Nodes that slide were moved to the surface at last: that may have cost all of the gain.
       this->proposal_.least = slides ? judge.required(old) : old;
@@ -79,6 +70,37 @@ private:
     }
     judge.count(Operation::NodeMotion, better);
     return better;
+  }
+
+  /// Proposes a part of the way to the new places in the cluster; all nodes of the surface end on
+  /// it, or as near as they must.
+  void propose(Judge<D, Shape>& judge, bool leaves, double part)
+  {
+    const SimplexMesh<D>& mesh = judge.mesh();
+    this->proposal_.clear();
+    this->proposal_.cavity = this->cluster_.cells;
+    for (int k = 0; k < this->cluster_.numberOfMoving; ++k)
+    {
+      const Index p = this->cluster_.points[k];
+      Vec<D> x = this->cluster_.x[k];
+      const auto there = [&]
+      {
+        return leaves || mesh.freedom(p) == Freedom::Corner
+          ? judge.surface()->placeNear(mesh.place(p), x, x)
+          : judge.surface()->project(mesh.place(p), x, x);
+      };
+      Place place;
+      if (!mesh.isFree(p))
+      {
+        place = there();
+      }
+      if (part < 1.0)
+      {
+        x = mesh.point(p) + part * (x - mesh.point(p));
+        place = mesh.isFree(p) ? place : there();
+      }
+      this->proposal_.moves.push_back({ p, x, place });
+    }
   }
 
   /// The directions of the nodes that slide. False if there is none.

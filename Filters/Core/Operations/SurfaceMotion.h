@@ -51,6 +51,9 @@ private:
       required;
     bool done = false;
     double part = 1.0;
+    // Parts of the way that the tolerance allows: parts of a longer way could all end at the same
+    // place, which has no tolerance left for the edges there.
+    judge.surface()->placeNear(mesh.place(v), to, to);
     for (int k = 0; k < tries && mayGain && !done; ++k, part *= 0.5)
     {
       Vec<D> x = from + part * (to - from);

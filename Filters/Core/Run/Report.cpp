@@ -2,12 +2,15 @@
 // The stop reason in words for the user.
 #include "Run/Report.h"
 
+#include <cstdio>
 #include <utility>
 
 namespace meshopt
 {
 namespace
 {
+constexpr double NearBound = 0.9; ///< part of the bound from which on it is named as what holds
+
 const char* toString(StopReason reason)
 {
   // Without a default, so that the compiler names a reason that has no sentence.
@@ -51,8 +54,19 @@ std::string describeStop(const Report& report)
     // Kinds without a node of the worst cell are not named.
     list += number == 0 ? "" : (list.empty() ? "" : ", ") + std::to_string(number) + " " + place;
   }
-  return list.empty() || report.stopReason == StopReason::TargetReached
-    ? text
-    : text + "; nodes of the worst one: " + list;
+  if (list.empty() || report.stopReason == StopReason::TargetReached)
+  {
+    return text;
+  }
+  text += "; nodes of the worst one: " + list;
+  // Only of a surface that stays the same set of points: with a tolerance no bound is known.
+  if (report.bound < 1.0 && report.worstAfter > NearBound * report.bound)
+  {
+    char held[96];
+    std::snprintf(held, sizeof held,
+      "; held by the angles of ridges and corners: they allow no more than %.4f", report.bound);
+    text += held;
+  }
+  return text;
 }
 }

@@ -22,7 +22,8 @@ constexpr double RoomOfWalls = 1.0 / 7.0;
 constexpr double RoomOfGaps = 0.25;
 }
 
-void ReferenceSurface::add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter)
+void ReferenceSurface::add(
+  const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, bool isThin)
 {
   Facet f;
   // The longest edge first: the frame is then as exact as it can be.
@@ -46,6 +47,7 @@ void ReferenceSurface::add(const std::array<Vec<3>, 3>& x, Index patch, bool isS
   f.patch = patch;
   f.isSigned = isSigned;
   f.isOuter = isOuter;
+  f.isThin = isThin;
   f.x = x;
   this->facets_.push_back(f);
 }
@@ -147,14 +149,14 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
 }
 
 /// Only facets that face x are in its way, not those beside it.
-double ReferenceSurface::clearance(const Vec<3>& x) const
+std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
 {
   constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
   const double reach = this->tolerance_ / RoomOfWalls;
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
   std::vector<int> near;
   this->findNear(Box(Eigen::Vector3d(x) - margin, Eigen::Vector3d(x) + margin), None, near);
-  double room = this->tolerance_;
+  std::vector<RoomLimit> limits;
   for (int k : near)
   {
     const Facet& f = this->facets_[k];
@@ -163,10 +165,24 @@ double ReferenceSurface::clearance(const Vec<3>& x) const
     const bool isApart = length > Touch * f.l; // the others have x
     if (isApart && std::fabs(along) > faces * length)
     {
-      room = std::min(room, (f.isOuter && along < 0.0 ? RoomOfGaps : RoomOfWalls) * length);
+      const bool isGap = f.isOuter && along < 0.0;
+      const double share = isGap ? RoomOfGaps : RoomOfWalls;
+      limits.push_back({ way, share * way.squaredNorm(), f.isThin && !isGap });
     }
   }
-  return room;
+  return limits;
+}
+
+Vec<3> ReferenceSurface::withinRoom(const Vec<3>& x, const Vec<3>& to, double most) const
+{
+  const Vec<3> move = to - x;
+  const double off = move.norm();
+  double part = off > most ? most / off : 1.0;
+  for (const RoomLimit& limit : this->limits(x))
+  {
+    part = std::min(part, limit.part(move));
+  }
+  return part < 1.0 ? Vec<3>(x + part * move) : to;
 }
 
 double ReferenceSurface::tolerance(int facet) const

@@ -8,6 +8,7 @@
 #ifndef meshopt_Surface_ReferenceSurface_h
 #define meshopt_Surface_ReferenceSurface_h
 
+#include "Surface/RoomLimit.h"
 #include "Surface/SurfaceChange.h"
 
 #include <unsupported/Eigen/BVH>
@@ -44,8 +45,9 @@ public:
 
   /// Adds a facet: corners in order, seen from outside counter-clockwise. `isSigned` is false if
   /// outside cannot be told from inside, as with a facet within one region; `isOuter` is true if
-  /// there is nothing outside.
-  void add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter);
+  /// there is nothing outside; `isThin` if it bounds a region whose volume could change by much.
+  void add(
+    const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, bool isThin = false);
   /// To be called once, after the last facet. `tolerance`: a length; `least`: that of rounding. No
   /// facet may use more of the tolerance than a seventh of the thickness of the wall that it is a
   /// side of, and a quarter of the gap in front of it: no wall is pressed flat, and no gap closed.
@@ -55,9 +57,11 @@ public:
   /// -1 if the patch has none.
   int project(Index patch, const Vec<3>& x, Vec<3>& there) const;
 
-  /// How far a point of the surface may move: the same parts of the distance to other sheets that
-  /// face it. At most the tolerance.
-  double clearance(const Vec<3>& x) const;
+  /// What the sheets that face point x of the surface leave it: the same parts of their distance.
+  std::vector<RoomLimit> limits(const Vec<3>& x) const;
+  /// The farthest point on the way from x, a point of the surface, to `to`, that keeps these limits
+  /// and is at most `most` away from x.
+  Vec<3> withinRoom(const Vec<3>& x, const Vec<3>& to, double most) const;
 
   /// The tolerance that facets near to this facet of the reference may use.
   double tolerance(int facet) const;
@@ -68,8 +72,14 @@ public:
   bool covers(
     const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways = 0.0) const;
 
-  /// The greatest height of the facet over the reference of its patch, counted as in covers().
-  double height(const Piece& piece) const;
+  /// How far the facet is from the reference of its patch, counted as in covers(): the greatest
+  /// height, to which the motion of a curve beside it has to be added at a right angle; and a
+  /// distance that is not exceeded, motion included, of what is higher or turned away.
+  struct Offset
+  {
+    double height = 0.0, distance = 0.0;
+  };
+  Offset offset(const Piece& piece) const;
 
 private:
   struct Facet
@@ -77,7 +87,7 @@ private:
     Vec<3> origin, along, across, normal; ///< a frame: the corners are (0, 0), (l, 0), (p, q)
     double l, p, q;
     Index patch;
-    bool isSigned, isOuter;
+    bool isSigned, isOuter, isThin;
     std::array<Vec<3>, 3> x;
     double tolerance = 0.0; ///< its own
   };

@@ -20,6 +20,8 @@ constexpr double LeastCosine = 0.2588;
 /// Facets that are not this high, in tolerances and in their longest edge, have no normal worth the
 /// name. What lies on them is this near to that edge, which other facets have, too.
 constexpr double Needle = 0.1, NeedleShape = 0.05;
+/// What facets beside a curve may use that has moved sideways: both together.
+constexpr double ShareBesideCurves = 0.96;
 /// How far to look for the reference, in tolerances.
 constexpr double Reach = 2.0;
 
@@ -165,10 +167,10 @@ bool ReferenceSurface::covers(
 bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
   const std::vector<Piece>& come, double sideways, std::vector<std::uint8_t>& unclear) const
 {
-  const double allowed = Share * r.tolerance;
+  double allowed = Share * r.tolerance;
   const auto stands = [](const Heights& h, double most)
   { return h.most >= 0.0 && h.most <= most && h.cosine >= LeastCosine; };
-  bool isClear = true;
+  bool isClear = true, isRaised = false;
   for (std::size_t k = 0; k < come.size(); ++k)
   {
     if (this->isFlatOn(r, come[k], allowed))
@@ -176,6 +178,17 @@ bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
       continue;
     }
     const Heights h = this->heights(r, come[k]);
+    if (!isRaised && stands(h, ShareBesideCurves * r.tolerance) && !stands(h, allowed))
+    {
+      // Beside a curve that has moved, what was there may have been higher: it may stay so.
+      isRaised = true;
+      for (const Piece& piece : gone)
+      {
+        const Heights old = this->heights(r, piece);
+        allowed = stands(old, ShareBesideCurves * r.tolerance) ? std::max(allowed, old.most)
+                                                               : allowed;
+      }
+    }
     if (h.most >= 0.0 && !stands(h, allowed))
     {
       isClear = false;
@@ -234,7 +247,7 @@ bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near, 
     const auto isNearTo = [&](int k)
     {
       const Facet& r = this->facets_[k];
-      const double allowed = part * Share * r.tolerance;
+      const double allowed = part * ShareBesideCurves * r.tolerance;
       return r.patch == piece.patch && (!r.isSigned || r.normal.dot(normal) > 0.0) &&
         std::all_of(t.begin(), t.end(),
           [&](const Vec<3>& x)
@@ -283,7 +296,7 @@ bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& n
   return away < this->tolerance_ * this->tolerance_ && same * away <= distance(false);
 }
 
-double ReferenceSurface::height(const Piece& piece) const
+ReferenceSurface::Offset ReferenceSurface::offset(const Piece& piece) const
 {
   Box box;
   for (const Vec<3>& x : piece.x)
@@ -301,15 +314,16 @@ double ReferenceSurface::height(const Piece& piece) const
   };
   if (std::any_of(near.begin(), near.end(), isSame))
   {
-    return 0.0; // it has not changed
+    return {}; // it has not changed
   }
-  double most = 0.0;
+  Offset offset;
   bool isClear = true;
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
     const Heights h = this->isNeedle(r) ? Heights{ 0.0, -1.0, 1.0, 0.0 } : this->heights(r, piece);
-    const bool stands = h.most <= Share * r.tolerance && h.cosine >= LeastCosine;
+    const bool stands = h.most <= ShareBesideCurves * r.tolerance && h.cosine >= LeastCosine;
+    double& most = h.most <= Share * r.tolerance ? offset.height : offset.distance;
     most = stands ? std::max(most, h.most) : most;
     isClear = isClear &&
       (stands || h.most < 0.0 || h.least > Reach * r.tolerance || !(h.cosine > 0.0));
@@ -321,6 +335,7 @@ double ReferenceSurface::height(const Piece& piece) const
   {
     part *= 2.0;
   }
-  return std::max(most, part * Share * this->tolerance_);
+  offset.distance = std::max(offset.distance, part * ShareBesideCurves * this->tolerance_);
+  return offset;
 }
 }

@@ -19,6 +19,8 @@ namespace
 /// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
 /// sideways, and above the reference besides.
 constexpr double CurveShare = 0.6;
+/// A node that has been put at the end of its room is there up to rounding.
+constexpr double Rounding = 1e-9;
 }
 
 /// Points that slide ask their patch or curve: new points have no entry of their own.
@@ -96,13 +98,11 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   {
     foot = this->corners_[place.part];
   }
-  room = std::min(room, this->reference_.clearance(foot));
-  const double off = (x - foot).norm();
-  there = off > room ? Vec<3>(foot + (room / off) * (x - foot)) : x;
+  there = this->reference_.withinRoom(foot, x, room);
   if (place.freedom == Freedom::Patch)
   {
     // distance() reads from it how far the node is off its patch.
-    result.parameter = std::min(off, room);
+    result.parameter = std::min((there - foot).norm(), room);
   }
   return result;
 }
@@ -172,12 +172,15 @@ std::optional<Span> SlidingSurface::span(const SimplexMesh<3>& mesh, Index a, In
     return std::nullopt;
   }
   std::optional<Span> span = this->pieces_.span(a, pa, b, pb);
-  if (span)
-  {
-    const SpaceCurve& curve = this->curves_[span->part];
-    span->off = std::sqrt(std::max((mesh.point(a) - curve.at(span->from)).squaredNorm(),
-      (mesh.point(b) - curve.at(span->to)).squaredNorm()));
-  }
+  return span ? this->measured(*span, mesh.point(a), mesh.point(b)) : span;
+}
+
+/// The same span, for an edge from a to b.
+Span SlidingSurface::measured(Span span, const Vec<3>& a, const Vec<3>& b) const
+{
+  const SpaceCurve& curve = this->curves_[span.part];
+  span.off = curve.deviation(span.from, span.to, a, b);
+  span.leavesRoom = curve.leavesRoom(span.from, span.to, a, b);
   return span;
 }
 
@@ -216,9 +219,8 @@ std::optional<SlidingRange> SlidingSurface::range(
 /// Whether the new edge between two points of a curve stays near it.
 bool SlidingSurface::follows(const Span& span) const
 {
-  return this->pieces_.mayBeNeighbours(span) &&
-    this->curves_[span.part].deviation(span.from, span.to) + span.off <=
-    std::min(CurveShare * this->tolerance_, this->curves_[span.part].room(span.from, span.to));
+  return this->pieces_.mayBeNeighbours(span) && span.leavesRoom &&
+    span.off <= (1.0 + Rounding) * CurveShare * this->tolerance_;
 }
 
 /// Inside a patch, or where the edge is on one known curve; never beside a facet that stays.
@@ -291,7 +293,9 @@ bool SlidingSurface::mayJoin(
     return false;
   }
   const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
-  if (u == w || !this->follows({ place.part, range->low, range->high }))
+  const Span joined{ place.part, range->low, range->high };
+  if (u == w ||
+    !this->follows(this->measured(joined, mesh.point(range->ends[0]), mesh.point(range->ends[1]))))
   {
     return false;
   }
@@ -396,7 +400,7 @@ bool SlidingSurface::allowsAngle(
 
 double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
 {
-  double most = 0.0, mostOfCurves = 0.0;
+  double most = 0.0, mostOfCurves = 0.0, mostOfAll = 0.0;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
@@ -420,7 +424,9 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
       }
       else
       {
-        most = std::max(most, this->reference_.height(piece));
+        const ReferenceSurface::Offset offset = this->reference_.offset(piece);
+        most = std::max(most, offset.height);
+        mostOfAll = std::max(mostOfAll, offset.distance);
         for (Index p : f)
         {
           const Place& place = mesh.place(p);
@@ -436,12 +442,11 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
         : std::nullopt;
       if (span)
       {
-        mostOfCurves = std::max(
-          mostOfCurves, this->curves_[span->part].deviation(span->from, span->to) + span->off);
+        mostOfCurves = std::max(mostOfCurves, span->off);
       }
     }
   }
   // Beside a curve, facets can be off by both.
-  return std::hypot(most, mostOfCurves);
+  return std::max(std::hypot(most, mostOfCurves), mostOfAll);
 }
 }

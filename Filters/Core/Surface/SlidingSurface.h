@@ -11,6 +11,7 @@
 #include "Surface/SharpEdges.h"
 #include "Surface/SpaceCurve.h"
 #include "Surface/Surface.h"
+#include "Surface/SurfaceAngles.h"
 #include "Surface/SurfaceDivision.h"
 
 #include <memory>
@@ -37,6 +38,9 @@ public:
   double tolerance() const { return this->tolerance_; }
   /// Freedom of each point of the input; Free if it is not on the surface.
   const std::vector<Freedom>& freedom() const { return this->freedom_; }
+
+  /// The angles that every mesh of this body has to fill; nothing unless exact.
+  const SurfaceAngles& angles() const { return this->angles_; }
 
   /// The number that the facets of a patch had in SurfaceOptions::labels.
   Index label(Index patch) const { return this->patches_[patch].label; }
@@ -92,6 +96,7 @@ private:
   void addCurves(MeshEditor<3>& editor, const SurfaceDivision& division);
   void addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
     const std::vector<std::uint32_t>& sets);
+  Span measured(Span span, const Vec<3>& a, const Vec<3>& b) const;
   bool follows(const Span& span) const;
   bool isFlat(const SurfacePiece<3>& piece) const;
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
@@ -101,6 +106,7 @@ private:
   std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
   CurvePieces pieces_;
   ReferenceSurface reference_;
+  SurfaceAngles angles_;
   SharpEdges bent_;                   ///< by more than half of the feature angle
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;

@@ -4,6 +4,9 @@
 #include "Surface/SlidingSurface.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
 
 namespace meshopt
 {
@@ -17,6 +20,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   this->freedom_ = division.freedom;
   this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
   this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
+  this->angles_ = surfaceAngles(editor.mesh(), division);
   // First the patches: curves ask the reference how much room they have.
   this->addPatches(editor, division);
   this->addCurves(editor, division);
@@ -46,10 +50,51 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   }
 }
 
+namespace
+{
+/// The regions whose volume would change by a quarter if their surface moved by a quarter of the
+/// tolerance, on average.
+std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
+{
+  constexpr double most = 0.25, farthest = 0.25; // of the volume; of the tolerance
+  std::map<Index, double> left;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      left[mesh.region(c)] += most * std::fabs(signedVolume(mesh.corners(c)));
+    }
+  }
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    const Vec<3>& a = mesh.point(part.nodes[0]);
+    const double area = 0.5 *
+      (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
+    for (Index region : { part.region, part.other })
+    {
+      if (region != None)
+      {
+        left[region] -= area * farthest * division.tolerance;
+      }
+    }
+  }
+  std::set<Index> thin;
+  for (const auto& [region, volume] : left)
+  {
+    if (volume < 0.0)
+    {
+      thin.insert(region);
+    }
+  }
+  return thin;
+}
+}
+
 /// Facets go into the reference as they are now. From here on it does not change.
 void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
+  const std::set<Index> thin = thinRegions(mesh, division);
   this->patches_.resize(division.numberOfPatches);
   for (Index k = 0; k < division.numberOfPatches && this->isExact_; ++k)
   {
@@ -76,7 +121,8 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
     patch.label = part.label;
     this->reference_.add(
       { mesh.point(part.nodes[0]), mesh.point(part.nodes[1]), mesh.point(part.nodes[2]) },
-      part.patch, patch.isSigned, part.other == None);
+      part.patch, patch.isSigned, part.other == None,
+      thin.count(part.region) + thin.count(part.other) > 0);
     this->inputFacets_.push_back(sortedIds(part.nodes));
   }
   this->reference_.finish(this->tolerance_, division.rounding);
@@ -98,13 +144,13 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     {
       points.push_back(mesh.point(p));
     }
-    std::vector<double> rooms;
+    std::vector<std::vector<RoomLimit>> limits;
     for (std::size_t k = 0; k < points.size() && !this->isExact_; ++k)
     {
-      rooms.push_back(this->reference_.clearance(points[k]));
+      limits.push_back(this->reference_.limits(points[k]));
     }
     SpaceCurve curve(std::move(points), chain.isClosed);
-    curve.setRooms(std::move(rooms));
+    curve.setLimits(std::move(limits));
     const auto number = static_cast<Index>(this->curves_.size());
     CurvePiece piece;
     piece.curve = number;

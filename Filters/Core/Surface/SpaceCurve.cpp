@@ -111,50 +111,58 @@ double SpaceCurve::closest(const Vec<3>& x, double s) const
   return (this->isClosed_ ? s : r) + nearest;
 }
 
-void SpaceCurve::setRooms(std::vector<double> rooms)
+void SpaceCurve::setLimits(std::vector<std::vector<RoomLimit>> limits)
 {
-  this->rooms_ = std::move(rooms);
-  if (this->isClosed_ && !this->rooms_.empty())
-  {
-    this->rooms_.push_back(double(this->rooms_.front()));
-  }
+  this->limits_ = std::move(limits);
 }
 
-/// Of all lines that the span touches, even in part.
-double SpaceCurve::room(double from, double to) const
+/// Of all points of the reference that the span passes.
+bool SpaceCurve::leavesRoom(double from, double to, const Vec<3>& a, const Vec<3>& b) const
 {
-  const std::size_t n = this->points_.size() - 1;
-  const double low = this->inRange(std::min(from, to));
-  double left = low + std::fabs(to - from);
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t k = this->segmentAt(low);
-  for (std::size_t done = 0; done < n && !this->rooms_.empty(); ++done)
+  bool good = true;
+  const auto check = [&](std::size_t k, const Vec<3>& away)
   {
-    least = std::min({ least, this->rooms_[k], this->rooms_[k + 1] });
-    if (!(this->knots_[k + 1] < left))
+    for (const RoomLimit& limit : this->limits_[k])
     {
-      break;
+      good = good && !(limit.part(-away) < 1.0);
     }
-    left -= k + 1 == n ? this->length() : 0.0; // only a closed one goes on
-    k = k + 1 == n ? 0 : k + 1;
-  }
-  return least;
+  };
+  return this->limits_.empty() || (this->forBetween(from, to, a, b, check) && good);
 }
 
-double SpaceCurve::deviation(double from, double to) const
+double SpaceCurve::deviation(double from, double to, const Vec<3>& a, const Vec<3>& b) const
+{
+  // Between points of both that belong together, the distance is a convex function: it is greatest
+  // at one of them.
+  double farthest = std::sqrt(
+    std::max((this->at(from) - a).squaredNorm(), (this->at(to) - b).squaredNorm()));
+  const auto measure = [&](std::size_t, const Vec<3>& away)
+  { farthest = std::max(farthest, away.norm()); };
+  return this->forBetween(from, to, a, b, measure) ? farthest
+                                                   : std::numeric_limits<double>::infinity();
+}
+
+/// Calls f(k, away) for the points between two parameters: the number in the constructor, and the
+/// way from the line from a to b. False where the curve turns back as seen along the line, which
+/// may then be far from it.
+template <class F>
+bool SpaceCurve::forBetween(double from, double to, Vec<3> a, Vec<3> b, F&& f) const
 {
   const double low = std::min(from, to), high = std::max(from, to);
-  const Vec<3> a = this->at(low), chord = this->at(high) - a;
-  const double l = chord.norm();
-  // A span that comes back to its start has no chord to be compared with.
+  if (from > to)
+  {
+    std::swap(a, b);
+  }
+  const Vec<3> line = b - a;
+  const double l = line.norm();
   if (!(l > 0.0))
   {
-    return high > low ? std::numeric_limits<double>::infinity() : 0.0;
+    return !(high > low);
   }
   const double slack = Rounding * l;
-  double farthest = 0.0, last = 0.0;
-  // The points between. The distance of a line from a convex set is greatest at one of its ends.
   // Knots are within the first turn: they are shifted to that of the span.
+  double last = (this->at(low) - a).dot(line) / l;
+  const double end = (this->at(high) - a).dot(line) / l;
   const double shift = this->isClosed_ ? std::floor(low / this->length()) * this->length() : 0.0;
   const std::size_t n = this->points_.size() - 1;
   std::size_t k = this->segmentAt(this->inRange(low)) + 1;
@@ -168,17 +176,16 @@ double SpaceCurve::deviation(double from, double to) const
     }
     if (k >= n || !(this->knots_[k] + turns < high))
     {
-      return farthest;
+      return end >= last - slack;
     }
     const Vec<3> d = this->points_[k] - a;
-    const double t = d.dot(chord) / l;
-    if (!(t >= last - slack &&
-          t <= l + slack)) // it turns back: the chord may then be far from the curve
+    const double t = d.dot(line) / l;
+    if (!(t >= last - slack && t <= end + slack))
     {
-      return std::numeric_limits<double>::infinity();
+      return false;
     }
     last = t;
-    farthest = std::max(farthest, (d - chord * (t / l)).norm());
+    f(k, Vec<3>(d - line * (std::clamp(t, 0.0, l) / l)));
     ++k;
   }
 }

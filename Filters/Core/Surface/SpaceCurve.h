@@ -4,7 +4,7 @@
 #ifndef meshopt_Surface_SpaceCurve_h
 #define meshopt_Surface_SpaceCurve_h
 
-#include "Mesh/Types.h"
+#include "Surface/RoomLimit.h"
 
 #include <vector>
 
@@ -31,22 +31,29 @@ public:
   /// while the distance to x falls.
   double closest(const Vec<3>& x, double s) const;
 
-  /// How far the curve between two parameters, and its chord, are from each other at most: both
-  /// ways. Infinite where the curve turns back, as seen along the chord.
-  double deviation(double from, double to) const;
+  /// How far the curve between two parameters and the line from a to b are from each other at most,
+  /// both ways. Infinite where the curve turns back, as seen along the line.
+  double deviation(double from, double to, const Vec<3>& a, const Vec<3>& b) const;
+  /// The same for its chord.
+  double deviation(double from, double to) const
+  {
+    return this->deviation(from, to, this->at(from), this->at(to));
+  }
 
-  /// How far other parts of the surface leave room at each point of the constructor.
-  void setRooms(std::vector<double> rooms);
-  /// The least room at the points between two parameters, and at the next ones beyond them.
-  double room(double from, double to) const;
+  /// What other sheets of the surface leave at each point of the constructor.
+  void setLimits(std::vector<std::vector<RoomLimit>> limits);
+  /// Whether the line from a to b keeps the limits of the points between two parameters.
+  bool leavesRoom(double from, double to, const Vec<3>& a, const Vec<3>& b) const;
 
 private:
   double inRange(double s) const;
   std::size_t segmentAt(double s) const;
+  template <class F>
+  bool forBetween(double from, double to, Vec<3> a, Vec<3> b, F&& f) const;
 
   std::vector<Vec<3>> points_; ///< of a closed curve: the first one again at the end
   std::vector<double> knots_;  ///< parameter of each point
-  std::vector<double> rooms_;  ///< like the points; empty: no limits
+  std::vector<std::vector<RoomLimit>> limits_; ///< like the points; empty: none
   bool isClosed_;
 };
 }

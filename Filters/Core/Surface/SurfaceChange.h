@@ -14,9 +14,12 @@ namespace meshopt
 /// The part of a curve between two points that are neighbours on it.
 struct Span
 {
-  Index part;       ///< number of the curve
-  double from, to;  ///< parameters; for a closed curve they may be out of its range
-  double off = 0.0; ///< distance of the points from these places: the greater of the two
+  Index part;      ///< number of the curve
+  double from, to; ///< parameters; for a closed curve they may be out of its range
+  /// In space: how far the edge between the points and this part of the curve are from each other,
+  /// both ways; and whether the edge leaves other sheets their room.
+  double off = 0.0;
+  bool leavesRoom = true;
 };
 
 /// A facet of the surface.

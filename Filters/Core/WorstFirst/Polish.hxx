@@ -92,7 +92,9 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     more = this->stage(std::nextafter(worst.back().first, 1.0));
     // The worst cell gained enough: start again with the smallest neighbourhood.
     const double least = isWide ? WideGain : RoundGain * this->gain_;
-    if (this->worst() > before + least * std::fabs(before))
+    // Few cells cost little: where the surface takes part, these go on while they gain at all.
+    const bool areFew = this->slides() && worst.size()<wanted&& this->worst()> before;
+    if (this->worst() > before + least * std::fabs(before) || areFew)
     {
       layers = 0;
       wanted = isWide ? wanted : PolishedCells;

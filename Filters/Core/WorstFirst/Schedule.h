@@ -86,10 +86,10 @@ private:
   void watch(Worker& worker, const Task& task);
   bool hasNext(Worker& worker) const;
   long fewCells() const;
-  /// Of polish(), up to the target; where a bound tells how far there is to go.
+  /// Of polish(), up to the target; where there is hope: see isFarBelowBound().
   long mostLooks() const
   {
-    return this->caps_.bound() < 1.0
+    return this->caps_.bound() < 1.0 || this->slides()
       ? std::max(FewestLooks, this->mesh().numberOfCellSlots() / CellsPerLook)
       : std::numeric_limits<long>::max();
   }
@@ -98,10 +98,11 @@ private:
     return this->kept_ < std::max<long>(1, static_cast<long>(bad.size()) / HardlyAny);
   }
   bool worthTrying(Index c, int level) const;
-  /// False where no bound is known.
+  /// False where no bound is known, unless the surface takes part: then hardly anything is bound.
   bool isFarBelowBound() const
   {
-    return this->caps_.bound() < 1.0 && this->worst() < NearBound * this->caps_.bound();
+    return (this->caps_.bound() < 1.0 || this->slides()) &&
+      this->worst() < NearBound * this->caps_.bound();
   }
   /// Whether the many bad cells are left as they are from now on: a pass over them creeps, and the
   /// surface, that holds most of such cells, is kept. Only the worst get more effort.

@@ -40,6 +40,13 @@ TEST(Report, SaysWhereTheWorstCellIsIfTheSurfaceTookPart)
   EXPECT_EQ(describeStop(report),
     "no operation improves the worst cells any more; nodes of the worst one: 2 at corners, 2 "
     "inside");
+  report.bound = 0.5;
+  report.worstAfter = 0.4;
+  EXPECT_EQ(describeStop(report).find("held"), std::string::npos);
+  report.worstAfter = 0.49;
+  EXPECT_EQ(describeStop(report),
+    "no operation improves the worst cells any more; nodes of the worst one: 2 at corners, 2 "
+    "inside; held by the angles of ridges and corners: they allow no more than 0.5000");
   report.stopReason = StopReason::TargetReached;
   EXPECT_EQ(describeStop(report), "target quality reached");
 }

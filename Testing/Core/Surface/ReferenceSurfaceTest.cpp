@@ -165,7 +165,8 @@ TEST(ReferenceSurface, HeightsBoundTheDistance)
   double proved = 0.0;
   for (const Piece& piece : coarse)
   {
-    proved = std::max(proved, surface.height(piece));
+    proved = std::max(
+      proved, std::max(surface.offset(piece).height, surface.offset(piece).distance));
   }
   EXPECT_GE(proved, sampledDistance(facetsOf(coarse), facetsOf(fine), 10) - 1e-12);
   EXPECT_LT(proved, 0.05);
@@ -206,21 +207,49 @@ TEST(ReferenceSurface, FacetsBesideASharpEdgeMayChange)
   EXPECT_FALSE(surface.covers(before, sheet(5, stepUp)));
 }
 
-TEST(ReferenceSurface, ClearanceIsToSheetsThatFaceThePoint)
+TEST(ReferenceSurface, RoomIsKeptTowardsSheetsThatFaceThePoint)
 {
   const auto flat = [](double, double) { return 0.0; };
   auto two = sheet(6, flat);
   const auto alone = reference(two, 0.1);
-  EXPECT_DOUBLE_EQ(alone.clearance(Vec<3>(0.5, 0.5, 0.0)), 0.1); // neighbours do not count
+  const Vec<3> x(0.5, 0.5, 0.0), down(0.5, 0.5, -0.08), up(0.5, 0.5, 0.08);
+  EXPECT_TRUE(alone.limits(x).empty()); // neighbours do not count
+  EXPECT_EQ(alone.withinRoom(x, down, 0.1), down);
+  EXPECT_NEAR((alone.withinRoom(x, down, 0.05) - Vec<3>(0.5, 0.5, -0.05)).norm(), 0.0, 1e-15);
   for (Piece piece : sheet(6, flat))
   {
     std::swap(piece.x[1], piece.x[2]);
-    for (Vec<3>& x : piece.x)
+    for (Vec<3>& p : piece.x)
     {
-      x[2] -= 0.04;
+      p[2] -= 0.04;
     }
     two.push_back(piece);
   }
-  EXPECT_DOUBLE_EQ(reference(two, 0.1).clearance(Vec<3>(0.5, 0.5, 0.0)), 0.04 / 7.0);
+  const auto wall = reference(two, 0.1);
+  EXPECT_NEAR(wall.withinRoom(x, down, 0.1)[2], -0.04 / 7.0, 1e-15);
+  EXPECT_EQ(wall.withinRoom(x, up, 0.1), up); // the wall becomes thicker
+  const Vec<3> along(0.58, 0.5, 0.0);
+  EXPECT_EQ(wall.withinRoom(x, along, 0.1), along);
+  // A region that is thin as a whole may not become much thicker either.
+  ReferenceSurface thin;
+  for (const Piece& piece : two)
+  {
+    thin.add(piece.x, piece.patch, true, true, true);
+  }
+  thin.finish(0.1, 1e-15);
+  EXPECT_NEAR(thin.withinRoom(x, up, 0.1)[2], 0.04 / 7.0, 1e-15);
+  EXPECT_EQ(thin.withinRoom(x, along, 0.1), along);
+}
+
+TEST(ReferenceSurface, WhatWasHighMayBeReplacedByWhatIsAsHigh)
+{
+  // Beside a curve that has moved, facets may be higher than elsewhere.
+  const auto at = [](double z) { return [z](double, double) { return z; }; };
+  const auto surface = reference(sheet(4, at(0.0)), 0.1);
+  EXPECT_TRUE(surface.covers(sheet(4, at(0.0)), sheet(3, at(0.07))));
+  EXPECT_FALSE(surface.covers(sheet(4, at(0.0)), sheet(3, at(0.08))));
+  EXPECT_TRUE(surface.covers(sheet(4, at(0.085)), sheet(3, at(0.08))));
+  EXPECT_FALSE(surface.covers(sheet(4, at(0.085)), sheet(3, at(0.09))));
+  EXPECT_FALSE(surface.covers(sheet(4, at(0.098)), sheet(3, at(0.098))));
 }
 }

@@ -95,20 +95,38 @@ TEST(SpaceCurve, WhereItTurnsBackNothingIsProved)
   EXPECT_TRUE(std::isinf(loop.deviation(0.0, loop.length()))); // its chord has no length
 }
 
-TEST(SpaceCurve, RoomIsTheLeastAroundASpan)
+TEST(SpaceCurve, ChordsKeepTheLimitsOfThePointsBetween)
 {
-  SpaceCurve open = zigzag(false), closed = zigzag(true);
-  EXPECT_EQ(open.room(0.0, 1.0), std::numeric_limits<double>::infinity());
-  for (SpaceCurve* curve : { &open, &closed })
+  const auto leavesRoom = [](const SpaceCurve& curve, double from, double to)
+  { return curve.leavesRoom(from, to, curve.at(from), curve.at(to)); };
+  SpaceCurve bend({ { 0, 0, 0 }, { 1, 0.1, 0 }, { 2, 0, 0 }, { 3, 0, 0 } }, false);
+  const double first = bend.parameter(1), second = bend.parameter(2);
+  EXPECT_TRUE(leavesRoom(bend, 0.0, second));
+  // The chord passes below the bend, by 0.1.
+  for (const double most : { 0.05, 0.15 })
   {
-    curve->setRooms({ 4.0, 3.0, 2.0, 1.0 });
-    EXPECT_EQ(curve->room(0.2, 0.8), 3.0);
-    EXPECT_EQ(curve->room(2.0, 0.5), 2.0); // either way round
-    EXPECT_EQ(curve->room(0.5, 3.5), 1.0);
+    std::vector<std::vector<RoomLimit>> limits(4);
+    limits[1] = { { Vec<3>(0, -1, 0), most } };
+    bend.setLimits(limits);
+    EXPECT_EQ(leavesRoom(bend, 0.0, second), most > 0.1);
+    EXPECT_EQ(leavesRoom(bend, second, 0.0), most > 0.1);
+    EXPECT_TRUE(leavesRoom(bend, 0.0, first)); // nothing is between
+    EXPECT_TRUE(leavesRoom(bend, first, second));
   }
-  // Across the first point, from the last segment on.
-  const double length = closed.length();
-  EXPECT_EQ(closed.room(length - 0.1, length + 0.1), 1.0);
-  EXPECT_EQ(closed.room(-0.1, 0.1), 1.0);
+  std::vector<std::vector<RoomLimit>> above(4);
+  above[1] = { { Vec<3>(0, 1, 0), 0.05 } };
+  bend.setLimits(above);
+  EXPECT_TRUE(leavesRoom(bend, 0.0, second)); // away from it
+  const Vec<3> up(0.0, 0.17, 0.0);            // now the line passes above the bend, by 0.07
+  EXPECT_FALSE(bend.leavesRoom(0.0, second, up, bend.at(second) + up));
+  EXPECT_NEAR(bend.deviation(0.0, second, up, bend.at(second) + up), 0.17, 1e-15);
+  EXPECT_NEAR(bend.deviation(0.0, second, 0.3 * up, bend.at(second) + 0.3 * up), 0.051, 1e-15);
+  // Closed, across the first point.
+  SpaceCurve closed({ { 0, 0.1, 0 }, { 1, 0, 0 }, { 0, -5, 0 }, { -1, 0, 0 } }, true);
+  std::vector<std::vector<RoomLimit>> limits(4);
+  limits[0] = { { Vec<3>(0, -1, 0), 0.05 } };
+  closed.setLimits(limits);
+  EXPECT_FALSE(leavesRoom(closed, closed.parameter(3), closed.length() + closed.parameter(1)));
+  EXPECT_TRUE(leavesRoom(closed, closed.parameter(1), closed.parameter(3)));
 }
 }
