@@ -5,6 +5,7 @@
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeHistory.h"
+#include "vtkMeshOptimizeRanks.h"
 #include "vtkMeshOptimizeRun.h"
 #include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeWarnings.h"
@@ -18,6 +19,7 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -30,6 +32,7 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshOptimizeFilter);
+vtkCxxSetObjectMacro(vtkMeshOptimizeFilter, Controller, vtkMultiProcessController);
 
 namespace bridge = vtkMeshOptimizeBridge;
 
@@ -38,9 +41,10 @@ vtkMeshOptimizeFilter::vtkMeshOptimizeFilter()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
-vtkMeshOptimizeFilter::~vtkMeshOptimizeFilter() = default;
+vtkMeshOptimizeFilter::~vtkMeshOptimizeFilter() { this->SetController(nullptr); }
 
 //------------------------------------------------------------------------------
 void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
@@ -73,6 +77,8 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "KeepFeatures: " << this->KeepFeatures << "\n";
   os << indent << "SurfaceTolerance: " << this->SurfaceTolerance << "\n";
   os << indent << "ToleranceIsAbsolute: " << this->ToleranceIsAbsolute << "\n";
+  os << indent << "OptimizeBorders: " << this->OptimizeBorders << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "WorstQualityBefore: " << this->WorstQualityBefore << "\n";
   os << indent << "WorstQualityAfter: " << this->WorstQualityAfter << "\n";
@@ -372,6 +378,30 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
   bridge::Request request = MakeRequest(filter, ports.Geometry);
   std::string error = CheckRequest(request, tasks);
+  vtkMultiProcessController* controller = filter->GetController();
+  if (filter->GetOptimizeBorders() && controller && controller->GetNumberOfProcesses() > 1)
+  {
+    const vtkMeshRanks::Ranks ranks(controller);
+    const std::string obstacle = bridge::FindObstacle(
+      ranks, request, isComposite ? nullptr : tasks[0].Input, error);
+    error = ranks.Agree(error);
+    if (error.empty() && obstacle.empty())
+    {
+      request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, 0.0, 1.0);
+      bridge::StartHistory(ports.History, false, false);
+      error = bridge::OptimizeOnRanks(ranks, request, tasks[0].Input, tasks[0].Output, outcome);
+      if (error.empty() && ranks.IsFirst())
+      {
+        bridge::AppendHistory(outcome.Report, 0, ports.History);
+      }
+      return error;
+    }
+    if (error.empty() && ranks.IsFirst())
+    {
+      vtkWarningWithObjectMacro(
+        filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
+    }
+  }
   if (!error.empty())
   {
     return error;

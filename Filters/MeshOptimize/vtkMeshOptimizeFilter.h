@@ -86,6 +86,7 @@
 #include <string> // for the stop reason
 
 class vtkAlgorithmOutput;
+class vtkMultiProcessController;
 class vtkPolyData;
 
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkMeshOptimizeFilter : public vtkUnstructuredGridAlgorithm
@@ -456,6 +457,28 @@ public:
   void SetPatchArray(const char* name);
   ///@}
 
+  ///@{
+  /**
+   * Whether, on several ranks, the borders between their pieces take part: bands of cells around
+   * them move to one rank and are optimized there. This is for tetrahedra with WorstFirst in one
+   * grid. With OptimizeBelow, Paper1996, sizes, a metric, triangles, other cells, ghost cells or
+   * composite data, one warning says that the borders are kept. QualityBound is then 1 (unknown)
+   * and NumberOfCappedCells 0; all other results are those of the whole. Point data of bands may be
+   * interpolated more than once. All ranks must update together. Default: off.
+   */
+  vtkSetMacro(OptimizeBorders, bool);
+  vtkGetMacro(OptimizeBorders, bool);
+  vtkBooleanMacro(OptimizeBorders, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The controller of the ranks. Default: the global controller. Null: this rank only.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
   enum StopReasonType
   {
     NotRun = 0,          ///< not run yet, or stopped by an error
@@ -563,6 +586,8 @@ private:
   bool KeepFeatures = true;
   double SurfaceTolerance = 1e-3;
   bool ToleranceIsAbsolute = false;
+  bool OptimizeBorders = false;
+  vtkMultiProcessController* Controller = nullptr;
 
   double WorstQualityBefore = 0.0, WorstQualityAfter = 0.0;
   double MeanQualityBefore = 0.0, MeanQualityAfter = 0.0;

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Between the parts of a divided mesh and grids, which a run reads and writes.
+#include "vtkMeshRanksPart.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+// No user's array has these names.
+constexpr const char* IdName = "vtkMeshRanks.Id";
+constexpr const char* HomeName = "vtkMeshRanks.Home";
+
+void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes* data)
+{
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    const int place = data->AddArray(arrays[i]);
+    if (schema.Attributes[i] >= 0)
+    {
+      data->SetActiveAttribute(place, schema.Attributes[i]);
+    }
+  }
+}
+
+void AddIds(const std::vector<vtkIdType>& ids, vtkDataSetAttributes* data)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(IdName);
+  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  data->SetGlobalIds(array); // moved points keep theirs, new ones get -1
+}
+
+std::vector<vtkIdType> ReadIds(vtkDataSetAttributes* data)
+{
+  auto array = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(IdName));
+  return { array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues() };
+}
+
+/**
+ * The first arrays of `data`, as many as the part had before: what MakeGrid() has added follows.
+ */
+Arrays ReadArrays(vtkDataSetAttributes* data, std::size_t n)
+{
+  Arrays arrays;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    arrays.emplace_back(data->GetAbstractArray(static_cast<int>(i)));
+  }
+  return arrays;
+}
+
+void ReadCells(vtkUnstructuredGrid* grid, Part& part)
+{
+  const vtkIdType n = grid->GetNumberOfCells();
+  part.CellIds = ReadIds(grid->GetCellData());
+  auto quality = vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray("MeshQuality"));
+  auto home = vtkIntArray::SafeDownCast(grid->GetCellData()->GetArray(HomeName));
+  part.Quality.assign(quality->GetPointer(0), quality->GetPointer(0) + n);
+  part.Home.assign(home->GetPointer(0), home->GetPointer(0) + n);
+  part.Cells.reserve(n * part.Corners);
+  for (vtkIdType c = 0; c < n; ++c)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    grid->GetCellPoints(c, size, ids);
+    part.Cells.insert(part.Cells.end(), ids, ids + size);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
+  const Part& part, const Schema& pointSchema, const Schema& cellSchema)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(part.GetNumberOfPoints());
+  std::copy(part.Coordinates.begin(), part.Coordinates.end(), coordinates->GetPointer(0));
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  grid->SetPoints(points);
+  vtkNew<vtkIdTypeArray> offsets, connectivity;
+  offsets->SetNumberOfValues(part.GetNumberOfCells() + 1);
+  for (vtkIdType c = 0; c <= part.GetNumberOfCells(); ++c)
+  {
+    offsets->SetValue(c, c * part.Corners);
+  }
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(part.Cells.size()));
+  std::copy(part.Cells.begin(), part.Cells.end(), connectivity->GetPointer(0));
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  grid->SetCells(part.Corners == 4 ? VTK_TETRA : VTK_TRIANGLE, cells);
+  AddArrays(part.PointArrays, pointSchema, grid->GetPointData());
+  AddArrays(part.CellArrays, cellSchema, grid->GetCellData());
+  AddIds(part.PointIds, grid->GetPointData());
+  AddIds(part.CellIds, grid->GetCellData());
+  vtkNew<vtkIntArray> home;
+  home->SetName(HomeName);
+  home->SetNumberOfValues(part.GetNumberOfCells());
+  std::copy(part.Home.begin(), part.Home.end(), home->GetPointer(0));
+  grid->GetCellData()->AddArray(home);
+  return grid;
+}
+
+Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before)
+{
+  Part part;
+  part.Corners = before.Corners;
+  part.PointIds = ReadIds(grid->GetPointData());
+  part.Coordinates.resize(3 * part.PointIds.size());
+  part.Flags.assign(part.PointIds.size(), 0);
+  std::size_t at = 0; // of the old points: those that are left have kept their order
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    grid->GetPoint(p, &part.Coordinates[3 * p]);
+    const vtkIdType id = part.PointIds[p];
+    while (id >= 0 && before.PointIds[at] != id)
+    {
+      ++at;
+    }
+    part.Flags[p] = id >= 0 ? before.Flags[at] : 0;
+  }
+  ReadCells(grid, part);
+  part.PointArrays = ReadArrays(grid->GetPointData(), before.PointArrays.size());
+  part.CellArrays = ReadArrays(grid->GetCellData(), before.CellArrays.size());
+  return part;
+}
+
+void RemoveOwn(vtkUnstructuredGrid* grid)
+{
+  grid->GetPointData()->RemoveArray(IdName);
+  grid->GetCellData()->RemoveArray(IdName);
+  grid->GetCellData()->RemoveArray(HomeName);
+}
+
+void NumberNew(vtkIdType firstPoint, vtkIdType firstCell, Part& part)
+{
+  // New ones stand behind the old ones and get greater ids: the order stays ascending.
+  for (vtkIdType& id : part.PointIds)
+  {
+    id = id < 0 ? firstPoint++ : id;
+  }
+  for (vtkIdType& id : part.CellIds)
+  {
+    id = id < 0 ? firstCell++ : id;
+  }
+}
+
+} // namespace vtkMeshRanks
