@@ -3,7 +3,7 @@
 
 #include "vtkCommunicator.h"
 
-#include <algorithm>
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -16,24 +16,53 @@ constexpr int Tag = 71919;
 
 void Send(vtkMultiProcessController* controller, const Bytes& bytes, int to)
 {
-  const vtkTypeInt64 length = static_cast<vtkTypeInt64>(bytes.size());
-  controller->Send(reinterpret_cast<const char*>(&length), sizeof(length), to, Tag);
-  if (length > 0)
+  if (!bytes.empty())
   {
-    controller->Send(bytes.data(), static_cast<vtkIdType>(length), to, Tag);
+    controller->Send(bytes.data(), static_cast<vtkIdType>(bytes.size()), to, Tag);
   }
 }
 
-Bytes Receive(vtkMultiProcessController* controller, int from)
+void Receive(vtkMultiProcessController* controller, Bytes& bytes, int from)
 {
-  vtkTypeInt64 length = 0;
-  controller->Receive(reinterpret_cast<char*>(&length), sizeof(length), from, Tag);
-  Bytes bytes(static_cast<std::size_t>(length));
-  if (length > 0)
+  if (!bytes.empty())
   {
-    controller->Receive(bytes.data(), static_cast<vtkIdType>(length), from, Tag);
+    controller->Receive(bytes.data(), static_cast<vtkIdType>(bytes.size()), from, Tag);
   }
-  return bytes;
+}
+
+/**
+ * Lets all ranks send out[r] to rank r, whose in[r] has the right size already.
+ */
+void SwapAll(vtkMultiProcessController* controller, int rank, std::vector<Bytes>& out,
+  std::vector<Bytes>& in)
+{
+  const int count = static_cast<int>(out.size());
+  int steps = 1;
+  while (steps < count)
+  {
+    steps *= 2;
+  }
+  // In step s all pairs (r, r xor s) meet. The lower one sends first, so that nobody waits for
+  // somebody who waits for others.
+  for (int s = 1; s < steps; ++s)
+  {
+    const int partner = rank ^ s;
+    if (partner >= count)
+    {
+      continue;
+    }
+    if (rank < partner)
+    {
+      Send(controller, out[partner], partner);
+      Receive(controller, in[partner], partner);
+    }
+    else
+    {
+      Receive(controller, in[partner], partner);
+      Send(controller, out[partner], partner);
+    }
+    Bytes().swap(out[partner]);
+  }
 }
 
 } // namespace
@@ -45,36 +74,48 @@ Ranks::Ranks(vtkMultiProcessController* controller)
 {
 }
 
+void Ranks::Meet(const std::string& error) const
+{
+  vtkIdType mine = static_cast<vtkIdType>(error.size()), most = 0;
+  this->Controller->AllReduce(&mine, &most, 1, vtkCommunicator::MAX_OP);
+  if (most == 0)
+  {
+    return;
+  }
+  // One after another: no rank needs more memory than one sentence.
+  for (int r = 0; r < this->Count; ++r)
+  {
+    vtkIdType length = mine;
+    this->Controller->Broadcast(&length, 1, r);
+    if (length > 0)
+    {
+      std::string text = error;
+      text.resize(static_cast<std::size_t>(length));
+      this->Controller->Broadcast(text.data(), length, r);
+      throw Failure{ "Rank " + std::to_string(r) + ": " + text };
+    }
+  }
+}
+
 std::vector<Bytes> Ranks::Exchange(std::vector<Bytes> out) const
 {
+  // Lengths first: nobody may fail for want of memory while a partner waits.
+  std::vector<Bytes> lengths(this->Count), theirs(this->Count, Bytes(sizeof(vtkTypeInt64)));
+  for (int r = 0; r < this->Count; ++r)
+  {
+    Put(lengths[r], static_cast<vtkTypeInt64>(out[r].size()));
+  }
+  this->Meet({});
+  SwapAll(this->Controller, this->Rank, lengths, theirs);
   std::vector<Bytes> in(this->Count);
+  for (int r = 0; r < this->Count; ++r)
+  {
+    in[r].resize(
+      r == this->Rank ? 0 : static_cast<std::size_t>(Reader(theirs[r]).Take<vtkTypeInt64>()));
+  }
   in[this->Rank] = std::move(out[this->Rank]);
-  int steps = 1;
-  while (steps < this->Count)
-  {
-    steps *= 2;
-  }
-  // In step s all pairs (r, r xor s) meet. The lower one sends first, so that nobody waits for
-  // somebody who waits for others.
-  for (int s = 1; s < steps; ++s)
-  {
-    const int partner = this->Rank ^ s;
-    if (partner >= this->Count)
-    {
-      continue;
-    }
-    if (this->Rank < partner)
-    {
-      Send(this->Controller, out[partner], partner);
-      in[partner] = Receive(this->Controller, partner);
-    }
-    else
-    {
-      in[partner] = Receive(this->Controller, partner);
-      Send(this->Controller, out[partner], partner);
-    }
-    Bytes().swap(out[partner]);
-  }
+  this->Meet({});
+  SwapAll(this->Controller, this->Rank, out, in);
   return in;
 }
 
@@ -87,6 +128,7 @@ std::vector<Bytes> Ranks::Gather(const Bytes& mine) const
     offsets[r] = offsets[r - 1] + lengths[r - 1];
   }
   Bytes joined(static_cast<std::size_t>(offsets.back() + lengths.back()));
+  this->Meet({});
   if (!joined.empty())
   {
     this->Controller->AllGatherV(
@@ -102,25 +144,13 @@ std::vector<Bytes> Ranks::Gather(const Bytes& mine) const
 
 vtkIdType Ranks::Sum(vtkIdType value) const
 {
+  this->Meet({});
   vtkIdType sum = 0;
   this->Controller->AllReduce(&value, &sum, 1, vtkCommunicator::SUM_OP);
   return sum;
 }
 
 bool Ranks::IsAny(bool value) const { return this->Sum(value ? 1 : 0) > 0; }
-
-std::string Ranks::Agree(const std::string& error) const
-{
-  if (!this->IsAny(!error.empty()))
-  {
-    return {};
-  }
-  const std::vector<Bytes> all = this->Gather(Bytes(error.begin(), error.end()));
-  const auto first = std::find_if(
-    all.begin(), all.end(), [](const Bytes& text) { return !text.empty(); });
-  return "Rank " + std::to_string(first - all.begin()) + ": " +
-    std::string(first->begin(), first->end());
-}
 
 std::string Ranks::Together(const std::function<std::string()>& work) const
 {
@@ -129,11 +159,27 @@ std::string Ranks::Together(const std::function<std::string()>& work) const
   {
     error = work();
   }
+  catch (const Failure& failure) // thrown by all ranks
+  {
+    return failure.Error;
+  }
   catch (const std::bad_alloc&)
   {
     error = "Not enough memory to optimize this mesh.";
   }
-  return this->Agree(error);
+  catch (const std::exception& problem)
+  {
+    error = problem.what();
+  }
+  try
+  {
+    this->Meet(error);
+  }
+  catch (const Failure& failure)
+  {
+    return failure.Error;
+  }
+  return {};
 }
 
 } // namespace vtkMeshRanks

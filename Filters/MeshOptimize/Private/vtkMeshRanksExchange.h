@@ -3,7 +3,8 @@
  * The ranks that work on one mesh: bytes from each to each, sums in the order of the ranks, and
  * errors that all learn of.
  *
- * All functions of Ranks are collective: every rank must call them, in the same order.
+ * All functions of Ranks are collective: every rank must call them, in the same order. Each begins
+ * with the question whether a rank has failed; then it throws on all ranks.
  */
 #ifndef vtkMeshRanksExchange_h
 #define vtkMeshRanksExchange_h
@@ -87,6 +88,14 @@ private:
   const char* End;
 };
 
+/**
+ * Thrown on all ranks at once if one of them has failed. The sentence is the same on all.
+ */
+struct Failure
+{
+  std::string Error;
+};
+
 class Ranks
 {
 public:
@@ -117,6 +126,7 @@ public:
   {
     static_assert(std::is_trivially_copyable<T>::value, "only plain values can be sent");
     std::vector<T> all(this->Count);
+    this->Meet(std::string());
     this->Controller->AllGather(reinterpret_cast<const char*>(&value),
       reinterpret_cast<char*>(all.data()), static_cast<vtkIdType>(sizeof(T)));
     return all;
@@ -126,18 +136,21 @@ public:
   bool IsAny(bool value) const;
 
   /**
-   * The first error of any rank, with the rank named; the same on all. Empty if there is none.
+   * Throws Failure with the first error of any rank, the rank named. Nothing if there is none.
    */
-  std::string Agree(const std::string& error) const;
+  void Agree(const std::string& error) const { this->Meet(error); }
 
   /**
-   * Runs local work, which returns an error or an empty string, and agrees on its error. Too little
-   * memory on one rank is an error, too: otherwise the others would wait for ever. The work must
-   * not call other ranks.
+   * Runs work, which returns an error or an empty string, and agrees on its error: the same on all
+   * ranks. The work may call other ranks. Whatever it throws on one rank, std::bad_alloc above all,
+   * ends the work of all others at the next function of Ranks that they call: nobody waits for ever.
    */
   std::string Together(const std::function<std::string()>& work) const;
 
 private:
+  /// Every function begins with it: throws Failure on all ranks if one has an error.
+  void Meet(const std::string& error) const;
+
   vtkMultiProcessController* Controller;
   int Rank, Count;
 };
