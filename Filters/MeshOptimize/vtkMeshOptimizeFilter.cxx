@@ -208,6 +208,7 @@ struct Ports
   vtkPolyData* Geometry;
   vtkDataObject* Output;
   vtkTable* History;
+  int NumberOfPieces;
 };
 
 /**
@@ -346,14 +347,18 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
   return error.empty() ? request.Options.check(hasSizes) : error;
 }
 
+int CountPieces(vtkInformation* info)
+{
+  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
+  return info->Has(pieces) ? info->Get(pieces) : 1;
+}
+
 /**
  * The border of a piece is not a boundary of the mesh, so it cannot slide.
  */
-std::string CheckPieces(vtkMeshOptimizeFilter* filter, vtkInformation* info)
+std::string CheckPieces(vtkMeshOptimizeFilter* filter, int pieces)
 {
-  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && info->Has(pieces) &&
-      info->Get(pieces) > 1
+  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && pieces > 1
     ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed "
       "data."
     : "";
@@ -370,6 +375,41 @@ bool HasTetrahedra(vtkUnstructuredGrid* grid)
 }
 
 /**
+ * Whether all ranks have been asked for their pieces of one mesh, and its borders take part.
+ */
+bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
+{
+  vtkMultiProcessController* controller = filter->GetController();
+  return filter->GetOptimizeBorders() && controller && controller->GetNumberOfProcesses() > 1 &&
+    ports.NumberOfPieces == controller->GetNumberOfProcesses();
+}
+
+/**
+ * Optimizes the one mesh that all ranks have. If it is not built for this input and request, an
+ * obstacle says why, and nothing is done.
+ */
+std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
+  bridge::Request& request, std::vector<Task>& tasks, bridge::Outcome& outcome,
+  std::string& obstacle)
+{
+  const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
+  request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
+  const std::string error = bridge::OptimizeOnRanks(
+    filter->GetController(), request, [&]() { return CheckRequest(request, tasks); },
+    isComposite ? nullptr : tasks[0].Input, isComposite ? nullptr : tasks[0].Output, outcome,
+    obstacle);
+  if (error.empty() && obstacle.empty())
+  {
+    bridge::StartHistory(ports.History, false, false);
+    if (filter->GetController()->GetLocalProcessId() == 0)
+    {
+      bridge::AppendHistory(outcome.Report, 0, ports.History);
+    }
+  }
+  return error;
+}
+
+/**
  * Optimizes all grids. Returns an empty string, or a sentence about the first unusable thing.
  */
 std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridge::Outcome& outcome)
@@ -377,31 +417,21 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   std::vector<Task> tasks = ListTasks(ports.Input, ports.Output);
   const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
   bridge::Request request = MakeRequest(filter, ports.Geometry);
-  std::string error = CheckRequest(request, tasks);
-  vtkMultiProcessController* controller = filter->GetController();
-  if (filter->GetOptimizeBorders() && controller && controller->GetNumberOfProcesses() > 1)
+  if (HasRanks(filter, ports))
   {
-    const vtkMeshRanks::Ranks ranks(controller);
-    const std::string obstacle = bridge::FindObstacle(
-      ranks, request, isComposite ? nullptr : tasks[0].Input, error);
-    error = ranks.Agree(error);
-    if (error.empty() && obstacle.empty())
+    std::string obstacle;
+    const std::string error = OptimizeWhole(filter, ports, request, tasks, outcome, obstacle);
+    if (!error.empty() || obstacle.empty())
     {
-      request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, 0.0, 1.0);
-      bridge::StartHistory(ports.History, false, false);
-      error = bridge::OptimizeOnRanks(ranks, request, tasks[0].Input, tasks[0].Output, outcome);
-      if (error.empty() && ranks.IsFirst())
-      {
-        bridge::AppendHistory(outcome.Report, 0, ports.History);
-      }
       return error;
     }
-    if (error.empty() && ranks.IsFirst())
+    if (filter->GetController()->GetLocalProcessId() == 0)
     {
       vtkWarningWithObjectMacro(
         filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
     }
   }
+  std::string error = CheckRequest(request, tasks);
   if (!error.empty())
   {
     return error;
@@ -468,29 +498,41 @@ int vtkMeshOptimizeFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const Ports ports{ vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
-    vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1) };
+    vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1),
+    CountPieces(outputVector->GetInformationObject(0)) };
+  // What all ranks know is told by the first.
+  const bool isTold = HasRanks(this, ports) && this->Controller->GetLocalProcessId() > 0;
   Results results;
   std::string error;
   try
   {
-    error = CheckPieces(this, outputVector->GetInformationObject(0));
+    error = CheckPieces(this, ports.NumberOfPieces);
     error = error.empty() ? OptimizeAll(this, ports, results.Outcome) : error;
   }
   catch (const std::bad_alloc&)
   {
     error = "Not enough memory to optimize this mesh.";
   }
-  this->ErrorCode = error.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
-  if (!error.empty())
+  const std::string& fault = results.Outcome.Fault; // the output is what was there before it
+  this->ErrorCode = error.empty() && fault.empty() ? vtkErrorCode::NoError
+                                                   : vtkErrorCode::UserError;
+  if (!isTold && !(error.empty() && fault.empty()))
   {
     // Returning 0 would make the executive add an error of its own.
-    vtkErrorMacro(<< error);
+    vtkErrorMacro(<< (error.empty() ? fault : error));
+  }
+  if (!error.empty())
+  {
     ports.Output->Initialize();
     ports.History->Initialize();
     results = Results();
   }
   vtkMeshBridge::KeepOutputAfterAbort(this);
   this->StoreResults(results);
+  if (isTold)
+  {
+    return 1;
+  }
   bridge::Warn(this, results.Outcome);
   if (error.empty())
   {

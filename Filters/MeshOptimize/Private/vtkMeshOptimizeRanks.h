@@ -6,28 +6,27 @@
 #define vtkMeshOptimizeRanks_h
 
 #include "vtkMeshOptimizeRequest.h"
-#include "vtkMeshRanksExchange.h"
 
+#include <functional>
 #include <string>
 
+class vtkMultiProcessController;
 class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Why borders cannot take part for this input and request; empty if they can. Then and otherwise
- * the same on all ranks. `error` is that of this rank. Collective.
+ * Optimizes the mesh whose piece on this rank is `input`; nullptr if the input is no grid. First
+ * `check` looks at what is on this rank, and returns an error or an empty string.
+ *
+ * The outcome is that of the whole on all ranks. Returns the first error of any rank, the rank
+ * named. If borders cannot take part, `obstacle` says why on all ranks, and nothing is done.
+ * Collective.
  */
-std::string FindObstacle(const vtkMeshRanks::Ranks& ranks, const Request& request,
-  vtkUnstructuredGrid* input, std::string& error);
-
-/**
- * Optimizes the mesh whose piece on this rank is `input`. The outcome is that of the whole on all
- * ranks. Returns the first error of any rank. Collective; FindObstacle() was empty.
- */
-std::string OptimizeOnRanks(const vtkMeshRanks::Ranks& ranks, const Request& request,
-  vtkUnstructuredGrid* input, vtkUnstructuredGrid* output, Outcome& outcome);
+std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& request,
+  const std::function<std::string()>& check, vtkUnstructuredGrid* input,
+  vtkUnstructuredGrid* output, Outcome& outcome, std::string& obstacle);
 
 } // namespace vtkMeshOptimizeBridge
 

@@ -30,7 +30,7 @@ std::vector<int> OrderRanks(const Ranks& ranks, const Part& part)
 /**
  * Takes the least label of each point over the ranks that have it.
  */
-void Agree(const Ranks& ranks, const Shared& shared, std::vector<Label>& labels)
+void TakeLeast(const Ranks& ranks, const Shared& shared, std::vector<Label>& labels)
 {
   std::vector<Bytes> out(ranks.GetCount());
   for (std::size_t k = 0; k < shared.Neighbors.size(); ++k)
@@ -100,7 +100,7 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
       }
     }
     labels.swap(next);
-    Agree(ranks, shared, labels);
+    TakeLeast(ranks, shared, labels);
   }
   std::vector<int> target(part.CellIds.size(), -1);
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
@@ -112,56 +112,41 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
 }
 
 //------------------------------------------------------------------------------
-std::string Move(const Ranks& ranks, const std::vector<int>& target, const Schema& points,
+void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& points,
   const Schema& cells, Part& part, std::vector<char>& isMoved)
 {
   // Cells that stay and cells that have this rank as target must be told apart afterwards.
   const int count = ranks.GetCount();
-  std::vector<Part> parts;
+  std::vector<int> place(target.size());
+  std::transform(
+    target.begin(), target.end(), place.begin(), [&](int t) { return t < 0 ? count : t; });
+  std::vector<Part> parts = Split(part, place, count + 1, count);
   std::vector<Bytes> out(count);
-  std::string error = ranks.Together(
-    [&]()
-    {
-      std::vector<int> place(target.size());
-      std::transform(
-        target.begin(), target.end(), place.begin(), [&](int t) { return t < 0 ? count : t; });
-      parts = Split(part, place, count + 1, count);
-      for (int r = 0; r < count; ++r)
-      {
-        out[r] = r == ranks.GetRank() ? Bytes() : Pack(parts[r]);
-      }
-      return std::string();
-    });
-  if (!error.empty())
+  for (int r = 0; r < count; ++r)
   {
-    return error;
+    out[r] = r == ranks.GetRank() ? Bytes() : Pack(parts[r]);
   }
   const std::vector<Bytes> in = ranks.Exchange(std::move(out));
-  return ranks.Together(
-    [&]()
+  std::vector<Part> here;
+  const std::vector<vtkIdType> stayed = parts[count].CellIds;
+  here.push_back(std::move(parts[count]));
+  here.push_back(std::move(parts[ranks.GetRank()]));
+  for (const Bytes& bytes : in)
+  {
+    if (!bytes.empty())
     {
-      std::vector<Part> here;
-      std::vector<vtkIdType> stayed = parts[count].CellIds;
-      here.push_back(std::move(parts[count]));
-      here.push_back(std::move(parts[ranks.GetRank()]));
-      for (const Bytes& bytes : in)
-      {
-        if (!bytes.empty())
-        {
-          here.push_back(Unpack(bytes, part.Corners, points, cells));
-        }
-      }
-      Part joined;
-      const std::string problem = Join(here, joined);
-      part = std::move(joined);
-      isMoved.assign(part.CellIds.size(), 1);
-      for (const vtkIdType id : stayed) // both ascend
-      {
-        isMoved[std::lower_bound(part.CellIds.begin(), part.CellIds.end(), id) -
-          part.CellIds.begin()] = 0;
-      }
-      return problem;
-    });
+      here.push_back(Unpack(bytes, part.Corners, points, cells));
+    }
+  }
+  Part joined;
+  ranks.Agree(Join(here, joined));
+  part = std::move(joined);
+  isMoved.assign(part.CellIds.size(), 1);
+  for (const vtkIdType id : stayed) // both ascend
+  {
+    isMoved[std::lower_bound(part.CellIds.begin(), part.CellIds.end(), id) - part.CellIds.begin()] =
+      0;
+  }
 }
 
 } // namespace vtkMeshRanks

@@ -27,7 +27,7 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
  * Sends each cell to target[c] (-1: it stays) with its points and data. `part` then has those that
  * are here; isMoved tells of each cell whether it had a target. Collective.
  */
-std::string Move(const Ranks& ranks, const std::vector<int>& target, const Schema& points,
+void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& points,
   const Schema& cells, Part& part, std::vector<char>& isMoved);
 
 } // namespace vtkMeshRanks

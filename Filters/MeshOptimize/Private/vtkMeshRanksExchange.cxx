@@ -33,8 +33,8 @@ void Receive(vtkMultiProcessController* controller, Bytes& bytes, int from)
 /**
  * Lets all ranks send out[r] to rank r, whose in[r] has the right size already.
  */
-void SwapAll(vtkMultiProcessController* controller, int rank, std::vector<Bytes>& out,
-  std::vector<Bytes>& in)
+void SwapAll(
+  vtkMultiProcessController* controller, int rank, std::vector<Bytes>& out, std::vector<Bytes>& in)
 {
   const int count = static_cast<int>(out.size());
   int steps = 1;

@@ -28,6 +28,23 @@ std::uint64_t HashOfPlace(const double* x)
 }
 
 /**
+ * Sorts the first n of three.
+ */
+void SortFew(std::array<vtkIdType, 3>& nodes, int n)
+{
+  for (int i = 0; i < n; ++i)
+  {
+    for (int k = 0; k + 1 < n - i; ++k)
+    {
+      if (nodes[k + 1] < nodes[k])
+      {
+        std::swap(nodes[k], nodes[k + 1]);
+      }
+    }
+  }
+}
+
+/**
  * A point as the ranks tell each other of it.
  */
 struct Notice
@@ -93,12 +110,6 @@ std::vector<Bytes> Answer(const std::vector<Bytes>& notices, std::string& error)
   return answers;
 }
 
-vtkIdType IndexOf(const Part& part, vtkIdType id)
-{
-  const auto found = std::lower_bound(part.PointIds.begin(), part.PointIds.end(), id);
-  return found != part.PointIds.end() && *found == id ? found - part.PointIds.begin() : -1;
-}
-
 using Key = std::array<vtkIdType, 3>;
 
 Key IdsOf(const Part& part, const CellFacet& facet)
@@ -139,7 +150,7 @@ void VisitFacets(const Part& part, const std::vector<char>& isWanted,
       for (int local = 0; local < corners; ++local)
       {
         std::array<vtkIdType, 3> nodes = OrientedNodes(part, c, local);
-        std::sort(nodes.begin(), nodes.begin() + corners - 1);
+        SortFew(nodes, corners - 1);
         if (std::all_of(nodes.begin(), nodes.begin() + corners - 1,
               [&](vtkIdType p) { return isWanted[p] != 0; }))
         {
@@ -195,7 +206,13 @@ std::vector<char> Flagged(const Part& part, PointFlag flag)
 }
 
 //------------------------------------------------------------------------------
-std::string FindShared(const Ranks& ranks, const Part& part, Shared& shared)
+vtkIdType IndexOf(const Part& part, vtkIdType id)
+{
+  const auto found = std::lower_bound(part.PointIds.begin(), part.PointIds.end(), id);
+  return found != part.PointIds.end() && *found == id ? found - part.PointIds.begin() : -1;
+}
+
+Shared FindShared(const Ranks& ranks, const Part& part)
 {
   std::vector<Bytes> notices(ranks.GetCount());
   std::vector<char> isUsed(part.PointIds.size(), 0);
@@ -213,9 +230,9 @@ std::string FindShared(const Ranks& ranks, const Part& part, Shared& shared)
   }
   std::string error;
   std::vector<Bytes> answers = Answer(ranks.Exchange(std::move(notices)), error);
-  error = ranks.Agree(error);
+  ranks.Agree(error);
   answers = ranks.Exchange(std::move(answers));
-  shared = Shared();
+  Shared shared;
   shared.RanksOf.resize(part.PointIds.size());
   for (const Bytes& bytes : answers)
   {
@@ -244,7 +261,7 @@ std::string FindShared(const Ranks& ranks, const Part& part, Shared& shared)
     shared.Neighbors.push_back(rank);
     shared.Points.push_back(std::move(list));
   }
-  return error;
+  return shared;
 }
 
 std::vector<std::pair<CellFacet, long long>> FindBorder(const Ranks& ranks, const Part& part,

@@ -65,17 +65,22 @@ struct Shared
 };
 
 /**
- * Finds them among the points of the Skin. Returns an error, the same on all ranks, if a point is
- * at two places: the ids are then no ids. Collective.
+ * Finds them among the points of the Skin. Fails if a point is at two places: the ids are then no
+ * ids. Collective.
  */
-std::string FindShared(const Ranks& ranks, const Part& part, Shared& shared);
+Shared FindShared(const Ranks& ranks, const Part& part);
 
 /**
  * The facets of this part on borders between ranks: those that a cell of another rank has, too,
- * with the value that the other rank gave to that cell. Collective. `open` are all that may be.
+ * with the value that the other rank gave to that cell. `open` are all that may be. Collective.
  */
 std::vector<std::pair<CellFacet, long long>> FindBorder(const Ranks& ranks, const Part& part,
   const Shared& shared, const std::vector<CellFacet>& open, const std::vector<long long>& values);
+
+/**
+ * The place of the point with this id in part.PointIds, or -1.
+ */
+vtkIdType IndexOf(const Part& part, vtkIdType id);
 
 } // namespace vtkMeshRanks
 

@@ -7,13 +7,13 @@
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace vtkMeshRanks
 {
@@ -22,7 +22,7 @@ namespace
 
 // No user's array has these names.
 constexpr const char* IdName = "vtkMeshRanks.Id";
-constexpr const char* HomeName = "vtkMeshRanks.Home";
+constexpr const char* OriginName = "vtkMeshRanks.Origin";
 
 void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes* data)
 {
@@ -69,9 +69,9 @@ void ReadCells(vtkUnstructuredGrid* grid, Part& part)
   const vtkIdType n = grid->GetNumberOfCells();
   part.CellIds = ReadIds(grid->GetCellData());
   auto quality = vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray("MeshQuality"));
-  auto home = vtkIntArray::SafeDownCast(grid->GetCellData()->GetArray(HomeName));
+  auto origin = vtkIdTypeArray::SafeDownCast(grid->GetCellData()->GetArray(OriginName));
   part.Quality.assign(quality->GetPointer(0), quality->GetPointer(0) + n);
-  part.Home.assign(home->GetPointer(0), home->GetPointer(0) + n);
+  part.Origin.assign(origin->GetPointer(0), origin->GetPointer(0) + n);
   part.Cells.reserve(n * part.Corners);
   for (vtkIdType c = 0; c < n; ++c)
   {
@@ -85,6 +85,69 @@ void ReadCells(vtkUnstructuredGrid* grid, Part& part)
 } // namespace
 
 //------------------------------------------------------------------------------
+Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, int corners,
+  const Schema& points, const Schema& cells, vtkDataArray* fixedPoints, vtkIdType firstOrigin,
+  std::vector<vtkIdType>& pointsOfGrid)
+{
+  Part part = MakePart(corners, points, cells);
+  std::vector<char> use(grid->GetNumberOfPoints(), 0); // 1: by others, 2: by simplices
+  vtkIdType n = 0;
+  const vtkIdType* ids = nullptr;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    grid->GetCellPoints(c, n, ids);
+    std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 1; });
+  }
+  for (const vtkIdType c : simplices)
+  {
+    grid->GetCellPoints(c, n, ids);
+    std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 2; });
+  }
+  std::vector<vtkIdType> index(use.size(), -1);
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    if (use[p] != 1)
+    {
+      index[p] = static_cast<vtkIdType>(pointsOfGrid.size());
+      pointsOfGrid.push_back(p);
+      double x[3];
+      grid->GetPoint(p, x);
+      part.Coordinates.insert(part.Coordinates.end(), x, x + 3);
+      const bool isFixed = fixedPoints && fixedPoints->GetComponent(p, 0) != 0.0;
+      part.Flags.push_back(
+        static_cast<std::uint8_t>((use[p] == 0 ? Loose : 0) | (isFixed ? PointFlag::Fixed : 0)));
+      part.PointIds.push_back(index[p]);
+    }
+  }
+  for (const vtkIdType c : simplices)
+  {
+    grid->GetCellPoints(c, n, ids);
+    std::for_each(ids, ids + n, [&](vtkIdType p) { part.Cells.push_back(index[p]); });
+    part.CellIds.push_back(static_cast<vtkIdType>(part.CellIds.size()));
+    part.Origin.push_back(firstOrigin + c);
+  }
+  part.Quality.assign(simplices.size(), 0.0);
+  part.Hint.assign(part.PointIds.size(), -1);
+  const auto choose = [](vtkDataSetAttributes* data, const Schema& schema,
+                        const std::vector<vtkIdType>& chosen, Arrays& arrays)
+  {
+    std::size_t a = 0;
+    for (int i = 0; i < data->GetNumberOfArrays() && a < schema.Arrays.size(); ++i)
+    {
+      vtkAbstractArray* array = data->GetAbstractArray(i);
+      const char* name = schema.Arrays[a]->GetName();
+      if (name && array->GetName() ? !std::strcmp(name, array->GetName())
+                                   : name == array->GetName())
+      {
+        arrays[a++] = Select(array, chosen);
+      }
+    }
+  };
+  choose(grid->GetPointData(), points, pointsOfGrid, part.PointArrays);
+  choose(grid->GetCellData(), cells, simplices, part.CellArrays);
+  return part;
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   const Part& part, const Schema& pointSchema, const Schema& cellSchema)
 {
@@ -111,33 +174,48 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   AddArrays(part.CellArrays, cellSchema, grid->GetCellData());
   AddIds(part.PointIds, grid->GetPointData());
   AddIds(part.CellIds, grid->GetCellData());
-  vtkNew<vtkIntArray> home;
-  home->SetName(HomeName);
-  home->SetNumberOfValues(part.GetNumberOfCells());
-  std::copy(part.Home.begin(), part.Home.end(), home->GetPointer(0));
-  grid->GetCellData()->AddArray(home);
+  vtkNew<vtkIdTypeArray> origin;
+  origin->SetName(OriginName);
+  origin->SetNumberOfValues(part.GetNumberOfCells());
+  std::copy(part.Origin.begin(), part.Origin.end(), origin->GetPointer(0));
+  grid->GetCellData()->AddArray(origin);
   return grid;
 }
 
-Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before)
+Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)
 {
   Part part;
   part.Corners = before.Corners;
   part.PointIds = ReadIds(grid->GetPointData());
   part.Coordinates.resize(3 * part.PointIds.size());
   part.Flags.assign(part.PointIds.size(), 0);
+  part.Hint.assign(part.PointIds.size(), -1);
+  ReadCells(grid, part);
+  std::vector<vtkIdType> near(part.PointIds.size(), -1); // the origin of some cell of each point
+  for (vtkIdType c = part.GetNumberOfCells() - 1; c >= 0; --c)
+  {
+    for (int i = 0; i < part.Corners; ++i)
+    {
+      near[part.GetCell(c)[i]] = part.Origin[c];
+    }
+  }
   std::size_t at = 0; // of the old points: those that are left have kept their order
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
-    grid->GetPoint(p, &part.Coordinates[3 * p]);
+    double* x = &part.Coordinates[3 * p];
+    grid->GetPoint(p, x);
     const vtkIdType id = part.PointIds[p];
     while (id >= 0 && before.PointIds[at] != id)
     {
       ++at;
     }
     part.Flags[p] = id >= 0 ? before.Flags[at] : 0;
+    part.Hint[p] = id >= 0 ? before.Hint[at] : -1;
+    if (isAgain && (id < 0 || std::memcmp(x, before.GetPoint(at), 3 * sizeof(double)) != 0))
+    {
+      part.Hint[p] = near[p];
+    }
   }
-  ReadCells(grid, part);
   part.PointArrays = ReadArrays(grid->GetPointData(), before.PointArrays.size());
   part.CellArrays = ReadArrays(grid->GetCellData(), before.CellArrays.size());
   return part;
@@ -147,7 +225,7 @@ void RemoveOwn(vtkUnstructuredGrid* grid)
 {
   grid->GetPointData()->RemoveArray(IdName);
   grid->GetCellData()->RemoveArray(IdName);
-  grid->GetCellData()->RemoveArray(HomeName);
+  grid->GetCellData()->RemoveArray(OriginName);
 }
 
 void NumberNew(vtkIdType firstPoint, vtkIdType firstCell, Part& part)

@@ -87,7 +87,16 @@ bool MakeOpenFacet(const Part& part, const CellFacet& facet, OpenFacet& open)
     const double* x = part.GetPoint(facet.Nodes[i]);
     corners[i] = { { x[0], x[1], x[2] }, facet.Nodes[i] };
   }
-  std::sort(corners.begin(), corners.begin() + n);
+  for (int i = 0; i < n; ++i)
+  {
+    for (int k = 0; k + 1 < n - i; ++k)
+    {
+      if (corners[k + 1] < corners[k])
+      {
+        std::swap(corners[k], corners[k + 1]);
+      }
+    }
+  }
   open = OpenFacet{};
   for (int i = 0; i < n; ++i)
   {
@@ -150,7 +159,7 @@ std::vector<Bytes> Match(const std::vector<Bytes>& facets, int n, std::string& e
 /**
  * Links to each rank, found by facets with the same corners.
  */
-std::string FindLinks(const Ranks& ranks, const Part& part, std::vector<std::vector<Link>>& links)
+std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part)
 {
   std::vector<Bytes> out(ranks.GetCount());
   const std::vector<char> all(part.PointIds.size(), 1);
@@ -164,8 +173,8 @@ std::string FindLinks(const Ranks& ranks, const Part& part, std::vector<std::vec
   }
   std::string error;
   std::vector<Bytes> answers = Match(ranks.Exchange(std::move(out)), part.Corners - 1, error);
-  error = ranks.Agree(error);
-  links.assign(ranks.GetCount(), {});
+  ranks.Agree(error);
+  std::vector<std::vector<Link>> links(ranks.GetCount());
   for (const Bytes& bytes : ranks.Exchange(std::move(answers)))
   {
     for (Reader reader(bytes); !reader.IsAtEnd();)
@@ -182,7 +191,7 @@ std::string FindLinks(const Ranks& ranks, const Part& part, std::vector<std::vec
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
-  return error;
+  return links;
 }
 
 /**
@@ -228,21 +237,15 @@ vtkIdType FirstOf(const Ranks& ranks, std::size_t count, vtkIdType& end)
   return std::accumulate(counts.begin(), counts.begin() + ranks.GetRank(), vtkIdType(0));
 }
 
-std::string MakePointIds(const Ranks& ranks, Part& part, vtkIdType& end)
+void MakePointIds(const Ranks& ranks, Part& part, vtkIdType& end)
 {
-  std::vector<std::vector<Link>> links;
-  std::string error = FindLinks(ranks, part, links);
-  if (!error.empty())
-  {
-    return error;
-  }
+  const std::vector<std::vector<Link>> links = FindLinks(ranks, part);
   const vtkIdType first = FirstOf(ranks, part.PointIds.size(), end);
   std::iota(part.PointIds.begin(), part.PointIds.end(), first);
   Spread(ranks, links, part.PointIds);
-  return ranks.Agree(HasTwins(part.PointIds)
+  ranks.Agree(HasTwins(part.PointIds)
       ? "A crack of doubled nodes runs into the border of a piece, so that points at the same "
-        "place "
-        "cannot be told apart without global ids: give the points global ids, or switch "
+        "place cannot be told apart without global ids: give the points global ids, or switch "
         "OptimizeBorders off."
       : "");
 }
@@ -254,19 +257,19 @@ vtkIdType EndOf(const Ranks& ranks, const std::vector<vtkIdType>& ids)
   return *std::max_element(all.begin(), all.end()) + 1;
 }
 
-std::string CheckIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const char* what)
+void CheckIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const char* what)
 {
   const bool isNegative = std::any_of(ids.begin(), ids.end(), [](vtkIdType id) { return id < 0; });
-  return ranks.Agree(isNegative || HasTwins(ids) ? std::string("The global ids of ") + what +
+  ranks.Agree(isNegative || HasTwins(ids) ? std::string("The global ids of ") + what +
         " are negative or occur twice in one piece. Remove the array, give unique ids, or switch "
         "OptimizeBorders off."
-                                                 : "");
+                                          : "");
 }
 
 /**
  * Cells are on one rank each, so that an id on two ranks is an error.
  */
-std::string CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids)
+void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids)
 {
   std::vector<std::vector<vtkIdType>> lists(ranks.GetCount());
   for (const vtkIdType id : ids)
@@ -284,9 +287,9 @@ std::string CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids)
     const std::vector<vtkIdType> some = Reader(bytes).TakeAll<vtkIdType>();
     all.insert(all.end(), some.begin(), some.end());
   }
-  return ranks.Agree(HasTwins(all) ? "A global cell id occurs on two ranks. Ghost cells must be "
-                                     "marked by vtkGhostType; or switch OptimizeBorders off."
-                                   : "");
+  ranks.Agree(HasTwins(all) ? "A global cell id occurs on two ranks. Ghost cells must be "
+                              "marked by vtkGhostType; or switch OptimizeBorders off."
+                            : "");
 }
 
 /**
@@ -302,97 +305,30 @@ void Order(Part& part)
 } // namespace
 
 //------------------------------------------------------------------------------
-Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, int corners,
-  const Schema& points, const Schema& cells, vtkDataArray* fixedPoints,
-  std::vector<vtkIdType>& pointsOfGrid)
-{
-  Part part = MakePart(corners, points, cells);
-  std::vector<char> use(grid->GetNumberOfPoints(), 0); // 1: by others, 2: by simplices
-  vtkIdType n = 0;
-  const vtkIdType* ids = nullptr;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    grid->GetCellPoints(c, n, ids);
-    std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 1; });
-  }
-  for (const vtkIdType c : simplices)
-  {
-    grid->GetCellPoints(c, n, ids);
-    std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 2; });
-  }
-  std::vector<vtkIdType> index(use.size(), -1);
-  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-  {
-    if (use[p] != 1)
-    {
-      index[p] = static_cast<vtkIdType>(pointsOfGrid.size());
-      pointsOfGrid.push_back(p);
-      double x[3];
-      grid->GetPoint(p, x);
-      part.Coordinates.insert(part.Coordinates.end(), x, x + 3);
-      const bool isFixed = fixedPoints && fixedPoints->GetComponent(p, 0) != 0.0;
-      part.Flags.push_back(
-        static_cast<std::uint8_t>((use[p] == 0 ? Loose : 0) | (isFixed ? PointFlag::Fixed : 0)));
-      part.PointIds.push_back(index[p]);
-    }
-  }
-  for (const vtkIdType c : simplices)
-  {
-    grid->GetCellPoints(c, n, ids);
-    std::for_each(ids, ids + n, [&](vtkIdType p) { part.Cells.push_back(index[p]); });
-    part.CellIds.push_back(static_cast<vtkIdType>(part.CellIds.size()));
-  }
-  part.Quality.assign(simplices.size(), 0.0);
-  part.Home.assign(simplices.size(), 0);
-  const auto choose = [](vtkDataSetAttributes* data, const Schema& schema,
-                        const std::vector<vtkIdType>& chosen, Arrays& arrays)
-  {
-    std::size_t a = 0;
-    for (int i = 0; i < data->GetNumberOfArrays() && a < schema.Arrays.size(); ++i)
-    {
-      vtkAbstractArray* array = data->GetAbstractArray(i);
-      const char* name = schema.Arrays[a]->GetName();
-      if (name && array->GetName() ? !std::strcmp(name, array->GetName())
-                                   : name == array->GetName())
-      {
-        arrays[a++] = Select(array, chosen);
-      }
-    }
-  };
-  choose(grid->GetPointData(), points, pointsOfGrid, part.PointArrays);
-  choose(grid->GetCellData(), cells, simplices, part.CellArrays);
-  return part;
-}
-
-std::string Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
+void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
   const std::vector<vtkIdType>& gridCellIds, Numbering& numbering, Part& part)
 {
-  std::string error;
   if (numbering.HasPointIds)
   {
-    error = CheckIds(ranks, gridPointIds, "points");
+    CheckIds(ranks, gridPointIds, "points");
     part.PointIds = gridPointIds;
     numbering.NextPoint = EndOf(ranks, part.PointIds);
   }
   else
   {
-    error = MakePointIds(ranks, part, numbering.NextPoint);
+    MakePointIds(ranks, part, numbering.NextPoint);
   }
-  if (numbering.HasCellIds && error.empty())
+  if (numbering.HasCellIds)
   {
-    error = CheckIds(ranks, gridCellIds, "cells");
-    error = error.empty() ? CheckCellIds(ranks, gridCellIds) : error;
+    CheckIds(ranks, gridCellIds, "cells");
+    CheckCellIds(ranks, gridCellIds);
     part.CellIds = gridCellIds;
     numbering.NextCell = EndOf(ranks, part.CellIds);
   }
-  else if (error.empty())
+  else
   {
     const vtkIdType first = FirstOf(ranks, part.CellIds.size(), numbering.NextCell);
     std::iota(part.CellIds.begin(), part.CellIds.end(), first);
-  }
-  if (!error.empty())
-  {
-    return error;
   }
   // Points on the surface of the piece: all that other ranks may have.
   const std::vector<char> all(part.PointIds.size(), 1);
@@ -404,7 +340,6 @@ std::string Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointId
     }
   }
   Order(part);
-  return {};
 }
 
 } // namespace vtkMeshRanks

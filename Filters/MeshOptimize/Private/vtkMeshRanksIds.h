@@ -10,9 +10,6 @@
 #include <string>
 #include <vector>
 
-class vtkDataArray;
-class vtkUnstructuredGrid;
-
 namespace vtkMeshRanks
 {
 
@@ -26,14 +23,6 @@ struct Numbering
 };
 
 /**
- * The simplices of a grid as a part without ids: point i has the id i, cell i too. Points of other
- * cells only are left out; points of no cell stay. `fixedPoints` may be nullptr.
- */
-Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, int corners,
-  const Schema& points, const Schema& cells, vtkDataArray* fixedPoints,
-  std::vector<vtkIdType>& pointsOfGrid);
-
-/**
  * Replaces the numbers of ReadPiece() by ids that are unique over all ranks. Collective.
  *
  * The input's global ids are used where all ranks have them (`gridIds`, of the points and cells of
@@ -41,10 +30,10 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
  * their pieces' surfaces have the same three corners, bit for bit; points of one rank never become
  * one. So a crack of doubled nodes stays open, unless it lies on the border of a piece all along.
  *
- * Returns an error, the same on all ranks: ids that are not unique; facets of more than two cells;
+ * Fails for: ids that are not unique; facets of more than two cells;
  * points of one rank that would become one.
  */
-std::string Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
+void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
   const std::vector<vtkIdType>& gridCellIds, Numbering& numbering, Part& part);
 
 } // namespace vtkMeshRanks

@@ -18,23 +18,6 @@ namespace vtkMeshRanks
 namespace
 {
 
-/**
- * An array without tuples that has the name, type, components and information of another.
- */
-vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source)
-{
-  auto array = vtkSmartPointer<vtkAbstractArray>::Take(
-    vtkAbstractArray::CreateArray(source->GetDataType()));
-  array->SetName(source->GetName());
-  array->SetNumberOfComponents(source->GetNumberOfComponents());
-  array->CopyComponentNames(source);
-  if (source->HasInformation())
-  {
-    array->CopyInformation(source->GetInformation(), 1);
-  }
-  return array;
-}
-
 vtkSmartPointer<vtkIdList> MakeList(const std::vector<vtkIdType>& ids)
 {
   auto list = vtkSmartPointer<vtkIdList>::New();
@@ -78,7 +61,8 @@ Part Extract(const Part& part, const std::vector<vtkIdType>& points,
   result.CellIds = Chosen(part.CellIds, cells);
   result.Cells = Chosen(part.Cells, cells, part.Corners);
   result.Quality = Chosen(part.Quality, cells);
-  result.Home = Chosen(part.Home, cells);
+  result.Origin = Chosen(part.Origin, cells);
+  result.Hint = Chosen(part.Hint, points);
   for (vtkIdType& p : result.Cells)
   {
     p = newIndex[p];
@@ -88,158 +72,10 @@ Part Extract(const Part& part, const std::vector<vtkIdType>& points,
   return result;
 }
 
-/**
- * Where a tuple of a joined array comes from.
- */
-struct Origin
-{
-  vtkIdType Id;
-  int Part;
-  vtkIdType Index;
-  bool operator<(const Origin& other) const
-  {
-    return this->Id != other.Id ? this->Id < other.Id : this->Part < other.Part;
-  }
-};
-
-std::vector<Origin> ListOrigins(const std::vector<Part>& parts, std::vector<vtkIdType> Part::*ids)
-{
-  std::vector<Origin> origins;
-  for (std::size_t k = 0; k < parts.size(); ++k)
-  {
-    const std::vector<vtkIdType>& list = parts[k].*ids;
-    for (std::size_t i = 0; i < list.size(); ++i)
-    {
-      origins.push_back({ list[i], static_cast<int>(k), static_cast<vtkIdType>(i) });
-    }
-  }
-  std::sort(origins.begin(), origins.end());
-  return origins;
-}
-
-/**
- * Arrays whose tuple i is that of origins[i].
- */
-void Collect(const std::vector<Part>& parts, const std::vector<Origin>& origins,
-  Arrays Part::*arrays, Arrays& result)
-{
-  std::vector<vtkNew<vtkIdList>> from(parts.size()), to(parts.size());
-  for (std::size_t i = 0; i < origins.size(); ++i)
-  {
-    from[origins[i].Part]->InsertNextId(origins[i].Index);
-    to[origins[i].Part]->InsertNextId(static_cast<vtkIdType>(i));
-  }
-  result.clear();
-  for (std::size_t a = 0; a < (parts[0].*arrays).size(); ++a)
-  {
-    vtkSmartPointer<vtkAbstractArray> array = MakeLike((parts[0].*arrays)[a]);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(origins.size()));
-    for (std::size_t k = 0; k < parts.size(); ++k)
-    {
-      if (from[k]->GetNumberOfIds() > 0)
-      {
-        array->InsertTuples(to[k], from[k], (parts[k].*arrays)[a]);
-      }
-    }
-    result.push_back(array);
-  }
-}
-
-/**
- * Joins the points; newIndex[k][i] is where point i of part k is in the result.
- */
-std::string JoinPoints(
-  const std::vector<Part>& parts, Part& result, std::vector<std::vector<vtkIdType>>& newIndex)
-{
-  std::vector<Origin> origins;
-  for (const Part& part : parts)
-  {
-    newIndex.emplace_back(part.PointIds.size());
-  }
-  for (const Origin& o : ListOrigins(parts, &Part::PointIds))
-  {
-    const Part& part = parts[o.Part];
-    const double* x = part.GetPoint(o.Index);
-    if (origins.empty() || origins.back().Id != o.Id)
-    {
-      origins.push_back(o);
-      result.PointIds.push_back(o.Id);
-      result.Coordinates.insert(result.Coordinates.end(), x, x + 3);
-      result.Flags.push_back(0);
-    }
-    else if (std::memcmp(&result.Coordinates[result.Coordinates.size() - 3], x, 3 * sizeof(double)))
-    {
-      return "Point " + std::to_string(o.Id) + " is at two places.";
-    }
-    result.Flags.back() |= part.Flags[o.Index];
-    newIndex[o.Part][o.Index] = result.GetNumberOfPoints() - 1;
-  }
-  Collect(parts, origins, &Part::PointArrays, result.PointArrays);
-  return {};
-}
-
-std::string JoinCells(
-  const std::vector<Part>& parts, const std::vector<std::vector<vtkIdType>>& newIndex, Part& result)
-{
-  const std::vector<Origin> origins = ListOrigins(parts, &Part::CellIds);
-  for (const Origin& o : origins)
-  {
-    const Part& part = parts[o.Part];
-    if (!result.CellIds.empty() && result.CellIds.back() == o.Id)
-    {
-      return "Cell " + std::to_string(o.Id) + " was there twice.";
-    }
-    result.CellIds.push_back(o.Id);
-    for (int i = 0; i < part.Corners; ++i)
-    {
-      result.Cells.push_back(newIndex[o.Part][part.GetCell(o.Index)[i]]);
-    }
-    result.Quality.push_back(part.Quality[o.Index]);
-    result.Home.push_back(part.Home[o.Index]);
-  }
-  Collect(parts, origins, &Part::CellArrays, result.CellArrays);
-  return {};
-}
-
 vtkIdType BytesOf(vtkDataArray* array)
 {
   return array->GetDataType() == VTK_BIT ? (array->GetNumberOfValues() + 7) / 8
                                          : array->GetNumberOfValues() * array->GetDataTypeSize();
-}
-
-void Pack(vtkAbstractArray* array, Bytes& bytes)
-{
-  Put(bytes, static_cast<vtkTypeInt64>(array->GetNumberOfTuples()));
-  if (auto strings = vtkStringArray::SafeDownCast(array))
-  {
-    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
-    {
-      const vtkStdString& text = strings->GetValue(i);
-      PutAll(bytes, Bytes(text.begin(), text.end()));
-    }
-    return;
-  }
-  auto values = vtkDataArray::SafeDownCast(array);
-  const char* first = static_cast<const char*>(values->GetVoidPointer(0));
-  bytes.insert(bytes.end(), first, first + BytesOf(values));
-}
-
-vtkSmartPointer<vtkAbstractArray> Unpack(Reader& reader, vtkAbstractArray* like)
-{
-  vtkSmartPointer<vtkAbstractArray> array = MakeLike(like);
-  array->SetNumberOfTuples(reader.Take<vtkTypeInt64>());
-  if (auto strings = vtkStringArray::SafeDownCast(array))
-  {
-    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
-    {
-      const Bytes text = reader.TakeAll<char>();
-      strings->SetValue(i, std::string(text.begin(), text.end()));
-    }
-    return array;
-  }
-  auto values = vtkDataArray::SafeDownCast(array);
-  reader.TakeBytes(values->GetVoidPointer(0), static_cast<std::size_t>(BytesOf(values)));
-  return array;
 }
 
 } // namespace
@@ -263,19 +99,75 @@ Schema Schema::Of(vtkDataSetAttributes* data, const char* without)
   return schema;
 }
 
-std::string Schema::Describe() const
+Bytes Schema::Describe() const
 {
-  std::string text;
-  for (vtkAbstractArray* array : this->Arrays)
+  Bytes bytes;
+  const auto put = [&bytes](const char* text)
   {
-    text += std::string(array->GetName() ? array->GetName() : "") + "," +
-      std::to_string(array->GetDataType()) + "," + std::to_string(array->GetNumberOfComponents()) +
-      ";";
+    const std::string name = text ? text : "";
+    PutAll(bytes, Bytes(name.begin(), name.end()));
+  };
+  Put(bytes, static_cast<int>(this->Arrays.size()));
+  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+  {
+    vtkAbstractArray* array = this->Arrays[i];
+    put(array->GetName());
+    Put(bytes, array->GetDataType());
+    Put(bytes, array->GetNumberOfComponents());
+    Put(bytes, this->Attributes[i]);
+    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+    {
+      put(array->GetComponentName(k));
+    }
   }
-  return text;
+  return bytes;
+}
+
+Schema Schema::From(Reader& reader)
+{
+  const auto take = [&reader]()
+  {
+    const Bytes text = reader.TakeAll<char>();
+    return std::string(text.begin(), text.end());
+  };
+  Schema schema;
+  const int count = reader.Take<int>();
+  for (int i = 0; i < count; ++i)
+  {
+    const std::string name = take();
+    auto array = vtkSmartPointer<vtkAbstractArray>::Take(
+      vtkAbstractArray::CreateArray(reader.Take<int>()));
+    array->SetName(name.empty() ? nullptr : name.c_str());
+    array->SetNumberOfComponents(reader.Take<int>());
+    schema.Attributes.push_back(reader.Take<int>());
+    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+    {
+      const std::string component = take();
+      if (!component.empty())
+      {
+        array->SetComponentName(k, component.c_str());
+      }
+    }
+    schema.Arrays.push_back(array);
+  }
+  return schema;
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source)
+{
+  auto array = vtkSmartPointer<vtkAbstractArray>::Take(
+    vtkAbstractArray::CreateArray(source->GetDataType()));
+  array->SetName(source->GetName());
+  array->SetNumberOfComponents(source->GetNumberOfComponents());
+  array->CopyComponentNames(source);
+  if (source->HasInformation())
+  {
+    array->CopyInformation(source->GetInformation(), 1);
+  }
+  return array;
+}
+
 vtkSmartPointer<vtkAbstractArray> Select(
   vtkAbstractArray* source, const std::vector<vtkIdType>& ids)
 {
@@ -352,19 +244,45 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
   return result;
 }
 
-std::string Join(const std::vector<Part>& parts, Part& result)
-{
-  result = Part();
-  result.Corners = parts[0].Corners;
-  std::vector<std::vector<vtkIdType>> newIndex;
-  const std::string error = JoinPoints(parts, result, newIndex);
-  return error.empty() ? JoinCells(parts, newIndex, result) : error;
-}
-
 //------------------------------------------------------------------------------
 bool CanPack(vtkAbstractArray* array)
 {
   return vtkDataArray::SafeDownCast(array) || vtkStringArray::SafeDownCast(array);
+}
+
+void Pack(vtkAbstractArray* array, Bytes& bytes)
+{
+  Put(bytes, static_cast<vtkTypeInt64>(array->GetNumberOfTuples()));
+  if (auto strings = vtkStringArray::SafeDownCast(array))
+  {
+    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
+    {
+      const vtkStdString& text = strings->GetValue(i);
+      PutAll(bytes, Bytes(text.begin(), text.end()));
+    }
+    return;
+  }
+  auto values = vtkDataArray::SafeDownCast(array);
+  const char* first = static_cast<const char*>(values->GetVoidPointer(0));
+  bytes.insert(bytes.end(), first, first + BytesOf(values));
+}
+
+vtkSmartPointer<vtkAbstractArray> Unpack(Reader& reader, vtkAbstractArray* like)
+{
+  vtkSmartPointer<vtkAbstractArray> array = MakeLike(like);
+  array->SetNumberOfTuples(reader.Take<vtkTypeInt64>());
+  if (auto strings = vtkStringArray::SafeDownCast(array))
+  {
+    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
+    {
+      const Bytes text = reader.TakeAll<char>();
+      strings->SetValue(i, std::string(text.begin(), text.end()));
+    }
+    return array;
+  }
+  auto values = vtkDataArray::SafeDownCast(array);
+  reader.TakeBytes(values->GetVoidPointer(0), static_cast<std::size_t>(BytesOf(values)));
+  return array;
 }
 
 Bytes Pack(const Part& part)
@@ -380,7 +298,8 @@ Bytes Pack(const Part& part)
   PutAll(bytes, part.CellIds);
   PutAll(bytes, part.Cells);
   PutAll(bytes, part.Quality);
-  PutAll(bytes, part.Home);
+  PutAll(bytes, part.Origin);
+  PutAll(bytes, part.Hint);
   for (const Arrays* arrays : { &part.PointArrays, &part.CellArrays })
   {
     for (vtkAbstractArray* array : *arrays)
@@ -405,7 +324,8 @@ Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema&
   part.CellIds = reader.TakeAll<vtkIdType>();
   part.Cells = reader.TakeAll<vtkIdType>();
   part.Quality = reader.TakeAll<double>();
-  part.Home = reader.TakeAll<int>();
+  part.Origin = reader.TakeAll<vtkIdType>();
+  part.Hint = reader.TakeAll<vtkIdType>();
   for (Arrays* arrays : { &part.PointArrays, &part.CellArrays })
   {
     for (vtkSmartPointer<vtkAbstractArray>& array : *arrays)

@@ -16,6 +16,7 @@
 #include <vector>
 
 class vtkAbstractArray;
+class vtkDataArray;
 class vtkDataSetAttributes;
 class vtkUnstructuredGrid;
 
@@ -44,8 +45,10 @@ struct Schema
 
   /// All arrays but global ids and those of this name.
   static Schema Of(vtkDataSetAttributes* data, const char* without);
-  /// Equal if parts of both ranks can be joined.
-  std::string Describe() const;
+  /// Equal if parts of both ranks can be joined: all but the information keys, as bytes.
+  Bytes Describe() const;
+  /// From such bytes.
+  static Schema From(Reader& reader);
 };
 
 using Arrays = std::vector<vtkSmartPointer<vtkAbstractArray>>;
@@ -59,14 +62,23 @@ struct Part
   std::vector<vtkIdType> CellIds;  ///< ascending
   std::vector<vtkIdType> Cells;    ///< corners of each cell, as indices of points
   std::vector<double> Quality;     ///< of each cell; 0 before the first run
-  std::vector<int> Home;           ///< a rank for each cell
-  Arrays PointArrays, CellArrays;  ///< those of the schemas
+  /// The cell of the input that each cell comes from: numbered over all ranks (see Origins).
+  std::vector<vtkIdType> Origin;
+  /// -1: the data of the point are those of the input at its place. Else a cell of the input near
+  /// it, numbered like Origin: its data have been interpolated more than once.
+  std::vector<vtkIdType> Hint;
+  Arrays PointArrays, CellArrays; ///< those of the schemas
 
   vtkIdType GetNumberOfPoints() const { return static_cast<vtkIdType>(this->PointIds.size()); }
   vtkIdType GetNumberOfCells() const { return static_cast<vtkIdType>(this->CellIds.size()); }
   const vtkIdType* GetCell(vtkIdType c) const { return &this->Cells[c * this->Corners]; }
   const double* GetPoint(vtkIdType p) const { return &this->Coordinates[3 * p]; }
 };
+
+/**
+ * An array without tuples that has the name, type, components and information of another.
+ */
+vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source);
 
 /**
  * A part of the tuples `ids` of `source`, as an array of its own.
@@ -95,6 +107,8 @@ std::string Join(const std::vector<Part>& parts, Part& result);
  * To bytes, and back.
  */
 Bytes Pack(const Part& part);
+void Pack(vtkAbstractArray* array, Bytes& bytes);
+vtkSmartPointer<vtkAbstractArray> Unpack(Reader& reader, vtkAbstractArray* like);
 Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema& cells);
 
 /**
@@ -103,16 +117,26 @@ Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema&
 bool CanPack(vtkAbstractArray* array);
 
 /**
- * The part as a grid. Ids are its global ids; homes are a cell array.
+ * The simplices of a grid as a part without ids: point i has the id i, cell i too. Points of other
+ * cells only are left out; points of no cell stay. `fixedPoints` may be nullptr. The origin of a
+ * cell is its id in the grid, from `firstOrigin` on.
+ */
+Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, int corners,
+  const Schema& points, const Schema& cells, vtkDataArray* fixedPoints, vtkIdType firstOrigin,
+  std::vector<vtkIdType>& pointsOfGrid);
+
+/**
+ * The part as a grid. Ids are its global ids; origins are a cell array.
  */
 vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   const Part& part, const Schema& points, const Schema& cells);
 
 /**
  * What a run made of the grid of a part. Points and cells that are new have the id -1, and no
- * flags.
+ * flags. With `isAgain`, points that have moved or come get a hint: their data stem from data that
+ * were interpolated before.
  */
-Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before);
+Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain);
 
 /**
  * Removes from a grid the arrays that MakeGrid() has added.
