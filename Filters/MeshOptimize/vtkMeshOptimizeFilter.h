@@ -460,11 +460,17 @@ public:
   ///@{
   /**
    * Whether, on several ranks, the borders between their pieces take part: bands of cells around
-   * them move to one rank and are optimized there. This is for tetrahedra with WorstFirst in one
-   * grid. With OptimizeBelow, Paper1996, sizes, a metric, triangles, other cells, ghost cells or
-   * composite data, one warning says that the borders are kept. QualityBound is then 1 (unknown)
-   * and NumberOfCappedCells 0; all other results are those of the whole. Point data of bands may be
-   * interpolated more than once. All ranks must update together. Default: off.
+   * them move to one rank and are optimized there. A mesh that lies on one rank is divided first.
+   * Results are those of the whole on all ranks; the history is on the first. Filters/RANKS.md
+   * says what each option then means, and which data are needed.
+   *
+   * This is for tetrahedra in one grid with WorstFirst. With OptimizeBelow, sizes, a metric,
+   * triangles, other cells, ghost cells or composite data, one warning says that the borders are
+   * kept. BoundaryMode Slide on several pieces is an error.
+   *
+   * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
+   * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.
+   * Default: off.
    */
   vtkSetMacro(OptimizeBorders, bool);
   vtkGetMacro(OptimizeBorders, bool);

@@ -65,7 +65,7 @@ struct Outcome
   vtkIdType NumberOfReorientedCells = 0;
   vtkIdType NumberOfQuadraticSimplices = 0;
   vtkIdType NumberOfOperations = 0;
-  vtkIdType NumberOfMovedCells = 0; ///< between ranks and within bands, over all rounds
+  vtkIdType NumberOfCellsInBands = 0; ///< on many ranks: at borders, over all rounds
   double Seconds = 0.0;
   double SurfaceDistance = 0.0;    ///< proved, between the surface of before and that of after
   bool HasSurfaceDistance = false; ///< a surface of tetrahedra took part

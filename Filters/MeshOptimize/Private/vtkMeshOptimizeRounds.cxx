@@ -265,22 +265,46 @@ void Rounds::OptimizePieces()
 
 //------------------------------------------------------------------------------
 /**
- * Whether no cell that should get better has a point that was never inside.
+ * The quality up to which cells at borders are worth another round.
  */
-bool Rounds::IsDone() const
+double Rounds::GetGoal() const
 {
-  const bool isBest = this->Wanted.Options.effort == meshopt::Effort::Best;
-  const double goal = isBest ? 1.0 : this->Wanted.Options.targetQuality;
+  return this->Wanted.Options.effort == meshopt::Effort::Best ? 1.0
+                                                              : this->Wanted.Options.targetQuality;
+}
+
+/**
+ * Whether no cell that should get better has a waiting point.
+ */
+bool Rounds::IsDone()
+{
   bool isWaiting = false;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
     const vtkIdType* ids = this->Mine.GetCell(c);
     isWaiting = isWaiting ||
-      (this->Mine.Quality[c] < goal &&
+      (this->Mine.Quality[c] < this->GetGoal() && !this->Surface.IsCapped[c] &&
         std::any_of(ids, ids + this->Mine.Corners,
           [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; }));
   }
   return !this->All.IsAny(isWaiting);
+}
+
+/**
+ * In each run so far nodes of some border or hull were kept. A cell that is still bad waits for
+ * another round, in which it lies in the middle. If what may grow is used up, none would help.
+ */
+void Rounds::WaitWhereStuck()
+{
+  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells() && !this->IsShort; ++c)
+  {
+    if (this->Mine.Quality[c] < this->Wanted.Options.targetQuality && !this->Surface.IsCapped[c])
+    {
+      const vtkIdType* ids = this->Mine.GetCell(c);
+      std::for_each(
+        ids, ids + this->Mine.Corners, [&](vtkIdType p) { this->Mine.Flags[p] |= Waiting; });
+    }
+  }
 }
 
 void Rounds::OptimizeBorders()
@@ -293,6 +317,14 @@ void Rounds::OptimizeBorders()
     }
     this->First = PiecesDone + (1.0 - PiecesDone) * round / MostRounds;
     this->Last = PiecesDone + (1.0 - PiecesDone) * (round + 1) / MostRounds;
+    // A rank without a band would not hear of the user's wish in this round.
+    const bool goesOn = vtkMeshBridge::MakeControl(this->Wanted.Filter, 1, this->First, this->Last)
+                          .progress(0.0, "Borders, round " + std::to_string(round + 1));
+    if (this->All.IsAny(!goesOn))
+    {
+      this->Stopped = StopReason::Aborted;
+      return;
+    }
     Part before = this->Mine; // shares the arrays
     const vtkMeshRanks::Numbering ids = this->Ids;
     this->Result.Fault = this->All.Together(
@@ -332,7 +364,7 @@ void Rounds::Round(int round)
   Outcome run;
   const double mine = static_cast<double>(parts[1].GetNumberOfCells());
   const double bands = static_cast<double>(this->All.Sum(parts[1].GetNumberOfCells()));
-  this->Result.NumberOfMovedCells += static_cast<vtkIdType>(bands);
+  this->Result.NumberOfCellsInBands += static_cast<vtkIdType>(bands);
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
   this->All.Agree(Join(parts, this->Mine));
@@ -340,6 +372,7 @@ void Rounds::Round(int round)
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Record("borders", run);
+  this->WaitWhereStuck();
   this->MustStop(run);
 }
 

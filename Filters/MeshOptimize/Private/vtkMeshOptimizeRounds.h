@@ -6,7 +6,7 @@
 #define vtkMeshOptimizeRounds_h
 
 #include "vtkMeshOptimizeRequest.h"
-#include "vtkMeshRanksFacets.h"
+#include "vtkMeshRanksBound.h"
 #include "vtkMeshRanksIds.h"
 
 #include <string>
@@ -41,7 +41,7 @@ public:
 
   /**
    * Bands around the borders move to one rank and are optimized there, until no cell under the goal
-   * has a point that has never been inside, MostRounds times at most. A round that fails is undone
+   * that can get better waits for another round, four times at most. A round that fails is undone
    * on all ranks, and ends them: outcome.Fault then says why.
    */
   void OptimizeBorders();
@@ -56,8 +56,11 @@ private:
   void Optimize(vtkMeshRanks::Part& part, double weight, double share, Outcome& outcome);
   void NumberNew(vtkMeshRanks::Part& part);
   void Round(int round);
-  bool IsDone() const;
+  double GetGoal() const;
+  bool IsDone();
+  void WaitWhereStuck();
   bool MustStop(const Outcome& run);
+  std::vector<long long> ReadRegions() const;
   void RecordInput(const Outcome& run);
   void Record(const char* stage, const Outcome& run);
   meshopt::StopReason FindReason() const;
@@ -74,6 +77,7 @@ private:
   long Growth = 0, Shrink = 0;    ///< how many cells all ranks may gain and lose, from CellsAtFirst
   double First = 0.0, Last = 1.0; ///< the part of the progress that runs now
   meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
+  vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state
   bool IsShort = false; ///< the last run on some rank needed more cells than it may add
 };
 

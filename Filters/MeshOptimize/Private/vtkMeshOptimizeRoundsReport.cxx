@@ -77,6 +77,17 @@ void Rounds::RecordInput(const Outcome& run)
 }
 
 /**
+ * The region of each cell; empty without regions.
+ */
+std::vector<long long> Rounds::ReadRegions() const
+{
+  const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
+  InputArrays arrays;
+  FindInputArrays(this->Wanted.Filter, grid, arrays); // has been checked
+  return arrays.Region ? vtkMeshBridge::ReadIntegers(arrays.Region) : std::vector<long long>();
+}
+
+/**
  * Adds a row of all ranks to the history.
  */
 void Rounds::Record(const char* stage, const Outcome& run)
@@ -91,8 +102,16 @@ void Rounds::Record(const char* stage, const Outcome& run)
     row.tried[op] = static_cast<long>(this->All.Sum(row.tried[op]));
     row.done[op] = static_cast<long>(this->All.Sum(row.done[op]));
   }
-  const Figures now = Measure(
-    this->All, this->Mine, FindShared(this->All, this->Mine), this->Wanted.Options.targetQuality);
+  const double target = this->Wanted.Options.targetQuality;
+  const Shared shared = FindShared(this->All, this->Mine);
+  const Figures now = Measure(this->All, this->Mine, shared, target);
+  this->Surface = MeasureSurface(
+    this->All, this->Mine, shared, this->ReadRegions(), this->Wanted.Options.measure, target);
+  vtkIdType capped = 0;
+  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
+  {
+    capped += this->Surface.IsCapped[c] && this->Mine.Quality[c] < target;
+  }
   meshopt::Report& report = this->Result.Report;
   row.pass = static_cast<int>(report.history.size());
   row.stage = stage;
@@ -102,6 +121,8 @@ void Rounds::Record(const char* stage, const Outcome& run)
   row.cells = static_cast<long>(now.Cells);
   row.points = static_cast<long>(now.Points);
   report.invertedAfter = static_cast<long>(now.NotPositive);
+  report.bound = this->Surface.Bound;
+  report.cappedCells = static_cast<long>(this->All.Sum(capped));
   report.history.push_back(row);
   this->Result.NumberOfCells = now.Cells;
 }
@@ -123,15 +144,7 @@ void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
 {
   SampleOnce(this->All, input, this->FirstCell, this->Points, this->FirstNewPoint, this->Mine);
   const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
-  InputArrays arrays;
-  FindInputArrays(this->Wanted.Filter, grid, arrays); // has been checked
-  const SurfaceFigures surface = MeasureSurface(this->All, this->Mine,
-    FindShared(this->All, this->Mine),
-    arrays.Region ? vtkMeshBridge::ReadIntegers(arrays.Region) : std::vector<long long>(),
-    this->Wanted.Options.measure, this->Wanted.Options.targetQuality);
   meshopt::Report& report = this->Result.Report;
-  report.bound = surface.Bound;
-  report.cappedCells = static_cast<long>(surface.Capped);
   report.stopReason = this->FindReason();
   output->ShallowCopy(grid);
   RemoveOwn(output);
@@ -150,6 +163,10 @@ void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
   output->GetCellData()->AddArray(quality);
   output->GetFieldData()->DeepCopy(input->GetFieldData());
   AddFigures(this->Result, output);
+  vtkNew<vtkIdTypeArray> bands;
+  bands->SetName("NumberOfCellsInBands");
+  bands->InsertNextValue(this->Result.NumberOfCellsInBands);
+  output->GetFieldData()->AddArray(bands);
 }
 
 } // namespace vtkMeshOptimizeBridge

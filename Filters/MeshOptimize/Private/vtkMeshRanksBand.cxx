@@ -78,7 +78,7 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
   std::vector<Label> labels(part.PointIds.size(), None);
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
-    if ((part.Flags[p] & Waiting) && shared.Has(p))
+    if (part.Flags[p] & Waiting)
     {
       labels[p] = place[ranks.GetRank()];
       for (const int r : shared.RanksOf[p])
@@ -87,6 +87,7 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
       }
     }
   }
+  TakeLeast(ranks, shared, labels); // where only one of two ranks lets a point wait
   for (int layer = 1; layer < layers; ++layer)
   {
     std::vector<Label> next = labels;

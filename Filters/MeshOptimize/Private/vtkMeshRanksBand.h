@@ -17,9 +17,10 @@ namespace vtkMeshRanks
  * The rank that takes each cell, or -1 for cells that are in no band. A band has the cells within
  * `layers` layers of the waiting points; a layer shares points with the one before. Around a
  * waiting point the rank takes over that has the fewest cells of those that have the point (the
- * lower rank if equal); a cell goes to the point that is fewest layers away. So two ranks have the
- * whole band between them on one of them, and where three or more meet the ball around goes to
- * one. Depends only on the division, not on the order of messages. Collective.
+ * lower rank if equal; one that is inside of a piece stays there); a cell goes to the point that is
+ * fewest layers away. So two ranks have the whole band between them on one of them, and where three
+ * or more meet the ball around goes to one. Depends only on the division, not on the order of
+ * messages. Collective.
  */
 std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& shared, int layers);
 

@@ -241,22 +241,17 @@ SurfaceFigures MeasureSurface(const Ranks& ranks, const Part& part, const Shared
   AddSidesOfOthers(ranks, part, shared, sides);
   std::vector<vtkIdType> ids;
   const meshopt::SurfaceBound<3> surface = BoundOf(sides, measure, target, ids);
-  std::vector<char> isCapped(part.CellIds.size(), 0);
+  SurfaceFigures figures;
+  figures.IsCapped.assign(part.CellIds.size(), 0);
   for (std::size_t k = 0; k < sides.size(); ++k)
   {
     const vtkIdType c = sides[surface.sides[k].cell].Cell;
     if (c >= 0 && surface.sideCaps[k] < target && part.Quality[c] >= Reached * surface.sideCaps[k])
     {
-      isCapped[c] = 1;
+      figures.IsCapped[c] = 1;
     }
   }
-  MarkCappedByEdges(part, shared, surface, ids, isCapped);
-  SurfaceFigures figures;
-  for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
-  {
-    figures.Capped += isCapped[c] && part.Quality[c] < target;
-  }
-  figures.Capped = ranks.Sum(figures.Capped);
+  MarkCappedByEdges(part, shared, surface, ids, figures.IsCapped);
   for (const double bound : ranks.Gather(surface.bound))
   {
     figures.Bound = std::min(figures.Bound, bound);

@@ -17,8 +17,8 @@ namespace vtkMeshRanks
 
 struct SurfaceFigures
 {
-  double Bound = 1.0;   ///< the same on all ranks
-  vtkIdType Capped = 0; ///< cells of all ranks under the target that have reached their cap
+  double Bound = 1.0;         ///< the same on all ranks
+  std::vector<char> IsCapped; ///< of each cell: has reached its cap, which is under the target
 };
 
 /**

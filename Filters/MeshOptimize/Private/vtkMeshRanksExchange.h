@@ -143,7 +143,8 @@ public:
   /**
    * Runs work, which returns an error or an empty string, and agrees on its error: the same on all
    * ranks. The work may call other ranks. Whatever it throws on one rank, std::bad_alloc above all,
-   * ends the work of all others at the next function of Ranks that they call: nobody waits for ever.
+   * ends the work of all others at the next function of Ranks that they call: nobody waits for
+   * ever.
    */
   std::string Together(const std::function<std::string()>& work) const;
 

@@ -28,7 +28,7 @@ namespace vtkMeshRanks
  */
 enum PointFlag : std::uint8_t
 {
-  Waiting = 1, ///< its cells have never been together in one run
+  Waiting = 1, ///< what lies around it has never been together in one run
   Fixed = 2,   ///< of the caller's fixed points
   Loose = 4,   ///< no cell of the input uses it
   Skin = 8     ///< may be on the surface, or on several ranks
