@@ -163,10 +163,6 @@ def row(opt, mesh, ranks, borders, serial):
 
 
 def main():
-    if sys.argv[1:2] == ["--worker"]:
-        mesh, folder, effort, borders = sys.argv[2:]
-        work(mesh, folder, effort, borders == "1")
-        return 0
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", nargs="+", type=pathlib.Path)
     parser.add_argument("--ranks", nargs="+", type=int, default=[1, 2, 3, 4])
@@ -190,4 +186,7 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    if sys.argv[1:2] == ["--worker"]:
+        work(*sys.argv[2:5], sys.argv[5] == "1")  # without sys.exit(): pvbatch has to end MPI
+    else:
+        sys.exit(main())

@@ -264,49 +264,6 @@ void Rounds::OptimizePieces()
 }
 
 //------------------------------------------------------------------------------
-/**
- * The quality up to which cells at borders are worth another round.
- */
-double Rounds::GetGoal() const
-{
-  return this->Wanted.Options.effort == meshopt::Effort::Best ? 1.0
-                                                              : this->Wanted.Options.targetQuality;
-}
-
-/**
- * Whether no cell that should get better has a waiting point.
- */
-bool Rounds::IsDone()
-{
-  bool isWaiting = false;
-  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
-  {
-    const vtkIdType* ids = this->Mine.GetCell(c);
-    isWaiting = isWaiting ||
-      (this->Mine.Quality[c] < this->GetGoal() && !this->Surface.IsCapped[c] &&
-        std::any_of(ids, ids + this->Mine.Corners,
-          [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; }));
-  }
-  return !this->All.IsAny(isWaiting);
-}
-
-/**
- * In each run so far nodes of some border or hull were kept. A cell that is still bad waits for
- * another round, in which it lies in the middle. If what may grow is used up, none would help.
- */
-void Rounds::WaitWhereStuck()
-{
-  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells() && !this->IsShort; ++c)
-  {
-    if (this->Mine.Quality[c] < this->Wanted.Options.targetQuality && !this->Surface.IsCapped[c])
-    {
-      const vtkIdType* ids = this->Mine.GetCell(c);
-      std::for_each(
-        ids, ids + this->Mine.Corners, [&](vtkIdType p) { this->Mine.Flags[p] |= Waiting; });
-    }
-  }
-}
-
 void Rounds::OptimizeBorders()
 {
   for (int round = 0; round < MostRounds; ++round)

@@ -18,6 +18,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace vtkMeshOptimizeBridge
@@ -97,10 +98,17 @@ void Rounds::Record(const char* stage, const Outcome& run)
   {
     row.addWork(pass);
   }
-  for (int op = 0; op < meshopt::NumberOfOperations; ++op)
+  // One message for all operations: each costs all ranks a meeting.
+  using Counts = std::array<decltype(row.tried), 2>;
+  const std::vector<Counts> counts = this->All.Gather(Counts{ row.tried, row.done });
+  row.tried = row.done = {};
+  for (const Counts& one : counts)
   {
-    row.tried[op] = static_cast<long>(this->All.Sum(row.tried[op]));
-    row.done[op] = static_cast<long>(this->All.Sum(row.done[op]));
+    for (int op = 0; op < meshopt::NumberOfOperations; ++op)
+    {
+      row.tried[op] += one[0][op];
+      row.done[op] += one[1][op];
+    }
   }
   const double target = this->Wanted.Options.targetQuality;
   const Shared shared = FindShared(this->All, this->Mine);
