@@ -43,15 +43,19 @@ void Check(bool fine, const std::string& text)
   }
 }
 
+constexpr int Size = 6; // of the cube
+
 /**
- * Changes the last bits of all coordinates that the first rank sends, the first time.
+ * Changes the last bits of points that a rank sends, the first time: of all, or only of those that
+ * are not on the borders of the slabs. The former differ from the points that the other rank has
+ * already, the latter only from those that stay behind.
  */
 class Corrupting : public vtkMPICommunicator
 {
 public:
   static Corrupting* New() { VTK_STANDARD_NEW_BODY(Corrupting); }
   vtkTypeMacro(Corrupting, vtkMPICommunicator);
-  bool IsOn = false;
+  bool IsOn = false, SparesBorders = false;
 
   int SendVoidArray(
     const void* data, vtkIdType length, int type, int remoteHandle, int tag) override
@@ -75,9 +79,24 @@ public:
     std::vector<char> wrong(bytes, bytes + length);
     for (vtkTypeInt64 i = 0; i < coordinates; ++i)
     {
-      wrong[16 + 8 * points + 8 * i] ^= 1;
+      const std::size_t at = 16 + 8 * points + 8 * i;
+      double x = 0.0;
+      std::memcpy(&x, bytes + at - 8 * (i % 3), 8);
+      wrong[at] ^= this->SparesBorders && this->IsAtBorder(x) ? 0 : 1;
     }
     return this->Superclass::SendVoidArray(wrong.data(), length, type, remoteHandle, tag);
+  }
+
+private:
+  bool IsAtBorder(double x)
+  {
+    const int ranks = this->GetNumberOfProcesses();
+    bool isAt = false;
+    for (int r = 1; r < ranks; ++r)
+    {
+      isAt = isAt || std::abs(x - Size * r / ranks) < 0.5;
+    }
+    return isAt;
   }
 };
 
@@ -151,10 +170,12 @@ void TestLastGoodState(vtkMPIController* controller)
   wrong->SetCommunicator(wire);
   const int rank = controller->GetLocalProcessId(), ranks = controller->GetNumberOfProcesses();
   vtkNew<vtkUnstructuredGrid> piece;
-  MakePiece(6, rank, ranks, piece);
-  for (bool isOn : { false, true })
+  MakePiece(Size, rank, ranks, piece);
+  for (int kind : { 0, 1, 2 })
   {
+    const bool isOn = kind > 0;
     wire->IsOn = isOn;
+    wire->SparesBorders = kind == 2;
     int told = 0;
     vtkNew<vtkCallbackCommand> listen;
     listen->SetCallback(Count);

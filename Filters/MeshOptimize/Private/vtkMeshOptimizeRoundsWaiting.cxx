@@ -16,7 +16,9 @@ namespace
 /// better than the worst by less than this part of what it lacks to the target.
 constexpr vtkIdType FewStuck = 16, CellsPerStuck = 2000;
 constexpr double NearWorst = 0.1;
-/// They wait only after a round that has lifted the worst by more than this, or left fewer of few.
+/// If the worst is not far from the bound of the surface, they wait only after a round that has
+/// lifted it by more than this, or left fewer of few.
+constexpr double NearBound = 0.98;
 constexpr double LeastGain = 0.002;
 
 } // namespace
@@ -71,9 +73,9 @@ void Rounds::WaitWhereStuck()
   const double most = areFew ? target : worst + NearWorst * (target - worst);
   const std::vector<meshopt::PassRecord>& rows = this->Result.Report.history;
   const meshopt::PassRecord &now = rows.back(), &before = rows[rows.size() - 2];
-  const bool hasGained = now.worst > before.worst + LeastGain ||
-    (areFew && now.belowTarget < before.belowTarget);
-  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells() && hasGained && !this->IsShort; ++c)
+  const bool isWorthIt = worst < NearBound * this->Surface.Bound ||
+    now.worst > before.worst + LeastGain || (areFew && now.belowTarget < before.belowTarget);
+  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells() && isWorthIt && !this->IsShort; ++c)
   {
     if (isStuck(c, most))
     {
