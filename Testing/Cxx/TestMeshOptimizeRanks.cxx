@@ -171,6 +171,7 @@ void TestLastGoodState(vtkMPIController* controller)
   const int rank = controller->GetLocalProcessId(), ranks = controller->GetNumberOfProcesses();
   vtkNew<vtkUnstructuredGrid> piece;
   MakePiece(Size, rank, ranks, piece);
+  vtkIdType cellsBefore = 0;
   for (int kind : { 0, 1, 2 })
   {
     const bool isOn = kind > 0;
@@ -191,6 +192,8 @@ void TestLastGoodState(vtkMPIController* controller)
     Check(told == (isOn && rank == 0), "told " + std::to_string(told) + " times");
     auto output = vtkUnstructuredGrid::SafeDownCast(f->GetOutputDataObject(0));
     vtkIdType cells = output->GetNumberOfCells(), all = 0;
+    Check(kind != 2 || cells == cellsBefore, "cells have moved, and were not taken back");
+    cellsBefore = cells;
     controller->AllReduce(&cells, &all, 1, vtkCommunicator::SUM_OP);
     auto history = vtkTable::SafeDownCast(f->GetOutputDataObject(1));
     if (rank == 0)
