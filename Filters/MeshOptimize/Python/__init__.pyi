@@ -93,13 +93,13 @@ def optimize(
     tolerance_is_absolute: bool = False,
     geometry: vtkPolyData | None = None,
     time_limit: float = 0.0,
-    optimize_borders: bool = False,
     region_array: str | None = None,
     fixed_point_array: str | None = None,
     size_array: str | None = None,
     metric_array: str | None = None,
     corner_array: str | None = None,
     patch_array: str | None = None,
+    optimize_borders: bool = False,
 ) -> tuple[_Mesh, OptimizeReport]: ...
 
 def quality(
