@@ -17,7 +17,7 @@ set(_meshoptimize_vtk_required
 # What the wrapping and the tests take when it is there.
 set(_meshoptimize_vtk_optional
   Python WrappingPythonCore PythonInterpreter FiltersGeneral FiltersExtraction FiltersSources
-  FiltersVerdict IOXML IOLegacy ParallelMPI TestingCore)
+  FiltersVerdict IOXML IOParallelXML IOLegacy ParallelMPI TestingCore)
 
 if (NOT DEFINED MESHOPTIMIZE_WITH_PARAVIEW OR MESHOPTIMIZE_WITH_PARAVIEW)
   set(_required QUIET)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The drawings of Filters/ARCHITECTURE.md, as SVG. Needs Python alone.
+"""The drawings of Filters/ARCHITECTURE.md and Filters/RANKS.md, as SVG. Needs Python alone.
 
     python3 Filters/Drawings/draw.py            draws them beside this script
     python3 Filters/Drawings/draw.py --check    exit status 1 if a drawing is not what this script draws (a test)
@@ -310,6 +310,31 @@ def draw_chunks():
     return s
 
 
+# ---- many ranks ------------------------------------------------------------------------------------
+def draw_band():
+    s = Svg(900, 350)
+    points, cells = grid_of_triangles(14, 9, 390, 240)
+    side = [sum(points[p][0] for p in cell) > 3 * 195 for cell in cells]
+    here = [{p for cell, right in zip(cells, side) if right == half for p in cell} for half in (False, True)]
+    border = here[0] & here[1]
+    band = set(border)  # two layers of cells: those with a point of the border, and those that share points with these
+    band |= {p for cell in cells if border & set(cell) for p in cell}
+    for x0, title, in ((30, "Round 0: each rank its piece"), (480, "Round 1: the band goes to rank 0")):
+        s.text((x0 + 195, 28), title, 15, bold=True)
+        for cell, right in zip(cells, side):
+            moved = x0 > 30 and band & set(cell)
+            fill = NEW if moved else CHUNKS[2 if right else 0]
+            s.polygon([(points[p][0] + x0, points[p][1] + 45) for p in cell], fill=fill, stroke="white", width=1)
+        kept = border if x0 == 30 else {
+            p for cell in cells if band & set(cell) for p in cell} & {p for cell in cells if not band & set(cell) for p in cell}
+        for p in sorted(kept):
+            s.dot((points[p][0] + x0, points[p][1] + 45), fill=BAD_LINE, radius=3.5)
+    s.text((450, 312), "Blue: rank 0. Sand: rank 1. Red nodes are on the border of what a rank optimizes: they are kept.", 12, color=SOFT)
+    s.text((450, 332), "The green cells move to one rank and are optimized there: the old border lies inside them, and its nodes are free.",
+           12, color=SOFT)
+    return s
+
+
 # ---- the life of a run ---------------------------------------------------------------------------
 def draw_run():
     s = Svg(900, 560)
@@ -397,7 +422,7 @@ def draw_rooms():
     return s
 
 
-DRAWINGS = {"numbering": draw_numbering, "star": draw_star, "cavity": draw_cavity, "chunks": draw_chunks, "run": draw_run,
+DRAWINGS = {"numbering": draw_numbering, "star": draw_star, "cavity": draw_cavity, "chunks": draw_chunks, "band": draw_band, "run": draw_run,
             "rooms": draw_rooms}
 
 

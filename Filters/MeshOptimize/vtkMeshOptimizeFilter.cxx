@@ -6,6 +6,7 @@
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeHistory.h"
+#include "vtkMeshOptimizeRanks.h"
 #include "vtkMeshOptimizeRun.h"
 #include "vtkMeshOptimizeSurface.h"
 #include "vtkMeshOptimizeWarnings.h"
@@ -19,6 +20,7 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -31,6 +33,7 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshOptimizeFilter);
+vtkCxxSetObjectMacro(vtkMeshOptimizeFilter, Controller, vtkMultiProcessController);
 
 namespace bridge = vtkMeshOptimizeBridge;
 
@@ -39,9 +42,10 @@ vtkMeshOptimizeFilter::vtkMeshOptimizeFilter()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
-vtkMeshOptimizeFilter::~vtkMeshOptimizeFilter() = default;
+vtkMeshOptimizeFilter::~vtkMeshOptimizeFilter() { this->SetController(nullptr); }
 
 //------------------------------------------------------------------------------
 void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
@@ -74,6 +78,8 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "KeepFeatures: " << this->KeepFeatures << "\n";
   os << indent << "SurfaceTolerance: " << this->SurfaceTolerance << "\n";
   os << indent << "ToleranceIsAbsolute: " << this->ToleranceIsAbsolute << "\n";
+  os << indent << "OptimizeBorders: " << this->OptimizeBorders << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "WorstQualityBefore: " << this->WorstQualityBefore << "\n";
   os << indent << "WorstQualityAfter: " << this->WorstQualityAfter << "\n";
@@ -207,6 +213,7 @@ struct Ports
   vtkPolyData* Geometry;
   vtkDataObject* Output;
   vtkTable* History;
+  int NumberOfPieces;
 };
 
 /**
@@ -348,14 +355,18 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
   return error.empty() ? request.Options.check(hasSizes) : error;
 }
 
+int CountPieces(vtkInformation* info)
+{
+  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
+  return info->Has(pieces) ? info->Get(pieces) : 1;
+}
+
 /**
  * The border of a piece is not a boundary of the mesh, so it cannot slide.
  */
-std::string CheckPieces(vtkMeshOptimizeFilter* filter, vtkInformation* info)
+std::string CheckPieces(vtkMeshOptimizeFilter* filter, int pieces)
 {
-  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && info->Has(pieces) &&
-      info->Get(pieces) > 1
+  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && pieces > 1
     ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed "
       "data."
     : "";
@@ -372,6 +383,41 @@ bool HasTetrahedra(vtkUnstructuredGrid* grid)
 }
 
 /**
+ * Whether all ranks have been asked for their pieces of one mesh, and its borders take part.
+ */
+bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
+{
+  vtkMultiProcessController* controller = filter->GetController();
+  return filter->GetOptimizeBorders() && controller && controller->GetNumberOfProcesses() > 1 &&
+    ports.NumberOfPieces == controller->GetNumberOfProcesses();
+}
+
+/**
+ * Optimizes the one mesh that all ranks have. If it is not built for this input and request, an
+ * obstacle says why, and nothing is done.
+ */
+std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
+  bridge::Request& request, std::vector<Task>& tasks, bridge::Outcome& outcome,
+  std::string& obstacle)
+{
+  const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
+  request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
+  const std::string error = bridge::OptimizeOnRanks(
+    filter->GetController(), request, [&]() { return CheckRequest(request, tasks); },
+    isComposite ? nullptr : tasks[0].Input, isComposite ? nullptr : tasks[0].Output, outcome,
+    obstacle);
+  if (error.empty() && obstacle.empty())
+  {
+    bridge::StartHistory(ports.History, false, false);
+    if (filter->GetController()->GetLocalProcessId() == 0)
+    {
+      bridge::AppendHistory(outcome.Report, 0, ports.History);
+    }
+  }
+  return error;
+}
+
+/**
  * Optimizes all grids. Returns an empty string, or a sentence about the first unusable thing.
  */
 std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridge::Outcome& outcome)
@@ -379,6 +425,20 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
   std::vector<Task> tasks = ListTasks(ports.Input, ports.Output);
   const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
   bridge::Request request = MakeRequest(filter, ports.Geometry);
+  if (HasRanks(filter, ports))
+  {
+    std::string obstacle;
+    const std::string error = OptimizeWhole(filter, ports, request, tasks, outcome, obstacle);
+    if (!error.empty() || obstacle.empty())
+    {
+      return error;
+    }
+    if (filter->GetController()->GetLocalProcessId() == 0)
+    {
+      vtkWarningWithObjectMacro(
+        filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
+    }
+  }
   std::string error = CheckRequest(request, tasks);
   if (!error.empty())
   {
@@ -452,29 +512,41 @@ int vtkMeshOptimizeFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const Ports ports{ vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
-    vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1) };
+    vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1),
+    CountPieces(outputVector->GetInformationObject(0)) };
+  // What all ranks know is told by the first.
+  const bool isTold = HasRanks(this, ports) && this->Controller->GetLocalProcessId() > 0;
   Results results;
   std::string error;
   try
   {
-    error = CheckPieces(this, outputVector->GetInformationObject(0));
+    error = CheckPieces(this, ports.NumberOfPieces);
     error = error.empty() ? OptimizeAll(this, ports, results.Outcome) : error;
   }
   catch (const std::bad_alloc&)
   {
     error = "Not enough memory to optimize this mesh.";
   }
-  this->ErrorCode = error.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
-  if (!error.empty())
+  const std::string& fault = results.Outcome.Fault; // the output is what was there before it
+  this->ErrorCode = error.empty() && fault.empty() ? vtkErrorCode::NoError
+                                                   : vtkErrorCode::UserError;
+  if (!isTold && !(error.empty() && fault.empty()))
   {
     // Returning 0 would make the executive add an error of its own.
-    vtkErrorMacro(<< error);
+    vtkErrorMacro(<< (error.empty() ? fault : error));
+  }
+  if (!error.empty())
+  {
     ports.Output->Initialize();
     ports.History->Initialize();
     results = Results();
   }
   vtkMeshBridge::KeepOutputAfterAbort(this);
   this->StoreResults(results);
+  if (isTold)
+  {
+    return 1;
+  }
   bridge::Warn(this, results.Outcome);
   if (error.empty())
   {

@@ -87,6 +87,7 @@
 #include <string> // for the stop reason
 
 class vtkAlgorithmOutput;
+class vtkMultiProcessController;
 class vtkPolyData;
 
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkMeshOptimizeFilter : public vtkUnstructuredGridAlgorithm
@@ -457,6 +458,34 @@ public:
   void SetPatchArray(const char* name);
   ///@}
 
+  ///@{
+  /**
+   * Whether, on several ranks, the borders between their pieces take part: bands of cells around
+   * them move to one rank and are optimized there. A mesh that lies on one rank is divided first.
+   * Results are those of the whole on all ranks; the history is on the first. Filters/RANKS.md
+   * says what each option then means, and which data are needed.
+   *
+   * This is for tetrahedra in one grid with WorstFirst. With OptimizeBelow, sizes, a metric,
+   * triangles, other cells, ghost cells or composite data, one warning says that the borders are
+   * kept. BoundaryMode Slide on several pieces is an error.
+   *
+   * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
+   * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.
+   * Default: off.
+   */
+  vtkSetMacro(OptimizeBorders, bool);
+  vtkGetMacro(OptimizeBorders, bool);
+  vtkBooleanMacro(OptimizeBorders, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The controller of the ranks. Default: the global controller. Null: this rank only.
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
   enum StopReasonType
   {
     NotRun = 0,          ///< not run yet, or stopped by an error
@@ -571,6 +600,8 @@ private:
   bool KeepFeatures = true;
   double SurfaceTolerance = 1e-3;
   bool ToleranceIsAbsolute = false;
+  bool OptimizeBorders = false;
+  vtkMultiProcessController* Controller = nullptr;
 
   double WorstQualityBefore = 0.0, WorstQualityAfter = 0.0;
   double MeanQualityBefore = 0.0, MeanQualityAfter = 0.0;

@@ -15,6 +15,7 @@ BLOCK = re.compile(r"(?:<!-- file: (\S+) -->\n)?^```(\w+)\n(.*?)^```$", re.DOTAL
 # What README.md must show, and where it is run.
 EXAMPLES = {
     "ParaViewPlugin/Examples/paraview_example.py": "Testing/ParaView/CMakeLists.txt",
+    "ParaViewPlugin/Examples/ranks.py": "Testing/ParaView/TestRanksExample.py",
     "ParaViewPlugin/Examples/one_call.py": "Testing/Python/CMakeLists.txt",
     "Testing/Consumer/Project/CMakeLists.txt": "Testing/Consumer/run.cmake",
     "Testing/Consumer/Project/consumer.cxx": "Testing/Consumer/run.cmake",

@@ -102,6 +102,10 @@ std::string Options::check(bool hasSizes) const
 
 long growthOf(const Options& options, long cells, int dimension)
 {
+  if (options.mostGrowth >= 0)
+  {
+    return options.mostGrowth;
+  }
   // Room for a few nodes: a fraction of a small mesh may be less than what one node brings.
   const long least = dimension == 3 ? 30 : 10;
   const double most = std::floor(options.growthBudget * static_cast<double>(cells));

@@ -48,6 +48,9 @@ struct Options : Switches
   /// Greatest net growth of the number of cells, as a fraction. Small meshes may grow more: see
   /// growthOf().
   double growthBudget = 0.15;
+  /// If not negative: the same as a number of cells, and how many cells may vanish. For a part of a
+  /// mesh whose budget is that of the whole.
+  long mostGrowth = -1, mostShrink = -1;
   double timeLimit = 0.0; ///< seconds, 0: none. Results are then not reproducible.
 
   /// One sentence about the first unusable option and the reason; empty if all options are fine.

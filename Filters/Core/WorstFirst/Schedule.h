@@ -169,10 +169,11 @@ Schedule<D, Shape>::Schedule(Run<D>& run)
   , reserve_(run.growth / ReservedPart)
   , passBegin_(run.clock.seconds())
 {
+  const long shrink = run.options.mostShrink >= 0
+    ? run.options.mostShrink
+    : static_cast<long>(ShrinkBudget * this->mesh().countCells());
   // If sizes are followed, any number of cells may vanish.
-  this->mostGrowth_ = this->model_.plain
-    ? run.growth + static_cast<long>(ShrinkBudget * this->mesh().countCells())
-    : std::numeric_limits<long>::max();
+  this->mostGrowth_ = this->model_.plain ? run.growth + shrink : std::numeric_limits<long>::max();
 }
 
 /// Finds out whether cells may overlap: every change then needs expensive checks.

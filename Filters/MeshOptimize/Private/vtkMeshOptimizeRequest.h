@@ -65,6 +65,7 @@ struct Outcome
   vtkIdType NumberOfReorientedCells = 0;
   vtkIdType NumberOfQuadraticSimplices = 0;
   vtkIdType NumberOfOperations = 0;
+  vtkIdType NumberOfCellsInBands = 0; ///< on many ranks: at borders, over all rounds
   double Seconds = 0.0;
   double SurfaceDistance = 0.0;    ///< proved, between the surface of before and that of after
   bool HasSurfaceDistance = false; ///< a surface of tetrahedra took part
@@ -73,6 +74,7 @@ struct Outcome
   meshopt::EdgeLengths Lengths; ///< at the end; no edges if neither sizes nor a metric are given
   std::string Sizes;            ///< information for the user about the wanted sizes, or empty
   std::string Overlap;          ///< about cells of the input that overlap, or empty
+  std::string Fault;  ///< on many ranks: why a round was undone and the run ended, or empty
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none
 
   /// Adds another grid's outcome: minima, means by number of cells, sums, the strongest stop

@@ -6,8 +6,6 @@
 
 #include "vtkUnstructuredGrid.h"
 
-#include "Metric/Background.h"
-
 #include <algorithm>
 #include <limits>
 
@@ -83,6 +81,8 @@ Index FindHint(const Background<D>& background, const std::vector<Index>& change
                                                     : meshopt::None;
 }
 
+} // namespace
+
 template <int D>
 Sample MakeSample(
   const Background<D>& background, const meshopt::Vec<D>& x, const meshopt::Location<D>& place)
@@ -103,8 +103,6 @@ Sample MakeSample(
   return sample;
 }
 
-} // namespace
-
 template <int D>
 std::vector<Sample> SampleInput(const Model<D>& model, const OutputMap& map)
 {
@@ -124,6 +122,10 @@ std::vector<Sample> SampleInput(const Model<D>& model, const OutputMap& map)
   return samples;
 }
 
+template Sample MakeSample<2>(
+  const Background<2>&, const meshopt::Vec<2>&, const meshopt::Location<2>&);
+template Sample MakeSample<3>(
+  const Background<3>&, const meshopt::Vec<3>&, const meshopt::Location<3>&);
 template std::vector<Sample> SampleInput<2>(const Model<2>&, const OutputMap&);
 template std::vector<Sample> SampleInput<3>(const Model<3>&, const OutputMap&);
 

@@ -7,6 +7,8 @@
 
 #include "vtkMeshOptimizeExport.h"
 
+#include "Metric/Background.h"
+
 #include <array>
 #include <vector>
 
@@ -24,6 +26,13 @@ struct Sample
   /// The corner nearest to the point.
   vtkIdType Nearest = 0;
 };
+
+/**
+ * The sample of a point `x` that was found in the background at `place`.
+ */
+template <int D>
+Sample MakeSample(const meshopt::Background<D>& background, const meshopt::Vec<D>& x,
+  const meshopt::Location<D>& place);
 
 /**
  * Finds each of map.SampledPoints in the input mesh; points outside of it get the nearest place.

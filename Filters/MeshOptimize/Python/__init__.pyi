@@ -100,6 +100,7 @@ def optimize(
     metric_array: str | None = None,
     corner_array: str | None = None,
     patch_array: str | None = None,
+    optimize_borders: bool = False,
 ) -> tuple[_Mesh, OptimizeReport]: ...
 
 def quality(

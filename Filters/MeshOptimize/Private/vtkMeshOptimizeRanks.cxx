@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshOptimizeRanks.h"
+
+#include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeCells.h"
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeRounds.h"
+#include "vtkMeshRanksNode.h"
+#include "vtkMeshRanksPart.h"
+
+#include "vtkCellData.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <chrono>
+
+namespace vtkMeshOptimizeBridge
+{
+
+using namespace vtkMeshRanks;
+
+namespace
+{
+
+/**
+ * What of the request is not built for borders. The same on all ranks.
+ */
+std::string FindObstacle(const Request& request)
+{
+  return request.OptimizeBelow > 0.0                              ? "OptimizeBelow is set"
+    : request.Options.algorithm != meshopt::Algorithm::WorstFirst ? "the algorithm is Paper1996"
+    : request.UsesSizes() || vtkMeshBridge::IsWanted(request.Filter, MetricArray)
+    ? "sizes or a metric are used"
+    : "";
+}
+
+/**
+ * What of this rank's piece is not built for borders.
+ */
+std::string FindObstacle(vtkUnstructuredGrid* input, std::string& error)
+{
+  if (!input)
+  {
+    return "the input is composite";
+  }
+  vtkMeshBridge::Cells cells;
+  error = vtkMeshBridge::ClassifyCells(input, cells);
+  if (cells.Dimension == 2)
+  {
+    return "the mesh is of triangles";
+  }
+  if (!error.empty() || !cells.IsIdentity())
+  {
+    return "there are other cells than tetrahedra, or ghost cells";
+  }
+  for (int kind : { 0, 1 })
+  {
+    vtkDataSetAttributes* data = input->GetAttributes(kind);
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      if (!CanPack(data->GetAbstractArray(i)))
+      {
+        return "an array cannot be sent";
+      }
+    }
+  }
+  return {};
+}
+
+/**
+ * Arrays must be the same on all ranks that have cells.
+ */
+std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
+{
+  Bytes arrays;
+  if (input && input->GetNumberOfCells() > 0)
+  {
+    for (int kind : { 0, 1 })
+    {
+      vtkDataSetAttributes* data = input->GetAttributes(kind);
+      Put(arrays, data->GetGlobalIds() != nullptr);
+      const Bytes schema = Schema::Of(data, kind == 1 ? "MeshQuality" : "").Describe();
+      arrays.insert(arrays.end(), schema.begin(), schema.end());
+    }
+  }
+  Bytes common;
+  for (const Bytes& one : ranks.Gather(arrays))
+  {
+    if (!one.empty() && !common.empty() && one != common)
+    {
+      return "ranks have different arrays";
+    }
+    common = common.empty() ? one : common;
+  }
+  return {};
+}
+
+std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstructuredGrid* input)
+{
+  std::string error, obstacle = FindObstacle(request);
+  if (obstacle.empty())
+  {
+    obstacle = FindObstacle(input, error);
+    ranks.Agree(error);
+    const std::string arrays = CompareArrays(ranks, input);
+    obstacle = obstacle.empty() ? arrays : obstacle;
+  }
+  for (const Bytes& bytes : ranks.Gather(Bytes(obstacle.begin(), obstacle.end())))
+  {
+    if (!bytes.empty())
+    {
+      return { bytes.begin(), bytes.end() };
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& request,
+  const std::function<std::string()>& check, vtkUnstructuredGrid* input,
+  vtkUnstructuredGrid* output, Outcome& outcome, std::string& obstacle)
+{
+  const Ranks ranks(controller);
+  return ranks.Together(
+    [&]()
+    {
+      ranks.Agree(check());
+      if (request.NumberOfThreads <= 0)
+      {
+        request.NumberOfThreads = GetShareOfCores(ranks);
+      }
+      obstacle = FindObstacle(ranks, request, input);
+      if (!obstacle.empty())
+      {
+        return std::string();
+      }
+      Rounds rounds(ranks, request, outcome);
+      rounds.Read(input);
+      const auto start = std::chrono::steady_clock::now();
+      rounds.OptimizePieces();
+      rounds.OptimizeBorders();
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+      outcome.Seconds = spent.count();
+      rounds.Write(input, output);
+      return std::string();
+    });
+}
+
+} // namespace vtkMeshOptimizeBridge

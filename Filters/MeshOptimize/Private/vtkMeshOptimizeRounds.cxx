@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshOptimizeRounds.h"
+
+#include "vtkMeshBridgeControl.h"
+#include "vtkMeshBridgeValues.h"
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeRun.h"
+#include "vtkMeshRanksBand.h"
+#include "vtkMeshRanksCheck.h"
+#include "vtkMeshRanksDivide.h"
+
+#include "vtkCellData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "WorstFirst/Constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace vtkMeshOptimizeBridge
+{
+
+using namespace vtkMeshRanks;
+using meshopt::StopReason;
+
+namespace
+{
+
+constexpr int MostRounds = 4;
+/// Layers of cells around a border that take part in each round.
+constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
+/// The part of what may still grow that a round uses; the last may use all.
+constexpr double ShareOfRound = 0.75;
+/// The part of the progress that the pieces take.
+constexpr double PiecesDone = 0.7;
+
+/**
+ * The values of an array of integers, without the way through doubles.
+ */
+std::vector<vtkIdType> ReadIds(vtkDataArray* array, const std::vector<vtkIdType>& chosen)
+{
+  if (!array)
+  {
+    return {};
+  }
+  const std::vector<long long> all = vtkMeshBridge::ReadIntegers(array);
+  std::vector<vtkIdType> ids;
+  for (const vtkIdType i : chosen)
+  {
+    ids.push_back(static_cast<vtkIdType>(all[i]));
+  }
+  return ids;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part)
+{
+  auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  mask->SetNumberOfValues(part.GetNumberOfPoints());
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    mask->SetValue(p, (part.Flags[p] & PointFlag::Fixed) != 0);
+  }
+  return mask;
+}
+
+long Portion(long all, double share)
+{
+  return static_cast<long>(std::floor(static_cast<double>(all) * share));
+}
+
+/**
+ * The text of the first rank that has one.
+ */
+std::string FirstOf(const Ranks& ranks, const std::string& text)
+{
+  for (const Bytes& bytes : ranks.Gather(Bytes(text.begin(), text.end())))
+  {
+    if (!bytes.empty())
+    {
+      return { bytes.begin(), bytes.end() };
+    }
+  }
+  return {};
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Rounds::Rounds(const Ranks& ranks, const Request& request, Outcome& outcome)
+  : All(ranks)
+  , Wanted(request)
+  , Result(outcome)
+{
+}
+
+void Rounds::Read(vtkUnstructuredGrid* input)
+{
+  InputArrays arrays;
+  this->All.Agree(FindInputArrays(this->Wanted.Filter, input, arrays));
+  // A rank without cells may lack the arrays, too: it takes over those of the others.
+  const vtkIdType count = input->GetNumberOfCells();
+  Bytes schemas;
+  if (count > 0)
+  {
+    schemas = Schema::Of(input->GetPointData(), "").Describe();
+    const Bytes cells = Schema::Of(input->GetCellData(), "MeshQuality").Describe();
+    schemas.insert(schemas.end(), cells.begin(), cells.end());
+  }
+  for (const Bytes& bytes : this->All.Gather(schemas))
+  {
+    if (!bytes.empty())
+    {
+      Reader reader(bytes);
+      this->Points = Schema::From(reader);
+      this->Cells = Schema::From(reader);
+      break;
+    }
+  }
+  if (count > 0) // with the arrays' information keys, which are not sent
+  {
+    this->Points = Schema::Of(input->GetPointData(), "");
+    this->Cells = Schema::Of(input->GetCellData(), "MeshQuality");
+  }
+  this->FirstCell = this->All.Gather(count);
+  this->CellsAtFirst = std::accumulate(
+    this->FirstCell.begin(), this->FirstCell.end(), vtkIdType(0));
+  std::exclusive_scan(
+    this->FirstCell.begin(), this->FirstCell.end(), this->FirstCell.begin(), vtkIdType(0));
+  std::vector<vtkIdType> points, cells(count);
+  std::iota(cells.begin(), cells.end(), vtkIdType(0));
+  this->Mine = ReadPiece(input, cells, 4, this->Points, this->Cells, arrays.FixedPoints,
+    this->FirstCell[this->All.GetRank()], points);
+  vtkDataArray* pointIds = input->GetPointData()->GetGlobalIds();
+  vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
+  this->Ids.HasPointIds = this->All.IsAny(pointIds && count > 0);
+  this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
+  Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, cells), this->Ids, this->Mine);
+  this->FirstNewPoint = this->Ids.NextPoint;
+  this->Divide();
+  const Shared shared = FindShared(this->All, this->Mine);
+  for (vtkIdType p = 0; p < this->Mine.GetNumberOfPoints(); ++p)
+  {
+    this->Mine.Flags[p] |= shared.Has(p) ? Waiting : 0;
+  }
+  this->PointsAtFirst = Measure(this->All, this->Mine, shared, 0.0).Points;
+  this->Growth = meshopt::growthOf(this->Wanted.Options, static_cast<long>(this->CellsAtFirst), 3);
+  this->Shrink = static_cast<long>(
+    meshopt::worstfirst::ShrinkBudget * static_cast<double>(this->CellsAtFirst));
+}
+
+void Rounds::Divide()
+{
+  const std::vector<vtkIdType> counts = this->All.Gather(this->Mine.GetNumberOfCells());
+  const bool isOnOne = *std::max_element(counts.begin(), counts.end()) == this->CellsAtFirst;
+  if (!isOnOne || this->CellsAtFirst == 0)
+  {
+    return;
+  }
+  const Signature before = Sign(this->All, this->Mine);
+  std::vector<char> isMoved;
+  Move(this->All, vtkMeshRanks::Divide(this->Mine, this->All.GetCount()), this->Points, this->Cells,
+    this->Mine, isMoved);
+  const std::string problem = Compare(before, Sign(this->All, this->Mine), true);
+  this->All.Agree(
+    problem.empty() ? "" : "After the mesh was divided among the ranks " + problem + ".");
+}
+
+//------------------------------------------------------------------------------
+void Rounds::NumberNew(Part& part)
+{
+  const auto count = [](const std::vector<vtkIdType>& ids)
+  { return static_cast<vtkIdType>(std::count(ids.begin(), ids.end(), -1)); };
+  const std::vector<vtkIdType> points = this->All.Gather(count(part.PointIds));
+  const std::vector<vtkIdType> cells = this->All.Gather(count(part.CellIds));
+  const auto before = [&](const std::vector<vtkIdType>& counts, vtkIdType next)
+  { return std::accumulate(counts.begin(), counts.begin() + this->All.GetRank(), next); };
+  vtkMeshRanks::NumberNew(
+    before(points, this->Ids.NextPoint), before(cells, this->Ids.NextCell), part);
+  this->Ids.NextPoint = std::accumulate(points.begin(), points.end(), this->Ids.NextPoint);
+  this->Ids.NextCell = std::accumulate(cells.begin(), cells.end(), this->Ids.NextCell);
+}
+
+/**
+ * Runs the optimizer on a part. Of what all ranks may still grow or shrink it may use `weight`
+ * times `share`; the weights of all ranks have the sum 1 at most.
+ */
+void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
+{
+  const auto now = this->All.Sum(this->Mine.GetNumberOfCells());
+  const long gained = static_cast<long>(now - this->CellsAtFirst);
+  Request request = this->Wanted;
+  request.Options.mostGrowth = Portion(std::max(0L, this->Growth - gained), weight * share);
+  request.Options.mostShrink = Portion(std::max(0L, this->Shrink - std::max(0L, -gained)), weight);
+  request.Control = vtkMeshBridge::MakeControl(
+    request.Filter, request.NumberOfThreads, this->First, this->Last);
+  std::string error;
+  if (!part.CellIds.empty())
+  {
+    const auto grid = MakeGrid(part, this->Points, this->Cells);
+    InputArrays arrays;
+    error = FindInputArrays(request.Filter, grid, arrays);
+    const auto mask = MaskOf(part); // the array itself is interpolated at moved points
+    arrays.FixedPoints = mask;
+    vtkNew<vtkUnstructuredGrid> after;
+    error = error.empty() ? OptimizeGrid(grid, arrays, request, after, outcome) : error;
+    if (error.empty())
+    {
+      part = ReadGrid(after, part, this->First > 0.0);
+    }
+  }
+  this->All.Agree(error);
+  this->NumberNew(part);
+  this->IsShort = this->All.IsAny(outcome.Report.stopReason == StopReason::GrowthLimit);
+}
+
+/**
+ * Whether the user or the time limit ends the run, on any rank.
+ */
+bool Rounds::MustStop(const Outcome& run)
+{
+  const auto has = [&](StopReason reason)
+  { return this->All.IsAny(run.Report.stopReason == reason); };
+  const double limit = this->Wanted.Options.timeLimit;
+  const bool isLate = limit > 0.0 &&
+    this->Wanted.OptionsNow().timeLimit <= std::numeric_limits<double>::min();
+  if (has(StopReason::Aborted))
+  {
+    this->Stopped = StopReason::Aborted;
+  }
+  else if (has(StopReason::TimeLimit) || this->All.IsAny(isLate))
+  {
+    this->Stopped = StopReason::TimeLimit;
+  }
+  return this->Stopped != StopReason::NotRun;
+}
+
+void Rounds::OptimizePieces()
+{
+  // What is at a border cannot get much better now: its share is left for the rounds.
+  double inside = 0.0;
+  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
+  {
+    const vtkIdType* ids = this->Mine.GetCell(c);
+    inside += std::none_of(ids, ids + this->Mine.Corners,
+      [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
+  }
+  Outcome run;
+  this->Last = PiecesDone;
+  this->Optimize(
+    this->Mine, inside / static_cast<double>(std::max<vtkIdType>(this->CellsAtFirst, 1)), 1.0, run);
+  this->Result.NumberOfSimplices = this->All.Sum(run.NumberOfSimplices);
+  this->Result.NumberOfCellsBefore = this->All.Sum(run.NumberOfCellsBefore);
+  this->Result.NumberOfReorientedCells = this->All.Sum(run.NumberOfReorientedCells);
+  this->Result.NumberOfOperations = this->All.Sum(run.NumberOfOperations);
+  this->Result.Overlap = FirstOf(this->All, run.Overlap);
+  this->RecordInput(run);
+  this->Record("pieces", run);
+  this->MustStop(run);
+}
+
+//------------------------------------------------------------------------------
+void Rounds::OptimizeBorders()
+{
+  for (int round = 0; round < MostRounds; ++round)
+  {
+    if (this->Stopped != StopReason::NotRun || this->IsDone())
+    {
+      return;
+    }
+    this->First = PiecesDone + (1.0 - PiecesDone) * round / MostRounds;
+    this->Last = PiecesDone + (1.0 - PiecesDone) * (round + 1) / MostRounds;
+    // A rank without a band would not hear of the user's wish in this round.
+    const bool goesOn = vtkMeshBridge::MakeControl(this->Wanted.Filter, 1, this->First, this->Last)
+                          .progress(0.0, "Borders, round " + std::to_string(round + 1));
+    if (this->All.IsAny(!goesOn))
+    {
+      this->Stopped = StopReason::Aborted;
+      return;
+    }
+    Part before = this->Mine; // shares the arrays
+    const vtkMeshRanks::Numbering ids = this->Ids;
+    this->Result.Fault = this->All.Together(
+      [&]()
+      {
+        this->Round(round);
+        return std::string();
+      });
+    if (!this->Result.Fault.empty())
+    {
+      this->Mine = std::move(before);
+      this->Ids = ids;
+      return;
+    }
+  }
+}
+
+void Rounds::Round(int round)
+{
+  const Signature before = Sign(this->All, this->Mine);
+  Shared shared = FindShared(this->All, this->Mine);
+  std::vector<char> isMoved;
+  Move(this->All, FindBands(this->All, this->Mine, shared, Layers[round]), this->Points,
+    this->Cells, this->Mine, isMoved);
+  shared = FindShared(this->All, this->Mine);
+  std::string problem = Compare(before, Sign(this->All, this->Mine), true);
+  this->All.Agree(problem.empty() ? "" : "After cells have moved between ranks " + problem + ".");
+  for (vtkIdType p = 0; p < this->Mine.GetNumberOfPoints(); ++p)
+  {
+    if (!shared.Has(p))
+    {
+      this->Mine.Flags[p] &= static_cast<std::uint8_t>(~Waiting);
+    }
+  }
+  std::vector<Part> parts = Split(
+    this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
+  Outcome run;
+  const double mine = static_cast<double>(parts[1].GetNumberOfCells());
+  const double bands = static_cast<double>(this->All.Sum(parts[1].GetNumberOfCells()));
+  this->Result.NumberOfCellsInBands += static_cast<vtkIdType>(bands);
+  this->Optimize(
+    parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
+  this->All.Agree(Join(parts, this->Mine));
+  problem = Compare(before, Sign(this->All, this->Mine), false);
+  this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
+  this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
+  this->Record("borders", run);
+  this->WaitWhereStuck();
+  this->MustStop(run);
+}
+
+} // namespace vtkMeshOptimizeBridge

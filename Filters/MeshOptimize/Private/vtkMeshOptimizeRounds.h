@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The steps of one run on many ranks: pieces, rounds at the borders, figures of the whole.
+ */
+#ifndef vtkMeshOptimizeRounds_h
+#define vtkMeshOptimizeRounds_h
+
+#include "vtkMeshOptimizeRequest.h"
+#include "vtkMeshRanksBound.h"
+#include "vtkMeshRanksIds.h"
+
+#include <string>
+#include <vector>
+
+class vtkUnstructuredGrid;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * All functions are collective and fail as those of Ranks do.
+ */
+class Rounds
+{
+public:
+  /**
+   * `outcome` becomes that of the whole, the same on all ranks.
+   */
+  Rounds(const vtkMeshRanks::Ranks& ranks, const Request& request, Outcome& outcome);
+
+  /**
+   * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if all
+   * of it is on one rank.
+   */
+  void Read(vtkUnstructuredGrid* input);
+
+  /**
+   * Optimizes the piece of each rank with its border kept.
+   */
+  void OptimizePieces();
+
+  /**
+   * Bands around the borders move to one rank and are optimized there, until no cell under the goal
+   * that can get better waits for another round, four times at most. A round that fails is undone
+   * on all ranks, and ends them: outcome.Fault then says why.
+   */
+  void OptimizeBorders();
+
+  /**
+   * Completes data and figures, and makes the output.
+   */
+  void Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output);
+
+private:
+  void Divide();
+  void Optimize(vtkMeshRanks::Part& part, double weight, double share, Outcome& outcome);
+  void NumberNew(vtkMeshRanks::Part& part);
+  void Round(int round);
+  double GetGoal() const;
+  bool IsDone();
+  void WaitWhereStuck();
+  bool MustStop(const Outcome& run);
+  std::vector<long long> ReadRegions() const;
+  void RecordInput(const Outcome& run);
+  void Record(const char* stage, const Outcome& run);
+  meshopt::StopReason FindReason() const;
+
+  const vtkMeshRanks::Ranks& All;
+  Request Wanted;
+  Outcome& Result;
+  vtkMeshRanks::Schema Points, Cells;
+  vtkMeshRanks::Numbering Ids;
+  vtkIdType FirstNewPoint = 0;
+  std::vector<vtkIdType> FirstCell; ///< of each rank's input, over all ranks
+  vtkMeshRanks::Part Mine;
+  vtkIdType CellsAtFirst = 0, PointsAtFirst = 0; ///< of all ranks
+  long Growth = 0, Shrink = 0;    ///< how many cells all ranks may gain and lose, from CellsAtFirst
+  double First = 0.0, Last = 1.0; ///< the part of the progress that runs now
+  meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
+  vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state
+  bool IsShort = false; ///< the last run on some rank needed more cells than it may add
+};
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The figures of a run on many ranks, and its output.
+#include "vtkMeshOptimizeRounds.h"
+
+#include "vtkMeshBridgeValues.h"
+#include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshOptimizeHistory.h"
+#include "vtkMeshOptimizeRanksSampling.h"
+#include "vtkMeshRanksBound.h"
+#include "vtkMeshRanksCheck.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace vtkMeshOptimizeBridge
+{
+
+using namespace vtkMeshRanks;
+using meshopt::StopReason;
+
+namespace
+{
+
+/**
+ * Global ids like those of the input; of a longer type if they do not fit into that one.
+ */
+void AddIds(vtkDataArray* like, const std::vector<vtkIdType>& ids, vtkDataSetAttributes* data)
+{
+  vtkNew<vtkIdTypeArray> values;
+  values->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), values->GetPointer(0));
+  const double greatest = ids.empty() ? 0.0 : static_cast<double>(ids.back()); // they ascend
+  const bool fits = like && greatest <= like->GetDataTypeMax();
+  auto array = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(fits ? like->GetDataType() : VTK_ID_TYPE));
+  array->DeepCopy(values); // exact, unlike SetTuple1()
+  array->SetName(like && like->GetName() ? like->GetName() : "GlobalIds");
+  data->SetGlobalIds(array);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+/**
+ * Adds the row of the input to the history, and the figures of before.
+ */
+void Rounds::RecordInput(const Outcome& run)
+{
+  meshopt::Report& report = this->Result.Report;
+  const bool isEmpty = run.Report.history.empty();
+  meshopt::PassRecord row = isEmpty ? meshopt::PassRecord() : run.Report.history.front();
+  const std::vector<long> cells = this->All.Gather(row.cells);
+  const std::vector<double> worst = this->All.Gather(row.worst), mean = this->All.Gather(row.mean);
+  double sum = 0.0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t r = 0; r < cells.size(); ++r)
+  {
+    sum += mean[r] * static_cast<double>(cells[r]);
+    least = cells[r] > 0 ? std::min(least, worst[r]) : least;
+  }
+  row.stage = "input";
+  row.pass = 0;
+  row.cells = static_cast<long>(this->CellsAtFirst);
+  row.points = static_cast<long>(this->PointsAtFirst);
+  row.belowTarget = static_cast<long>(this->All.Sum(row.belowTarget));
+  row.worst = report.worstBefore = row.cells > 0 ? least : 0.0;
+  row.mean = report.meanBefore = row.cells > 0 ? sum / static_cast<double>(row.cells) : 0.0;
+  report.invertedBefore = static_cast<long>(this->All.Sum(run.Report.invertedBefore));
+  report.history.push_back(row);
+}
+
+/**
+ * The region of each cell; empty without regions.
+ */
+std::vector<long long> Rounds::ReadRegions() const
+{
+  const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
+  InputArrays arrays;
+  FindInputArrays(this->Wanted.Filter, grid, arrays); // has been checked
+  return arrays.Region ? vtkMeshBridge::ReadIntegers(arrays.Region) : std::vector<long long>();
+}
+
+/**
+ * Adds a row of all ranks to the history.
+ */
+void Rounds::Record(const char* stage, const Outcome& run)
+{
+  meshopt::PassRecord row;
+  for (const meshopt::PassRecord& pass : run.Report.history)
+  {
+    row.addWork(pass);
+  }
+  // One message for all operations: each costs all ranks a meeting.
+  using Counts = std::array<decltype(row.tried), 2>;
+  const std::vector<Counts> counts = this->All.Gather(Counts{ row.tried, row.done });
+  row.tried = row.done = {};
+  for (const Counts& one : counts)
+  {
+    for (int op = 0; op < meshopt::NumberOfOperations; ++op)
+    {
+      row.tried[op] += one[0][op];
+      row.done[op] += one[1][op];
+    }
+  }
+  const double target = this->Wanted.Options.targetQuality;
+  const Shared shared = FindShared(this->All, this->Mine);
+  const Figures now = Measure(this->All, this->Mine, shared, target);
+  this->Surface = MeasureSurface(
+    this->All, this->Mine, shared, this->ReadRegions(), this->Wanted.Options.measure, target);
+  vtkIdType capped = 0;
+  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
+  {
+    capped += this->Surface.IsCapped[c] && this->Mine.Quality[c] < target;
+  }
+  meshopt::Report& report = this->Result.Report;
+  row.pass = static_cast<int>(report.history.size());
+  row.stage = stage;
+  row.worst = report.worstAfter = now.Worst;
+  row.mean = report.meanAfter = now.Mean;
+  row.belowTarget = static_cast<long>(now.BelowTarget);
+  row.cells = static_cast<long>(now.Cells);
+  row.points = static_cast<long>(now.Points);
+  report.invertedAfter = static_cast<long>(now.NotPositive);
+  report.bound = this->Surface.Bound;
+  report.cappedCells = static_cast<long>(this->All.Sum(capped));
+  report.history.push_back(row);
+  this->Result.NumberOfCells = now.Cells;
+}
+
+//------------------------------------------------------------------------------
+StopReason Rounds::FindReason() const
+{
+  const meshopt::Report& report = this->Result.Report;
+  const long below = report.history.back().belowTarget;
+  return this->CellsAtFirst == 0          ? StopReason::NothingToDo
+    : this->Stopped != StopReason::NotRun ? this->Stopped
+    : below == 0                          ? StopReason::TargetReached
+    : below == report.cappedCells         ? StopReason::CappedBySurface
+    : this->IsShort                       ? StopReason::GrowthLimit
+                                          : StopReason::NoFurtherGain;
+}
+
+void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
+{
+  SampleOnce(this->All, input, this->FirstCell, this->Points, this->FirstNewPoint, this->Mine);
+  const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
+  meshopt::Report& report = this->Result.Report;
+  report.stopReason = this->FindReason();
+  output->ShallowCopy(grid);
+  RemoveOwn(output);
+  if (this->Ids.HasPointIds)
+  {
+    AddIds(input->GetPointData()->GetGlobalIds(), this->Mine.PointIds, output->GetPointData());
+  }
+  if (this->Ids.HasCellIds)
+  {
+    AddIds(input->GetCellData()->GetGlobalIds(), this->Mine.CellIds, output->GetCellData());
+  }
+  vtkNew<vtkDoubleArray> quality;
+  quality->SetName("MeshQuality");
+  quality->SetNumberOfValues(this->Mine.GetNumberOfCells());
+  std::copy(this->Mine.Quality.begin(), this->Mine.Quality.end(), quality->GetPointer(0));
+  output->GetCellData()->AddArray(quality);
+  output->GetFieldData()->DeepCopy(input->GetFieldData());
+  AddFigures(this->Result, output);
+  vtkNew<vtkIdTypeArray> bands;
+  bands->SetName("NumberOfCellsInBands");
+  bands->InsertNextValue(this->Result.NumberOfCellsInBands);
+  output->GetFieldData()->AddArray(bands);
+}
+
+} // namespace vtkMeshOptimizeBridge

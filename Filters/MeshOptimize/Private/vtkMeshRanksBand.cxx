@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshRanksBand.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+/// Layers * ranks + place of the rank that takes: the least one wins.
+using Label = long long;
+constexpr Label None = std::numeric_limits<Label>::max();
+
+/**
+ * The ranks, fewest cells first.
+ */
+std::vector<int> OrderRanks(const Ranks& ranks, const Part& part)
+{
+  const std::vector<vtkIdType> counts = ranks.Gather(part.GetNumberOfCells());
+  std::vector<int> order(ranks.GetCount());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return counts[a] < counts[b]; });
+  return order;
+}
+
+/**
+ * Takes the least label of each point over the ranks that have it.
+ */
+void TakeLeast(const Ranks& ranks, const Shared& shared, std::vector<Label>& labels)
+{
+  std::vector<Bytes> out(ranks.GetCount());
+  for (std::size_t k = 0; k < shared.Neighbors.size(); ++k)
+  {
+    std::vector<Label> mine;
+    for (const vtkIdType p : shared.Points[k])
+    {
+      mine.push_back(labels[p]);
+    }
+    PutAll(out[shared.Neighbors[k]], mine);
+  }
+  const std::vector<Bytes> in = ranks.Exchange(std::move(out));
+  for (std::size_t k = 0; k < shared.Neighbors.size(); ++k)
+  {
+    const std::vector<Label> theirs = Reader(in[shared.Neighbors[k]]).TakeAll<Label>();
+    for (std::size_t i = 0; i < theirs.size(); ++i)
+    {
+      Label& mine = labels[shared.Points[k][i]];
+      mine = std::min(mine, theirs[i]);
+    }
+  }
+}
+
+Label LabelOfCell(const Part& part, const std::vector<Label>& labels, vtkIdType c)
+{
+  Label least = None;
+  for (int i = 0; i < part.Corners; ++i)
+  {
+    least = std::min(least, labels[part.GetCell(c)[i]]);
+  }
+  return least;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& shared, int layers)
+{
+  const std::vector<int> order = OrderRanks(ranks, part);
+  std::vector<int> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+  {
+    place[order[k]] = static_cast<int>(k);
+  }
+  std::vector<Label> labels(part.PointIds.size(), None);
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    if (part.Flags[p] & Waiting)
+    {
+      labels[p] = place[ranks.GetRank()];
+      for (const int r : shared.RanksOf[p])
+      {
+        labels[p] = std::min<Label>(labels[p], place[r]);
+      }
+    }
+  }
+  TakeLeast(ranks, shared, labels); // where only one of two ranks lets a point wait
+  for (int layer = 1; layer < layers; ++layer)
+  {
+    std::vector<Label> next = labels;
+    for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
+    {
+      const Label least = LabelOfCell(part, labels, c);
+      for (int i = 0; i < part.Corners && least != None; ++i)
+      {
+        Label& label = next[part.GetCell(c)[i]];
+        label = std::min(label, least + ranks.GetCount());
+      }
+    }
+    labels.swap(next);
+    TakeLeast(ranks, shared, labels);
+  }
+  std::vector<int> target(part.CellIds.size(), -1);
+  for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
+  {
+    const Label least = LabelOfCell(part, labels, c);
+    target[c] = least == None ? -1 : order[least % ranks.GetCount()];
+  }
+  return target;
+}
+
+//------------------------------------------------------------------------------
+void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& points,
+  const Schema& cells, Part& part, std::vector<char>& isMoved)
+{
+  // Cells that stay and cells that have this rank as target must be told apart afterwards.
+  const int count = ranks.GetCount();
+  std::vector<int> place(target.size());
+  std::transform(
+    target.begin(), target.end(), place.begin(), [&](int t) { return t < 0 ? count : t; });
+  std::vector<Part> parts = Split(part, place, count + 1, count);
+  std::vector<Bytes> out(count);
+  for (int r = 0; r < count; ++r)
+  {
+    out[r] = r == ranks.GetRank() ? Bytes() : Pack(parts[r]);
+  }
+  const std::vector<Bytes> in = ranks.Exchange(std::move(out));
+  std::vector<Part> here;
+  const std::vector<vtkIdType> stayed = parts[count].CellIds;
+  here.push_back(std::move(parts[count]));
+  here.push_back(std::move(parts[ranks.GetRank()]));
+  for (const Bytes& bytes : in)
+  {
+    if (!bytes.empty())
+    {
+      here.push_back(Unpack(bytes, part.Corners, points, cells));
+    }
+  }
+  Part joined;
+  ranks.Agree(Join(here, joined));
+  part = std::move(joined);
+  isMoved.assign(part.CellIds.size(), 1);
+  for (const vtkIdType id : stayed) // both ascend
+  {
+    isMoved[std::lower_bound(part.CellIds.begin(), part.CellIds.end(), id) - part.CellIds.begin()] =
+      0;
+  }
+}
+
+} // namespace vtkMeshRanks

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * How good the whole mesh can be at best while its surface is kept: as Bound/SurfaceBound.h in the
+ * core, but the surface lies on several ranks, and borders of pieces are none of it.
+ */
+#ifndef vtkMeshRanksBound_h
+#define vtkMeshRanksBound_h
+
+#include "vtkMeshRanksFacets.h"
+
+#include "Quality/Measure.h"
+
+#include <vector>
+
+namespace vtkMeshRanks
+{
+
+struct SurfaceFigures
+{
+  double Bound = 1.0;         ///< the same on all ranks
+  std::vector<char> IsCapped; ///< of each cell: has reached its cap, which is under the target
+};
+
+/**
+ * Looks at the surface and, if `regions` has a value for each cell, at facets between regions.
+ * Edges of facets on several ranks are looked at with all their facets. Of edges whose cells lie on
+ * several ranks no cell is known to be capped. Collective.
+ */
+SurfaceFigures MeasureSurface(const Ranks& ranks, const Part& part, const Shared& shared,
+  const std::vector<long long>& regions, meshopt::Measure measure, double target);
+
+} // namespace vtkMeshRanks
+
+#endif

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshRanksCheck.h"
+
+#include "Base/Scramble.h"
+#include "Mesh/SimplexGeometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+std::uint64_t HashOfPoint(const Part& part, vtkIdType p)
+{
+  std::uint64_t hash = meshopt::scramble(static_cast<std::uint64_t>(part.PointIds[p]));
+  for (int i = 0; i < 3; ++i)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &part.GetPoint(p)[i], sizeof(bits));
+    hash = meshopt::scramble(hash ^ bits);
+  }
+  return hash;
+}
+
+/**
+ * The hash of a facet, or its negative if an odd permutation sorts its nodes.
+ */
+std::uint64_t SignedHash(
+  std::array<vtkIdType, 3> nodes, int n, const std::vector<std::uint64_t>& hashes)
+{
+  bool isOdd = false;
+  for (int i = 0; i < n; ++i)
+  {
+    for (int k = 0; k + 1 < n - i; ++k)
+    {
+      if (nodes[k] > nodes[k + 1])
+      {
+        std::swap(nodes[k], nodes[k + 1]);
+        isOdd = !isOdd;
+      }
+    }
+  }
+  std::uint64_t hash = 0;
+  for (int i = 0; i < n; ++i)
+  {
+    hash = meshopt::scramble(hash ^ hashes[nodes[i]]);
+  }
+  return isOdd ? 0 - hash : hash;
+}
+
+double VolumeOf(const Part& part, vtkIdType c)
+{
+  using Vector = meshopt::Vec<3>;
+  Vector x[4];
+  for (int i = 0; i < part.Corners; ++i)
+  {
+    const double* p = part.GetPoint(part.GetCell(c)[i]);
+    x[i] = Vector(p[0], p[1], p[2]);
+  }
+  const Vector normal = (x[1] - x[0]).cross(x[2] - x[0]);
+  return part.Corners == 4 ? normal.dot(x[3] - x[0]) / 6.0 : normal.norm() / 2.0;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, double target)
+{
+  Figures mine;
+  mine.Worst = std::numeric_limits<double>::infinity();
+  for (const double q : part.Quality)
+  {
+    mine.BelowTarget += q < target;
+    mine.NotPositive += !(q > 0.0);
+    mine.Worst = std::min(mine.Worst, q);
+    mine.Mean += q;
+  }
+  mine.Cells = part.GetNumberOfCells();
+  for (const std::vector<int>& others : shared.RanksOf) // the lowest rank counts a point
+  {
+    mine.Points += others.empty() || others.front() > ranks.GetRank();
+  }
+  Figures sum;
+  sum.Worst = std::numeric_limits<double>::infinity();
+  for (const Figures& one : ranks.Gather(mine))
+  {
+    sum.Cells += one.Cells;
+    sum.Points += one.Points;
+    sum.BelowTarget += one.BelowTarget;
+    sum.NotPositive += one.NotPositive;
+    sum.Worst = std::min(sum.Worst, one.Worst);
+    sum.Mean += one.Mean;
+  }
+  sum.Worst = sum.Cells > 0 ? sum.Worst : 0.0;
+  sum.Mean /= static_cast<double>(std::max<vtkIdType>(sum.Cells, 1));
+  return sum;
+}
+
+//------------------------------------------------------------------------------
+Signature Sign(const Ranks& ranks, const Part& part)
+{
+  std::vector<std::uint64_t> hashes(part.PointIds.size());
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    hashes[p] = HashOfPoint(part, p);
+  }
+  Signature mine;
+  mine.Cells = part.GetNumberOfCells();
+  for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
+  {
+    mine.Volume += VolumeOf(part, c);
+    for (int local = 0; local < part.Corners; ++local)
+    {
+      mine.Surface += SignedHash(OrientedNodes(part, c, local), part.Corners - 1, hashes);
+    }
+  }
+  Signature sum;
+  for (const Signature& one : ranks.Gather(mine))
+  {
+    sum.Cells += one.Cells;
+    sum.Volume += one.Volume;
+    sum.Surface += one.Surface;
+  }
+  return sum;
+}
+
+std::string Compare(const Signature& before, const Signature& after, bool cells)
+{
+  if (cells && before.Cells != after.Cells)
+  {
+    return "there are " + std::to_string(after.Cells) + " cells in place of " +
+      std::to_string(before.Cells);
+  }
+  if (before.Surface != after.Surface)
+  {
+    return "the surface is not the same";
+  }
+  // Sums over millions of cells, in another order.
+  constexpr double rounding = 1e-9;
+  return std::abs(after.Volume - before.Volume) > rounding * std::abs(before.Volume)
+    ? "the volume is not the same"
+    : "";
+}
+
+} // namespace vtkMeshRanks

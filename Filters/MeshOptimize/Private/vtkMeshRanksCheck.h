@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Figures of a mesh that is divided among ranks, and what must stay the same when cells move from
+ * rank to rank.
+ */
+#ifndef vtkMeshRanksCheck_h
+#define vtkMeshRanksCheck_h
+
+#include "vtkMeshRanksFacets.h"
+
+#include <cstdint>
+#include <string>
+
+namespace vtkMeshRanks
+{
+
+/**
+ * Qualities and counts of the whole, the same bits on all ranks.
+ */
+struct Figures
+{
+  vtkIdType Cells = 0, Points = 0, BelowTarget = 0, NotPositive = 0;
+  double Worst = 0.0, Mean = 0.0; ///< 0 without cells
+};
+
+Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, double target);
+
+/**
+ * What tells two divisions of one mesh from two meshes.
+ *
+ * Surface is the sum over all cells of their facets' hashes (of ids and bits of coordinates), with
+ * the sign of the facet's orientation. A facet that two cells have, on the same rank or not, comes
+ * twice with different signs, so only the true surface is left: a facet that is missing, moved,
+ * doubled, or not the same on both sides changes the sum.
+ */
+struct Signature
+{
+  vtkIdType Cells = 0;
+  double Volume = 0.0; ///< for triangles the area
+  std::uint64_t Surface = 0;
+};
+
+Signature Sign(const Ranks& ranks, const Part& part);
+
+/**
+ * An error if `after` is not of the same mesh as `before`; `cells` says whether the number of cells
+ * must be the same, too. Volumes may differ by rounding.
+ */
+std::string Compare(const Signature& before, const Signature& after, bool cells);
+
+} // namespace vtkMeshRanks
+
+#endif

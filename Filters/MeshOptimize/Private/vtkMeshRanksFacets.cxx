@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshRanksFacets.h"
+
+#include "Base/Scramble.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+constexpr int TetrahedronFacets[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
+constexpr int TriangleFacets[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
+
+std::uint64_t HashOfPlace(const double* x)
+{
+  std::uint64_t hash = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x[i], sizeof(bits));
+    hash = meshopt::scramble(hash ^ bits);
+  }
+  return hash;
+}
+
+/**
+ * Sorts the first n of three.
+ */
+void SortFew(std::array<vtkIdType, 3>& nodes, int n)
+{
+  for (int i = 0; i < n; ++i)
+  {
+    for (int k = 0; k + 1 < n - i; ++k)
+    {
+      if (nodes[k + 1] < nodes[k])
+      {
+        std::swap(nodes[k], nodes[k + 1]);
+      }
+    }
+  }
+}
+
+/**
+ * A point as the ranks tell each other of it.
+ */
+struct Notice
+{
+  vtkIdType Id;
+  std::uint64_t Place;
+};
+
+struct Entry
+{
+  Notice Point;
+  int Rank;
+  bool operator<(const Entry& other) const
+  {
+    return this->Point.Id != other.Point.Id ? this->Point.Id < other.Point.Id
+                                            : this->Rank < other.Rank;
+  }
+};
+
+/**
+ * The rank that knows who has a point. Scrambled, so that all have about as many to look after.
+ */
+int DirectoryOf(vtkIdType id, int count)
+{
+  return static_cast<int>(
+    meshopt::scramble(static_cast<std::uint64_t>(id)) % static_cast<std::uint64_t>(count));
+}
+
+/**
+ * Answers to notices: each id that several ranks have, with the list of these ranks.
+ */
+std::vector<Bytes> Answer(const std::vector<Bytes>& notices, std::string& error)
+{
+  std::vector<Entry> entries;
+  for (std::size_t r = 0; r < notices.size(); ++r)
+  {
+    for (Reader reader(notices[r]); !reader.IsAtEnd();)
+    {
+      entries.push_back({ reader.Take<Notice>(), static_cast<int>(r) });
+    }
+  }
+  std::sort(entries.begin(), entries.end());
+  std::vector<Bytes> answers(notices.size());
+  for (std::size_t i = 0, j = 0; i < entries.size(); i = j)
+  {
+    std::vector<int> owners;
+    for (j = i; j < entries.size() && entries[j].Point.Id == entries[i].Point.Id; ++j)
+    {
+      owners.push_back(entries[j].Rank);
+      if (entries[j].Point.Place != entries[i].Point.Place)
+      {
+        error = "The point with the global id " + std::to_string(entries[i].Point.Id) +
+          " has other coordinates on rank " + std::to_string(entries[j].Rank) + " than on rank " +
+          std::to_string(entries[i].Rank) + ".";
+      }
+    }
+    for (std::size_t k = 0; k < owners.size() && owners.size() > 1; ++k)
+    {
+      Put(answers[owners[k]], entries[i].Point.Id);
+      PutAll(answers[owners[k]], owners);
+    }
+  }
+  return answers;
+}
+
+using Key = std::array<vtkIdType, 3>;
+
+Key IdsOf(const Part& part, const CellFacet& facet)
+{
+  Key ids = { -1, -1, -1 };
+  for (int i = 0; i < part.Corners - 1; ++i)
+  {
+    ids[i] = part.PointIds[facet.Nodes[i]]; // ascending, as the indices are
+  }
+  return ids;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::array<vtkIdType, 3> OrientedNodes(const Part& part, vtkIdType cell, int local)
+{
+  const vtkIdType* ids = part.GetCell(cell);
+  if (part.Corners == 4)
+  {
+    const int* f = TetrahedronFacets[local];
+    return { ids[f[0]], ids[f[1]], ids[f[2]] };
+  }
+  return { ids[TriangleFacets[local][0]], ids[TriangleFacets[local][1]], -1 };
+}
+
+void VisitFacets(const Part& part, const std::vector<char>& isWanted,
+  const std::function<void(const CellFacet*, const CellFacet*)>& visit)
+{
+  // Sorted into buckets by the lowest node; a bucket is small.
+  const int corners = part.Corners;
+  std::vector<CellFacet> facets;
+  std::vector<std::size_t> starts(part.PointIds.size() + 1, 0);
+  const auto forEach = [&](const auto& call)
+  {
+    for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
+    {
+      for (int local = 0; local < corners; ++local)
+      {
+        std::array<vtkIdType, 3> nodes = OrientedNodes(part, c, local);
+        SortFew(nodes, corners - 1);
+        if (std::all_of(nodes.begin(), nodes.begin() + corners - 1,
+              [&](vtkIdType p) { return isWanted[p] != 0; }))
+        {
+          call(CellFacet{ nodes, c, local });
+        }
+      }
+    }
+  };
+  forEach([&](const CellFacet& facet) { ++starts[facet.Nodes[0] + 1]; });
+  for (std::size_t p = 1; p < starts.size(); ++p)
+  {
+    starts[p] += starts[p - 1];
+  }
+  facets.resize(starts.back());
+  std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+  forEach([&](const CellFacet& facet) { facets[next[facet.Nodes[0]]++] = facet; });
+  for (std::size_t p = 0; p + 1 < starts.size(); ++p)
+  {
+    const auto begin = facets.begin() + starts[p], end = facets.begin() + starts[p + 1];
+    std::sort(begin, end,
+      [](const CellFacet& a, const CellFacet& b)
+      { return a.Nodes != b.Nodes ? a.Nodes < b.Nodes : a.Cell < b.Cell; });
+    for (auto first = begin; first != end;)
+    {
+      const auto last = std::find_if(
+        first, end, [&](const CellFacet& f) { return f.Nodes != first->Nodes; });
+      visit(&*first, &*first + (last - first));
+      first = last;
+    }
+  }
+}
+
+std::vector<CellFacet> FindOpenFacets(const Part& part, const std::vector<char>& isWanted)
+{
+  std::vector<CellFacet> open;
+  VisitFacets(part, isWanted,
+    [&](const CellFacet* first, const CellFacet* last)
+    {
+      if (last - first == 1)
+      {
+        open.push_back(*first);
+      }
+    });
+  return open;
+}
+
+std::vector<char> Flagged(const Part& part, PointFlag flag)
+{
+  std::vector<char> has(part.Flags.size());
+  std::transform(part.Flags.begin(), part.Flags.end(), has.begin(),
+    [flag](std::uint8_t flags) { return (flags & flag) != 0; });
+  return has;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType IndexOf(const Part& part, vtkIdType id)
+{
+  const auto found = std::lower_bound(part.PointIds.begin(), part.PointIds.end(), id);
+  return found != part.PointIds.end() && *found == id ? found - part.PointIds.begin() : -1;
+}
+
+Shared FindShared(const Ranks& ranks, const Part& part)
+{
+  std::vector<Bytes> notices(ranks.GetCount());
+  std::vector<char> isUsed(part.PointIds.size(), 0);
+  for (const vtkIdType p : part.Cells)
+  {
+    isUsed[p] = 1;
+  }
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    if (isUsed[p] && (part.Flags[p] & Skin))
+    {
+      const vtkIdType id = part.PointIds[p];
+      Put(notices[DirectoryOf(id, ranks.GetCount())], Notice{ id, HashOfPlace(part.GetPoint(p)) });
+    }
+  }
+  std::string error;
+  std::vector<Bytes> answers = Answer(ranks.Exchange(std::move(notices)), error);
+  ranks.Agree(error);
+  answers = ranks.Exchange(std::move(answers));
+  Shared shared;
+  shared.RanksOf.resize(part.PointIds.size());
+  for (const Bytes& bytes : answers)
+  {
+    for (Reader reader(bytes); !reader.IsAtEnd();)
+    {
+      const vtkIdType p = IndexOf(part, reader.Take<vtkIdType>());
+      for (const int r : reader.TakeAll<int>())
+      {
+        if (r != ranks.GetRank())
+        {
+          shared.RanksOf[p].push_back(r);
+        }
+      }
+    }
+  }
+  std::map<int, std::vector<vtkIdType>> lists;
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    for (const int r : shared.RanksOf[p])
+    {
+      lists[r].push_back(p);
+    }
+  }
+  for (auto& [rank, list] : lists)
+  {
+    shared.Neighbors.push_back(rank);
+    shared.Points.push_back(std::move(list));
+  }
+  return shared;
+}
+
+std::vector<std::pair<CellFacet, long long>> FindBorder(const Ranks& ranks, const Part& part,
+  const Shared& shared, const std::vector<CellFacet>& open, const std::vector<long long>& values)
+{
+  std::vector<Bytes> out(ranks.GetCount());
+  for (const CellFacet& facet : open)
+  {
+    for (const int r : shared.RanksOf[facet.Nodes[0]])
+    {
+      if (std::all_of(facet.Nodes.begin() + 1, facet.Nodes.begin() + part.Corners - 1,
+            [&](vtkIdType p)
+            {
+              const std::vector<int>& others = shared.RanksOf[p];
+              return std::find(others.begin(), others.end(), r) != others.end();
+            }))
+      {
+        Put(out[r], IdsOf(part, facet));
+        Put(out[r], values.empty() ? 0LL : values[facet.Cell]);
+      }
+    }
+  }
+  std::map<Key, long long> theirs;
+  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+  {
+    for (Reader reader(bytes); !reader.IsAtEnd();)
+    {
+      const Key key = reader.Take<Key>();
+      theirs[key] = reader.Take<long long>();
+    }
+  }
+  std::vector<std::pair<CellFacet, long long>> border;
+  for (const CellFacet& facet : open)
+  {
+    const auto found = theirs.find(IdsOf(part, facet));
+    if (found != theirs.end())
+    {
+      border.emplace_back(facet, found->second);
+    }
+  }
+  return border;
+}
+
+} // namespace vtkMeshRanks

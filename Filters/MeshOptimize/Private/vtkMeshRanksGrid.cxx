@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Between the parts of a divided mesh and grids, which a run reads and writes.
+#include "vtkMeshRanksPart.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCellType.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+// No user's array has these names.
+constexpr const char* IdName = "vtkMeshRanks.Id";
+constexpr const char* OriginName = "vtkMeshRanks.Origin";
+
+void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes* data)
+{
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+  {
+    const int place = data->AddArray(arrays[i]);
+    if (schema.Attributes[i] >= 0)
+    {
+      data->SetActiveAttribute(place, schema.Attributes[i]);
+    }
+  }
+}
+
+void AddIds(const std::vector<vtkIdType>& ids, vtkDataSetAttributes* data)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(IdName);
+  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  data->SetGlobalIds(array); // moved points keep theirs, new ones get -1
+}
+
+std::vector<vtkIdType> ReadIds(vtkDataSetAttributes* data)
+{
+  auto array = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(IdName));
+  return { array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues() };
+}
+
+/**
+ * The first arrays of `data`, as many as the part had before: what MakeGrid() has added follows.
+ */
+Arrays ReadArrays(vtkDataSetAttributes* data, std::size_t n)
+{
+  Arrays arrays;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    arrays.emplace_back(data->GetAbstractArray(static_cast<int>(i)));
+  }
+  return arrays;
+}
+
+void ReadCells(vtkUnstructuredGrid* grid, Part& part)
+{
+  const vtkIdType n = grid->GetNumberOfCells();
+  part.CellIds = ReadIds(grid->GetCellData());
+  auto quality = vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray("MeshQuality"));
+  auto origin = vtkIdTypeArray::SafeDownCast(grid->GetCellData()->GetArray(OriginName));
+  part.Quality.assign(quality->GetPointer(0), quality->GetPointer(0) + n);
+  part.Origin.assign(origin->GetPointer(0), origin->GetPointer(0) + n);
+  part.Cells.reserve(n * part.Corners);
+  for (vtkIdType c = 0; c < n; ++c)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    grid->GetCellPoints(c, size, ids);
+    part.Cells.insert(part.Cells.end(), ids, ids + size);
+  }
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, int corners,
+  const Schema& points, const Schema& cells, vtkDataArray* fixedPoints, vtkIdType firstOrigin,
+  std::vector<vtkIdType>& pointsOfGrid)
+{
+  Part part = MakePart(corners, points, cells);
+  std::vector<char> use(grid->GetNumberOfPoints(), 0); // 1: by others, 2: by simplices
+  vtkIdType n = 0;
+  const vtkIdType* ids = nullptr;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    grid->GetCellPoints(c, n, ids);
+    std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 1; });
+  }
+  for (const vtkIdType c : simplices)
+  {
+    grid->GetCellPoints(c, n, ids);
+    std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 2; });
+  }
+  std::vector<vtkIdType> index(use.size(), -1);
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    if (use[p] != 1)
+    {
+      index[p] = static_cast<vtkIdType>(pointsOfGrid.size());
+      pointsOfGrid.push_back(p);
+      double x[3];
+      grid->GetPoint(p, x);
+      part.Coordinates.insert(part.Coordinates.end(), x, x + 3);
+      const bool isFixed = fixedPoints && fixedPoints->GetComponent(p, 0) != 0.0;
+      part.Flags.push_back(
+        static_cast<std::uint8_t>((use[p] == 0 ? Loose : 0) | (isFixed ? PointFlag::Fixed : 0)));
+      part.PointIds.push_back(index[p]);
+    }
+  }
+  for (const vtkIdType c : simplices)
+  {
+    grid->GetCellPoints(c, n, ids);
+    std::for_each(ids, ids + n, [&](vtkIdType p) { part.Cells.push_back(index[p]); });
+    part.CellIds.push_back(static_cast<vtkIdType>(part.CellIds.size()));
+    part.Origin.push_back(firstOrigin + c);
+  }
+  part.Quality.assign(simplices.size(), 0.0);
+  part.Hint.assign(part.PointIds.size(), -1);
+  const auto choose = [](vtkDataSetAttributes* data, const Schema& schema,
+                        const std::vector<vtkIdType>& chosen, Arrays& arrays)
+  {
+    std::size_t a = 0;
+    for (int i = 0; i < data->GetNumberOfArrays() && a < schema.Arrays.size(); ++i)
+    {
+      vtkAbstractArray* array = data->GetAbstractArray(i);
+      const char* name = schema.Arrays[a]->GetName();
+      if (name && array->GetName() ? !std::strcmp(name, array->GetName())
+                                   : name == array->GetName())
+      {
+        arrays[a++] = Select(array, chosen);
+      }
+    }
+  };
+  choose(grid->GetPointData(), points, pointsOfGrid, part.PointArrays);
+  choose(grid->GetCellData(), cells, simplices, part.CellArrays);
+  return part;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
+  const Part& part, const Schema& pointSchema, const Schema& cellSchema)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(part.GetNumberOfPoints());
+  std::copy(part.Coordinates.begin(), part.Coordinates.end(), coordinates->GetPointer(0));
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  grid->SetPoints(points);
+  vtkNew<vtkIdTypeArray> offsets, connectivity;
+  offsets->SetNumberOfValues(part.GetNumberOfCells() + 1);
+  for (vtkIdType c = 0; c <= part.GetNumberOfCells(); ++c)
+  {
+    offsets->SetValue(c, c * part.Corners);
+  }
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(part.Cells.size()));
+  std::copy(part.Cells.begin(), part.Cells.end(), connectivity->GetPointer(0));
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  grid->SetCells(part.Corners == 4 ? VTK_TETRA : VTK_TRIANGLE, cells);
+  AddArrays(part.PointArrays, pointSchema, grid->GetPointData());
+  AddArrays(part.CellArrays, cellSchema, grid->GetCellData());
+  AddIds(part.PointIds, grid->GetPointData());
+  AddIds(part.CellIds, grid->GetCellData());
+  vtkNew<vtkIdTypeArray> origin;
+  origin->SetName(OriginName);
+  origin->SetNumberOfValues(part.GetNumberOfCells());
+  std::copy(part.Origin.begin(), part.Origin.end(), origin->GetPointer(0));
+  grid->GetCellData()->AddArray(origin);
+  return grid;
+}
+
+Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)
+{
+  Part part;
+  part.Corners = before.Corners;
+  part.PointIds = ReadIds(grid->GetPointData());
+  part.Coordinates.resize(3 * part.PointIds.size());
+  part.Flags.assign(part.PointIds.size(), 0);
+  part.Hint.assign(part.PointIds.size(), -1);
+  ReadCells(grid, part);
+  std::vector<vtkIdType> near(part.PointIds.size(), -1); // the origin of some cell of each point
+  for (vtkIdType c = part.GetNumberOfCells() - 1; c >= 0; --c)
+  {
+    for (int i = 0; i < part.Corners; ++i)
+    {
+      near[part.GetCell(c)[i]] = part.Origin[c];
+    }
+  }
+  std::size_t at = 0; // of the old points: those that are left have kept their order
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    double* x = &part.Coordinates[3 * p];
+    grid->GetPoint(p, x);
+    const vtkIdType id = part.PointIds[p];
+    while (id >= 0 && before.PointIds[at] != id)
+    {
+      ++at;
+    }
+    part.Flags[p] = id >= 0 ? before.Flags[at] : 0;
+    part.Hint[p] = id >= 0 ? before.Hint[at] : -1;
+    if (isAgain && (id < 0 || std::memcmp(x, before.GetPoint(at), 3 * sizeof(double)) != 0))
+    {
+      part.Hint[p] = near[p];
+    }
+  }
+  part.PointArrays = ReadArrays(grid->GetPointData(), before.PointArrays.size());
+  part.CellArrays = ReadArrays(grid->GetCellData(), before.CellArrays.size());
+  return part;
+}
+
+void RemoveOwn(vtkUnstructuredGrid* grid)
+{
+  grid->GetPointData()->RemoveArray(IdName);
+  grid->GetCellData()->RemoveArray(IdName);
+  grid->GetCellData()->RemoveArray(OriginName);
+}
+
+void NumberNew(vtkIdType firstPoint, vtkIdType firstCell, Part& part)
+{
+  // New ones stand behind the old ones and get greater ids: the order stays ascending.
+  for (vtkIdType& id : part.PointIds)
+  {
+    id = id < 0 ? firstPoint++ : id;
+  }
+  for (vtkIdType& id : part.CellIds)
+  {
+    id = id < 0 ? firstCell++ : id;
+  }
+}
+
+} // namespace vtkMeshRanks

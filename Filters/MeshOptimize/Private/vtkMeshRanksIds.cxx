@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshRanksIds.h"
+
+#include "vtkMeshRanksFacets.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include "Base/Scramble.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+using Place = std::array<double, 3>;
+
+/**
+ * A facet on the surface of a piece: its corners in the order of their coordinates.
+ */
+struct OpenFacet
+{
+  std::array<Place, 3> Places;
+  std::array<vtkIdType, 3> Points; ///< indices on its rank
+};
+
+struct Entry
+{
+  OpenFacet Facet;
+  int Rank;
+  bool operator<(const Entry& other) const
+  {
+    return this->Facet.Places != other.Facet.Places ? this->Facet.Places < other.Facet.Places
+                                                    : this->Rank < other.Rank;
+  }
+};
+
+/**
+ * A point here and the point there that it is one with.
+ */
+struct Link
+{
+  vtkIdType Mine, Theirs;
+  bool operator<(const Link& other) const
+  {
+    return this->Mine != other.Mine ? this->Mine < other.Mine : this->Theirs < other.Theirs;
+  }
+  bool operator==(const Link& other) const
+  {
+    return this->Mine == other.Mine && this->Theirs == other.Theirs;
+  }
+};
+
+std::uint64_t HashOf(const std::array<Place, 3>& places)
+{
+  std::uint64_t hash = 0;
+  for (const Place& place : places)
+  {
+    for (double x : place)
+    {
+      std::uint64_t bits = 0;
+      x += 0.0; // -0 is 0
+      std::memcpy(&bits, &x, sizeof(bits));
+      hash = meshopt::scramble(hash ^ bits);
+    }
+  }
+  return hash;
+}
+
+/**
+ * False if two corners coincide: nothing tells them apart.
+ */
+bool MakeOpenFacet(const Part& part, const CellFacet& facet, OpenFacet& open)
+{
+  const int n = part.Corners - 1;
+  std::array<std::pair<Place, vtkIdType>, 3> corners{};
+  for (int i = 0; i < n; ++i)
+  {
+    const double* x = part.GetPoint(facet.Nodes[i]);
+    corners[i] = { { x[0], x[1], x[2] }, facet.Nodes[i] };
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    for (int k = 0; k + 1 < n - i; ++k)
+    {
+      if (corners[k + 1] < corners[k])
+      {
+        std::swap(corners[k], corners[k + 1]);
+      }
+    }
+  }
+  open = OpenFacet{};
+  for (int i = 0; i < n; ++i)
+  {
+    open.Places[i] = corners[i].first;
+    open.Points[i] = corners[i].second;
+    if (i > 0 && corners[i].first == corners[i - 1].first)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/**
+ * Tells each rank which of its facets are also another's.
+ */
+std::vector<Bytes> Match(const std::vector<Bytes>& facets, int n, std::string& error)
+{
+  std::vector<Entry> entries;
+  for (std::size_t r = 0; r < facets.size(); ++r)
+  {
+    for (Reader reader(facets[r]); !reader.IsAtEnd();)
+    {
+      entries.push_back({ reader.Take<OpenFacet>(), static_cast<int>(r) });
+    }
+  }
+  std::sort(entries.begin(), entries.end());
+  std::vector<Bytes> answers(facets.size());
+  for (std::size_t i = 0, j = 0; i < entries.size(); i = j)
+  {
+    for (j = i + 1; j < entries.size() && entries[j].Facet.Places == entries[i].Facet.Places;)
+    {
+      ++j;
+    }
+    if (entries[i].Rank == entries[j - 1].Rank)
+    {
+      continue; // one facet, or both sides of a crack in one piece
+    }
+    if (j - i > 2)
+    {
+      error = "Facets of more than two cells lie on each other where pieces meet, as at a crack "
+              "of doubled nodes. Which cells are neighbours is not known without global point ids: "
+              "give the points global ids, or switch OptimizeBorders off.";
+      continue;
+    }
+    for (int k = 0; k < 2; ++k)
+    {
+      const Entry& mine = entries[i + k];
+      const Entry& other = entries[i + 1 - k];
+      Put(answers[mine.Rank], other.Rank);
+      for (int c = 0; c < n; ++c)
+      {
+        Put(answers[mine.Rank], Link{ mine.Facet.Points[c], other.Facet.Points[c] });
+      }
+    }
+  }
+  return answers;
+}
+
+/**
+ * Links to each rank, found by facets with the same corners.
+ */
+std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part)
+{
+  std::vector<Bytes> out(ranks.GetCount());
+  const std::vector<char> all(part.PointIds.size(), 1);
+  for (const CellFacet& facet : FindOpenFacets(part, all))
+  {
+    OpenFacet open;
+    if (MakeOpenFacet(part, facet, open))
+    {
+      Put(out[HashOf(open.Places) % ranks.GetCount()], open);
+    }
+  }
+  std::string error;
+  std::vector<Bytes> answers = Match(ranks.Exchange(std::move(out)), part.Corners - 1, error);
+  ranks.Agree(error);
+  std::vector<std::vector<Link>> links(ranks.GetCount());
+  for (const Bytes& bytes : ranks.Exchange(std::move(answers)))
+  {
+    for (Reader reader(bytes); !reader.IsAtEnd();)
+    {
+      const int rank = reader.Take<int>();
+      for (int c = 0; c < part.Corners - 1; ++c)
+      {
+        links[rank].push_back(reader.Take<Link>());
+      }
+    }
+  }
+  for (std::vector<Link>& list : links)
+  {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return links;
+}
+
+/**
+ * Lets linked points have the lowest id of any of them. As many exchanges as ranks meet in a row
+ * around a point.
+ */
+void Spread(
+  const Ranks& ranks, const std::vector<std::vector<Link>>& links, std::vector<vtkIdType>& ids)
+{
+  for (bool changes = true; ranks.IsAny(changes);)
+  {
+    std::vector<Bytes> out(ranks.GetCount());
+    for (int r = 0; r < ranks.GetCount(); ++r)
+    {
+      for (const Link& link : links[r])
+      {
+        Put(out[r], Link{ link.Theirs, ids[link.Mine] });
+      }
+    }
+    changes = false;
+    for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+    {
+      for (Reader reader(bytes); !reader.IsAtEnd();)
+      {
+        const Link link = reader.Take<Link>();
+        changes = changes || link.Theirs < ids[link.Mine];
+        ids[link.Mine] = std::min(ids[link.Mine], link.Theirs);
+      }
+    }
+  }
+}
+
+bool HasTwins(std::vector<vtkIdType> ids)
+{
+  std::sort(ids.begin(), ids.end());
+  return std::adjacent_find(ids.begin(), ids.end()) != ids.end();
+}
+
+vtkIdType FirstOf(const Ranks& ranks, std::size_t count, vtkIdType& end)
+{
+  const std::vector<vtkIdType> counts = ranks.Gather(static_cast<vtkIdType>(count));
+  end = std::accumulate(counts.begin(), counts.end(), vtkIdType(0));
+  return std::accumulate(counts.begin(), counts.begin() + ranks.GetRank(), vtkIdType(0));
+}
+
+void MakePointIds(const Ranks& ranks, Part& part, vtkIdType& end)
+{
+  const std::vector<std::vector<Link>> links = FindLinks(ranks, part);
+  const vtkIdType first = FirstOf(ranks, part.PointIds.size(), end);
+  std::iota(part.PointIds.begin(), part.PointIds.end(), first);
+  Spread(ranks, links, part.PointIds);
+  ranks.Agree(HasTwins(part.PointIds)
+      ? "A crack of doubled nodes runs into the border of a piece, so that points at the same "
+        "place cannot be told apart without global ids: give the points global ids, or switch "
+        "OptimizeBorders off."
+      : "");
+}
+
+vtkIdType EndOf(const Ranks& ranks, const std::vector<vtkIdType>& ids)
+{
+  const vtkIdType mine = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
+  const std::vector<vtkIdType> all = ranks.Gather(mine);
+  return *std::max_element(all.begin(), all.end()) + 1;
+}
+
+void CheckIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const char* what)
+{
+  const bool isNegative = std::any_of(ids.begin(), ids.end(), [](vtkIdType id) { return id < 0; });
+  ranks.Agree(isNegative || HasTwins(ids) ? std::string("The global ids of ") + what +
+        " are negative or occur twice in one piece. Remove the array, give unique ids, or switch "
+        "OptimizeBorders off."
+                                          : "");
+}
+
+/**
+ * Cells are on one rank each, so that an id on two ranks is an error.
+ */
+void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids)
+{
+  std::vector<std::vector<vtkIdType>> lists(ranks.GetCount());
+  for (const vtkIdType id : ids)
+  {
+    lists[meshopt::scramble(static_cast<std::uint64_t>(id)) % ranks.GetCount()].push_back(id);
+  }
+  std::vector<Bytes> out(ranks.GetCount());
+  for (int r = 0; r < ranks.GetCount(); ++r)
+  {
+    PutAll(out[r], lists[r]);
+  }
+  std::vector<vtkIdType> all;
+  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+  {
+    const std::vector<vtkIdType> some = Reader(bytes).TakeAll<vtkIdType>();
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  ranks.Agree(HasTwins(all) ? "A global cell id occurs on two ranks. Ghost cells must be "
+                              "marked by vtkGhostType; or switch OptimizeBorders off."
+                            : "");
+}
+
+/**
+ * Orders points and cells by their ids.
+ */
+void Order(Part& part)
+{
+  Part ordered;
+  Join({ part }, ordered); // ids are unique
+  part = std::move(ordered);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
+  const std::vector<vtkIdType>& gridCellIds, Numbering& numbering, Part& part)
+{
+  if (numbering.HasPointIds)
+  {
+    CheckIds(ranks, gridPointIds, "points");
+    part.PointIds = gridPointIds;
+    numbering.NextPoint = EndOf(ranks, part.PointIds);
+  }
+  else
+  {
+    MakePointIds(ranks, part, numbering.NextPoint);
+  }
+  if (numbering.HasCellIds)
+  {
+    CheckIds(ranks, gridCellIds, "cells");
+    CheckCellIds(ranks, gridCellIds);
+    part.CellIds = gridCellIds;
+    numbering.NextCell = EndOf(ranks, part.CellIds);
+  }
+  else
+  {
+    const vtkIdType first = FirstOf(ranks, part.CellIds.size(), numbering.NextCell);
+    std::iota(part.CellIds.begin(), part.CellIds.end(), first);
+  }
+  // Points on the surface of the piece: all that other ranks may have.
+  const std::vector<char> all(part.PointIds.size(), 1);
+  for (const CellFacet& facet : FindOpenFacets(part, all))
+  {
+    for (int i = 0; i < part.Corners - 1; ++i)
+    {
+      part.Flags[facet.Nodes[i]] |= Skin;
+    }
+  }
+  Order(part);
+}
+
+} // namespace vtkMeshRanks

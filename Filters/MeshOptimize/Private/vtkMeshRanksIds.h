@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Global ids for the points and cells of a mesh that comes in pieces, one on each rank.
+ */
+#ifndef vtkMeshRanksIds_h
+#define vtkMeshRanksIds_h
+
+#include "vtkMeshRanksPart.h"
+
+#include <string>
+#include <vector>
+
+namespace vtkMeshRanks
+{
+
+/**
+ * How the ids of a divided mesh came about, and which ones are still free.
+ */
+struct Numbering
+{
+  bool HasPointIds = false, HasCellIds = false; ///< those of the input are used
+  vtkIdType NextPoint = 0, NextCell = 0;        ///< above all that exist
+};
+
+/**
+ * Replaces the numbers of ReadPiece() by ids that are unique over all ranks. Collective.
+ *
+ * The input's global ids are used where all ranks have them (`gridIds`, of the points and cells of
+ * the part; empty: there are none). Without them, points of different ranks are one if facets of
+ * their pieces' surfaces have the same three corners, bit for bit; points of one rank never become
+ * one. So a crack of doubled nodes stays open, unless it lies on the border of a piece all along.
+ *
+ * Fails for: ids that are not unique; facets of more than two cells;
+ * points of one rank that would become one.
+ */
+void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
+  const std::vector<vtkIdType>& gridCellIds, Numbering& numbering, Part& part);
+
+} // namespace vtkMeshRanks
+
+#endif

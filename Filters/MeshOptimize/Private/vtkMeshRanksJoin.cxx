@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joins parts of a divided mesh by the ids of their points and cells.
+#include "vtkMeshRanksPart.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+/**
+ * Where a tuple of a joined array comes from.
+ */
+struct Source
+{
+  vtkIdType Id;
+  int Part;
+  vtkIdType Index;
+  bool operator<(const Source& other) const
+  {
+    return this->Id != other.Id ? this->Id < other.Id : this->Part < other.Part;
+  }
+};
+
+std::vector<Source> ListSources(const std::vector<Part>& parts, std::vector<vtkIdType> Part::*ids)
+{
+  std::vector<Source> sources;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    const std::vector<vtkIdType>& list = parts[k].*ids;
+    for (std::size_t i = 0; i < list.size(); ++i)
+    {
+      sources.push_back({ list[i], static_cast<int>(k), static_cast<vtkIdType>(i) });
+    }
+  }
+  std::sort(sources.begin(), sources.end());
+  return sources;
+}
+
+/**
+ * Arrays whose tuple i is that of sources[i].
+ */
+void Collect(const std::vector<Part>& parts, const std::vector<Source>& sources,
+  Arrays Part::*arrays, Arrays& result)
+{
+  std::vector<vtkNew<vtkIdList>> from(parts.size()), to(parts.size());
+  for (std::size_t i = 0; i < sources.size(); ++i)
+  {
+    from[sources[i].Part]->InsertNextId(sources[i].Index);
+    to[sources[i].Part]->InsertNextId(static_cast<vtkIdType>(i));
+  }
+  result.clear();
+  for (std::size_t a = 0; a < (parts[0].*arrays).size(); ++a)
+  {
+    vtkSmartPointer<vtkAbstractArray> array = MakeLike((parts[0].*arrays)[a]);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(sources.size()));
+    for (std::size_t k = 0; k < parts.size(); ++k)
+    {
+      if (from[k]->GetNumberOfIds() > 0)
+      {
+        array->InsertTuples(to[k], from[k], (parts[k].*arrays)[a]);
+      }
+    }
+    result.push_back(array);
+  }
+}
+
+/**
+ * Joins the points; newIndex[k][i] is where point i of part k is in the result.
+ */
+std::string JoinPoints(
+  const std::vector<Part>& parts, Part& result, std::vector<std::vector<vtkIdType>>& newIndex)
+{
+  std::vector<Source> sources;
+  for (const Part& part : parts)
+  {
+    newIndex.emplace_back(part.PointIds.size());
+  }
+  for (const Source& o : ListSources(parts, &Part::PointIds))
+  {
+    const Part& part = parts[o.Part];
+    const double* x = part.GetPoint(o.Index);
+    if (sources.empty() || sources.back().Id != o.Id)
+    {
+      sources.push_back(o);
+      result.PointIds.push_back(o.Id);
+      result.Coordinates.insert(result.Coordinates.end(), x, x + 3);
+      result.Flags.push_back(0);
+      result.Hint.push_back(part.Hint[o.Index]);
+    }
+    else if (std::memcmp(&result.Coordinates[result.Coordinates.size() - 3], x, 3 * sizeof(double)))
+    {
+      return "Point " + std::to_string(o.Id) + " is at two places.";
+    }
+    result.Flags.back() |= part.Flags[o.Index];
+    newIndex[o.Part][o.Index] = result.GetNumberOfPoints() - 1;
+  }
+  Collect(parts, sources, &Part::PointArrays, result.PointArrays);
+  return {};
+}
+
+std::string JoinCells(
+  const std::vector<Part>& parts, const std::vector<std::vector<vtkIdType>>& newIndex, Part& result)
+{
+  const std::vector<Source> sources = ListSources(parts, &Part::CellIds);
+  for (const Source& o : sources)
+  {
+    const Part& part = parts[o.Part];
+    if (!result.CellIds.empty() && result.CellIds.back() == o.Id)
+    {
+      return "Cell " + std::to_string(o.Id) + " was there twice.";
+    }
+    result.CellIds.push_back(o.Id);
+    for (int i = 0; i < part.Corners; ++i)
+    {
+      result.Cells.push_back(newIndex[o.Part][part.GetCell(o.Index)[i]]);
+    }
+    result.Quality.push_back(part.Quality[o.Index]);
+    result.Origin.push_back(part.Origin[o.Index]);
+  }
+  Collect(parts, sources, &Part::CellArrays, result.CellArrays);
+  return {};
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string Join(const std::vector<Part>& parts, Part& result)
+{
+  result = Part();
+  result.Corners = parts[0].Corners;
+  std::vector<std::vector<vtkIdType>> newIndex;
+  const std::string error = JoinPoints(parts, result, newIndex);
+  return error.empty() ? JoinCells(parts, newIndex, result) : error;
+}
+
+} // namespace vtkMeshRanks

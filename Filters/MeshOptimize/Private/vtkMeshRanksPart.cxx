@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkMeshRanksPart.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace vtkMeshRanks
+{
+namespace
+{
+
+vtkSmartPointer<vtkIdList> MakeList(const std::vector<vtkIdType>& ids)
+{
+  auto list = vtkSmartPointer<vtkIdList>::New();
+  list->SetNumberOfIds(static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), list->begin());
+  return list;
+}
+
+template <class T>
+std::vector<T> Chosen(const std::vector<T>& values, const std::vector<vtkIdType>& ids, int n = 1)
+{
+  std::vector<T> chosen;
+  chosen.reserve(ids.size() * n);
+  for (const vtkIdType id : ids)
+  {
+    chosen.insert(chosen.end(), values.begin() + id * n, values.begin() + (id + 1) * n);
+  }
+  return chosen;
+}
+
+void SelectAll(const Arrays& sources, const std::vector<vtkIdType>& ids, Arrays& chosen)
+{
+  chosen.clear();
+  for (vtkAbstractArray* source : sources)
+  {
+    chosen.push_back(Select(source, ids));
+  }
+}
+
+/**
+ * The part with these points and cells of another; `newIndex` maps points.
+ */
+Part Extract(const Part& part, const std::vector<vtkIdType>& points,
+  const std::vector<vtkIdType>& cells, const std::vector<vtkIdType>& newIndex)
+{
+  Part result;
+  result.Corners = part.Corners;
+  result.PointIds = Chosen(part.PointIds, points);
+  result.Coordinates = Chosen(part.Coordinates, points, 3);
+  result.Flags = Chosen(part.Flags, points);
+  result.CellIds = Chosen(part.CellIds, cells);
+  result.Cells = Chosen(part.Cells, cells, part.Corners);
+  result.Quality = Chosen(part.Quality, cells);
+  result.Origin = Chosen(part.Origin, cells);
+  result.Hint = Chosen(part.Hint, points);
+  for (vtkIdType& p : result.Cells)
+  {
+    p = newIndex[p];
+  }
+  SelectAll(part.PointArrays, points, result.PointArrays);
+  SelectAll(part.CellArrays, cells, result.CellArrays);
+  return result;
+}
+
+vtkIdType BytesOf(vtkDataArray* array)
+{
+  return array->GetDataType() == VTK_BIT ? (array->GetNumberOfValues() + 7) / 8
+                                         : array->GetNumberOfValues() * array->GetDataTypeSize();
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+Schema Schema::Of(vtkDataSetAttributes* data, const char* without)
+{
+  Schema schema;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    const int attribute = data->IsArrayAnAttribute(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (attribute != vtkDataSetAttributes::GLOBALIDS && name != without &&
+      name != vtkDataSetAttributes::GhostArrayName())
+    {
+      schema.Arrays.push_back(MakeLike(array));
+      schema.Attributes.push_back(attribute);
+    }
+  }
+  return schema;
+}
+
+Bytes Schema::Describe() const
+{
+  Bytes bytes;
+  const auto put = [&bytes](const char* text)
+  {
+    const std::string name = text ? text : "";
+    PutAll(bytes, Bytes(name.begin(), name.end()));
+  };
+  Put(bytes, static_cast<int>(this->Arrays.size()));
+  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+  {
+    vtkAbstractArray* array = this->Arrays[i];
+    put(array->GetName());
+    Put(bytes, array->GetDataType());
+    Put(bytes, array->GetNumberOfComponents());
+    Put(bytes, this->Attributes[i]);
+    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+    {
+      put(array->GetComponentName(k));
+    }
+  }
+  return bytes;
+}
+
+Schema Schema::From(Reader& reader)
+{
+  const auto take = [&reader]()
+  {
+    const Bytes text = reader.TakeAll<char>();
+    return std::string(text.begin(), text.end());
+  };
+  Schema schema;
+  const int count = reader.Take<int>();
+  for (int i = 0; i < count; ++i)
+  {
+    const std::string name = take();
+    auto array = vtkSmartPointer<vtkAbstractArray>::Take(
+      vtkAbstractArray::CreateArray(reader.Take<int>()));
+    array->SetName(name.empty() ? nullptr : name.c_str());
+    array->SetNumberOfComponents(reader.Take<int>());
+    schema.Attributes.push_back(reader.Take<int>());
+    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+    {
+      const std::string component = take();
+      if (!component.empty())
+      {
+        array->SetComponentName(k, component.c_str());
+      }
+    }
+    schema.Arrays.push_back(array);
+  }
+  return schema;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source)
+{
+  auto array = vtkSmartPointer<vtkAbstractArray>::Take(
+    vtkAbstractArray::CreateArray(source->GetDataType()));
+  array->SetName(source->GetName());
+  array->SetNumberOfComponents(source->GetNumberOfComponents());
+  array->CopyComponentNames(source);
+  if (source->HasInformation())
+  {
+    array->CopyInformation(source->GetInformation(), 1);
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkAbstractArray> Select(
+  vtkAbstractArray* source, const std::vector<vtkIdType>& ids)
+{
+  vtkSmartPointer<vtkAbstractArray> array = MakeLike(source);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(ids.size()));
+  source->GetTuples(MakeList(ids), array);
+  return array;
+}
+
+Part MakePart(int corners, const Schema& points, const Schema& cells)
+{
+  Part part;
+  part.Corners = corners;
+  for (vtkAbstractArray* array : points.Arrays)
+  {
+    part.PointArrays.push_back(MakeLike(array));
+  }
+  for (vtkAbstractArray* array : cells.Arrays)
+  {
+    part.CellArrays.push_back(MakeLike(array));
+  }
+  return part;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Part> Split(const Part& part, const std::vector<int>& target, int parts, int rest)
+{
+  const vtkIdType n = part.GetNumberOfPoints();
+  std::vector<std::vector<vtkIdType>> cells(parts);
+  std::vector<int> user(n, -1); // -1: none; -2: several parts
+  for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
+  {
+    cells[target[c]].push_back(c);
+    for (int i = 0; i < part.Corners; ++i)
+    {
+      int& u = user[part.GetCell(c)[i]];
+      u = u == -1 || u == target[c] ? target[c] : -2;
+    }
+  }
+  Part marked = part; // arrays are shared
+  std::vector<char> isUsed(n, 0);
+  for (vtkIdType p = 0; p < n; ++p)
+  {
+    marked.Flags[p] |= user[p] == -2 ? Skin : 0;
+  }
+  std::vector<Part> result;
+  std::vector<vtkIdType> newIndex(n, -1);
+  for (int k = 0; k < parts; ++k)
+  {
+    if (k != rest && cells[k].empty())
+    {
+      result.push_back(Extract(marked, {}, {}, newIndex));
+      continue;
+    }
+    std::fill(isUsed.begin(), isUsed.end(), 0);
+    for (const vtkIdType c : cells[k])
+    {
+      for (int i = 0; i < part.Corners; ++i)
+      {
+        isUsed[part.GetCell(c)[i]] = 1;
+      }
+    }
+    std::vector<vtkIdType> points;
+    for (vtkIdType p = 0; p < n; ++p)
+    {
+      if (isUsed[p] || (k == rest && user[p] == -1))
+      {
+        newIndex[p] = static_cast<vtkIdType>(points.size());
+        points.push_back(p);
+      }
+    }
+    result.push_back(Extract(marked, points, cells[k], newIndex));
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+bool CanPack(vtkAbstractArray* array)
+{
+  return vtkDataArray::SafeDownCast(array) || vtkStringArray::SafeDownCast(array);
+}
+
+void Pack(vtkAbstractArray* array, Bytes& bytes)
+{
+  Put(bytes, static_cast<vtkTypeInt64>(array->GetNumberOfTuples()));
+  if (auto strings = vtkStringArray::SafeDownCast(array))
+  {
+    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
+    {
+      const vtkStdString& text = strings->GetValue(i);
+      PutAll(bytes, Bytes(text.begin(), text.end()));
+    }
+    return;
+  }
+  auto values = vtkDataArray::SafeDownCast(array);
+  const char* first = static_cast<const char*>(values->GetVoidPointer(0));
+  bytes.insert(bytes.end(), first, first + BytesOf(values));
+}
+
+vtkSmartPointer<vtkAbstractArray> Unpack(Reader& reader, vtkAbstractArray* like)
+{
+  vtkSmartPointer<vtkAbstractArray> array = MakeLike(like);
+  array->SetNumberOfTuples(reader.Take<vtkTypeInt64>());
+  if (auto strings = vtkStringArray::SafeDownCast(array))
+  {
+    for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
+    {
+      const Bytes text = reader.TakeAll<char>();
+      strings->SetValue(i, std::string(text.begin(), text.end()));
+    }
+    return array;
+  }
+  auto values = vtkDataArray::SafeDownCast(array);
+  reader.TakeBytes(values->GetVoidPointer(0), static_cast<std::size_t>(BytesOf(values)));
+  return array;
+}
+
+Bytes Pack(const Part& part)
+{
+  Bytes bytes;
+  if (part.CellIds.empty())
+  {
+    return bytes;
+  }
+  PutAll(bytes, part.PointIds);
+  PutAll(bytes, part.Coordinates);
+  PutAll(bytes, part.Flags);
+  PutAll(bytes, part.CellIds);
+  PutAll(bytes, part.Cells);
+  PutAll(bytes, part.Quality);
+  PutAll(bytes, part.Origin);
+  PutAll(bytes, part.Hint);
+  for (const Arrays* arrays : { &part.PointArrays, &part.CellArrays })
+  {
+    for (vtkAbstractArray* array : *arrays)
+    {
+      Pack(array, bytes);
+    }
+  }
+  return bytes;
+}
+
+Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema& cells)
+{
+  Part part = MakePart(corners, points, cells);
+  if (bytes.empty())
+  {
+    return part;
+  }
+  Reader reader(bytes);
+  part.PointIds = reader.TakeAll<vtkIdType>();
+  part.Coordinates = reader.TakeAll<double>();
+  part.Flags = reader.TakeAll<std::uint8_t>();
+  part.CellIds = reader.TakeAll<vtkIdType>();
+  part.Cells = reader.TakeAll<vtkIdType>();
+  part.Quality = reader.TakeAll<double>();
+  part.Origin = reader.TakeAll<vtkIdType>();
+  part.Hint = reader.TakeAll<vtkIdType>();
+  for (Arrays* arrays : { &part.PointArrays, &part.CellArrays })
+  {
+    for (vtkSmartPointer<vtkAbstractArray>& array : *arrays)
+    {
+      array = Unpack(reader, array);
+    }
+  }
+  return part;
+}
+
+} // namespace vtkMeshRanks

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A part of a mesh that is divided among ranks: points and simplices with global ids and all their
+ * arrays. Parts are taken out, sent, and joined by ids, never by coordinates.
+ */
+#ifndef vtkMeshRanksPart_h
+#define vtkMeshRanksPart_h
+
+#include "vtkMeshRanksExchange.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkAbstractArray;
+class vtkDataArray;
+class vtkDataSetAttributes;
+class vtkUnstructuredGrid;
+
+namespace vtkMeshRanks
+{
+
+/**
+ * Bits of Part::Flags.
+ */
+enum PointFlag : std::uint8_t
+{
+  Waiting = 1, ///< what lies around it has never been together in one run
+  Fixed = 2,   ///< of the caller's fixed points
+  Loose = 4,   ///< no cell of the input uses it
+  Skin = 8     ///< may be on the surface, or on several ranks
+};
+
+/**
+ * The names, types, numbers of components and attributes of the arrays that points or cells have,
+ * in their order. The arrays are empty; they belong to the rank.
+ */
+struct Schema
+{
+  std::vector<vtkSmartPointer<vtkAbstractArray>> Arrays;
+  std::vector<int> Attributes; ///< of vtkDataSetAttributes; -1: none
+
+  /// All arrays but global ids and those of this name.
+  static Schema Of(vtkDataSetAttributes* data, const char* without);
+  /// Equal if parts of both ranks can be joined: all but the information keys, as bytes.
+  Bytes Describe() const;
+  /// From such bytes.
+  static Schema From(Reader& reader);
+};
+
+using Arrays = std::vector<vtkSmartPointer<vtkAbstractArray>>;
+
+struct Part
+{
+  int Corners = 4;                 ///< of a cell
+  std::vector<vtkIdType> PointIds; ///< ascending
+  std::vector<double> Coordinates; ///< 3 of each point
+  std::vector<std::uint8_t> Flags; ///< PointFlag of each point
+  std::vector<vtkIdType> CellIds;  ///< ascending
+  std::vector<vtkIdType> Cells;    ///< corners of each cell, as indices of points
+  std::vector<double> Quality;     ///< of each cell; 0 before the first run
+  /// The cell of the input that each cell comes from: numbered over all ranks (see Origins).
+  std::vector<vtkIdType> Origin;
+  /// -1: the data of the point are those of the input at its place. Else a cell of the input near
+  /// it, numbered like Origin: its data have been interpolated more than once.
+  std::vector<vtkIdType> Hint;
+  Arrays PointArrays, CellArrays; ///< those of the schemas
+
+  vtkIdType GetNumberOfPoints() const { return static_cast<vtkIdType>(this->PointIds.size()); }
+  vtkIdType GetNumberOfCells() const { return static_cast<vtkIdType>(this->CellIds.size()); }
+  const vtkIdType* GetCell(vtkIdType c) const { return &this->Cells[c * this->Corners]; }
+  const double* GetPoint(vtkIdType p) const { return &this->Coordinates[3 * p]; }
+};
+
+/**
+ * An array without tuples that has the name, type, components and information of another.
+ */
+vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source);
+
+/**
+ * A part of the tuples `ids` of `source`, as an array of its own.
+ */
+vtkSmartPointer<vtkAbstractArray> Select(
+  vtkAbstractArray* source, const std::vector<vtkIdType>& ids);
+
+/**
+ * An empty part whose arrays are those of the schemas.
+ */
+Part MakePart(int corners, const Schema& points, const Schema& cells);
+
+/**
+ * Divides a part: cell c goes to result[target[c]]. Points go with their cells; those of several
+ * parts are on the Skin from now on, in all of them. Points without cells go to result[rest].
+ */
+std::vector<Part> Split(const Part& part, const std::vector<int>& target, int parts, int rest);
+
+/**
+ * Joins parts by ids; cells and points are ordered by id, whatever the order of the parts. Returns
+ * an error if two have a cell in common, or a point at two places.
+ */
+std::string Join(const std::vector<Part>& parts, Part& result);
+
+/**
+ * To bytes, and back.
+ */
+Bytes Pack(const Part& part);
+void Pack(vtkAbstractArray* array, Bytes& bytes);
+vtkSmartPointer<vtkAbstractArray> Unpack(Reader& reader, vtkAbstractArray* like);
+Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema& cells);
+
+/**
+ * Whether Pack() can write arrays of this kind.
+ */
+bool CanPack(vtkAbstractArray* array);
+
+/**
+ * The simplices of a grid as a part without ids: point i has the id i, cell i too. Points of other
+ * cells only are left out; points of no cell stay. `fixedPoints` may be nullptr. The origin of a
+ * cell is its id in the grid, from `firstOrigin` on.
+ */
+Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplices, int corners,
+  const Schema& points, const Schema& cells, vtkDataArray* fixedPoints, vtkIdType firstOrigin,
+  std::vector<vtkIdType>& pointsOfGrid);
+
+/**
+ * The part as a grid. Ids are its global ids; origins are a cell array.
+ */
+vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
+  const Part& part, const Schema& points, const Schema& cells);
+
+/**
+ * What a run made of the grid of a part. Points and cells that are new have the id -1, and no
+ * flags. With `isAgain`, points that have moved or come get a hint: their data stem from data that
+ * were interpolated before.
+ */
+Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain);
+
+/**
+ * Removes from a grid the arrays that MakeGrid() has added.
+ */
+void RemoveOwn(vtkUnstructuredGrid* grid);
+
+/**
+ * Gives new points and cells ids from these on: greater ones than any that exist.
+ */
+void NumberNew(vtkIdType firstPoint, vtkIdType firstCell, Part& part);
+
+} // namespace vtkMeshRanks
+
+#endif

@@ -1,0 +1,410 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The borders between ranks take part: what one rank promises for a mesh holds for its pieces. By pvbatch --symmetric."""
+import os
+import sys
+import traceback
+
+import numpy as np
+from meshoptimize import vtkMeshOptimizeFilter
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_STRING, vtkCommand, vtkPoints
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkCellArray, vtkDataObject, vtkUnstructuredGrid
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+controller = vtkMultiProcessController.GetGlobalController()
+rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+folder = os.environ["MESHOPTIMIZE_OUTPUT"]
+failures = []
+FACETS = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]
+
+
+def check(fine, text):
+    if not fine:
+        failures.append(text)
+
+
+class Mesh:
+    """A unit cube of n^3 * 6 tetrahedra whose inner nodes are moved at random, so that some are flat or worse."""
+
+    def __init__(self, n=7, jitter=0.33, keep=lambda x: np.zeros(len(x), bool)):
+        i = np.arange((n + 1) ** 3)
+        node = np.stack([i // (n + 1) ** 2, i // (n + 1) % (n + 1), i % (n + 1)], 1)
+        self.x = node / n
+        inner = ((node > 0) & (node < n)).all(axis=1) & ~keep(self.x)
+        self.x[inner] += np.random.default_rng(5).uniform(-jitter, jitter, (inner.sum(), 3)) / n
+        steps = [np.cumsum([np.zeros(3, int)] + [np.eye(3, dtype=int)[a] for a in order], axis=0)
+                 for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2))]
+        base = node[(node < n).all(axis=1)]
+        corners = base[:, None, None] + np.array(steps)[None]
+        self.cells = (corners @ [(n + 1) ** 2, n + 1, 1]).reshape(-1, 4)
+        self.node, self.n = node, n
+        self.turn()
+        self.points, self.values, self.ids = {}, {}, False
+
+    def turn(self):
+        """Nodes in the positive order, as the regular grid has them."""
+        p = self.node[self.cells].astype(float)
+        wrong = np.linalg.det(p[:, 1:] - p[:, :1]) < 0
+        self.cells[wrong] = self.cells[wrong][:, [1, 0, 2, 3]]
+
+    def centers(self):
+        return self.node[self.cells].mean(axis=1) / self.n
+
+    def grid(self, chosen):
+        chosen = np.flatnonzero(chosen)
+        used = np.unique(self.cells[chosen])
+        local = np.zeros(len(self.x), int)
+        local[used] = np.arange(len(used))
+        grid = make_grid(self.x[used], local[self.cells[chosen]])
+        for data, arrays, ids in ((grid.GetPointData(), self.points, used), (grid.GetCellData(), self.values, chosen)):
+            for name, values in arrays.items():
+                add(data, name, values[ids])
+            if self.ids and len(chosen):
+                array = numpy_to_vtkIdTypeArray((ids + self.ids).astype(np.int64), deep=1)
+                array.SetName("own ids")
+                data.SetGlobalIds(array)
+        return grid
+
+    def piece(self, axis=0, count=None):
+        count = count or ranks
+        return self.grid((self.centers()[:, axis] * count).astype(int) == rank)
+
+    def whole(self):
+        return self.grid(np.ones(len(self.cells), bool))
+
+
+def add(data, name, values):
+    array = numpy_to_vtk(np.ascontiguousarray(values), deep=1)
+    array.SetName(name)
+    data.AddArray(array)
+
+
+def make_grid(x, cells):
+    grid = vtkUnstructuredGrid()
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(x, float).reshape(-1, 3), deep=1))
+    grid.SetPoints(points)
+    array = vtkCellArray()
+    corners = cells.shape[1]
+    array.SetData(numpy_to_vtkIdTypeArray(np.arange(len(cells) + 1, dtype=np.int64) * corners, deep=1),
+                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(cells, np.int64).ravel(), deep=1))
+    grid.SetCells(VTK_TETRA if corners == 4 else VTK_TRIANGLE, array)
+    return grid
+
+
+def alone(mesh, before=lambda f: None):
+    """The filter on the whole mesh on the first rank; None on the others."""
+    return run(mesh.whole(), False, before) if rank == 0 else None
+
+
+def run(grid, everywhere=True, before=lambda f: None, **options):
+    """The filter, updated on this rank's piece, or alone. f.told has its warnings and errors."""
+    f = vtkMeshOptimizeFilter()
+    f.SetOptimizeBorders(everywhere)
+    f.SetNumberOfThreads(1)
+    for name, value in options.items():
+        getattr(f, "Set" + name)(value)
+    f.SetInputData(grid)
+    f.told = []
+
+    def tell(caller, event, text):
+        f.told.append(text)
+    tell.CallDataType = VTK_STRING
+    f.AddObserver(vtkCommand.ErrorEvent, tell)
+    f.AddObserver(vtkCommand.WarningEvent, tell)
+    before(f)
+    f.UpdatePiece(rank, ranks, 0) if everywhere else f.Update()
+    return f
+
+
+def corners(grid):
+    if grid.GetNumberOfCells() == 0:
+        return np.zeros((0, 4, 3))
+    x = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    return x[vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)]
+
+
+def gather(**arrays):
+    """The arrays of all ranks, a list for each name, on all ranks."""
+    for name, values in arrays.items():
+        np.save(f"{folder}/ranks{ranks}.{name}.{rank}.npy", values)
+    controller.Barrier()
+    all_of = {name: [np.load(f"{folder}/ranks{ranks}.{name}.{r}.npy") for r in range(ranks)] for name in arrays}
+    controller.Barrier()
+    return all_of
+
+
+def facets(tets, of=None):
+    """Facets by the bits of their corners, with the number of cells; `of`: only between cells of two kinds."""
+    f = np.sort(np.ascontiguousarray(tets[:, FACETS].reshape(-1, 3, 3) + 0.0).view("f8,f8,f8").reshape(-1, 3), axis=1)
+    f, inverse, count = np.unique(f.view(f"V{72}").ravel(), return_inverse=True, return_counts=True)
+    if of is None:
+        return f, count
+    kinds = [np.zeros(len(f), bool), np.zeros(len(f), bool)]
+    for kind in (0, 1):
+        kinds[kind][inverse[np.repeat(of == kind, 4)]] = True
+    return f[kinds[0] & kinds[1]], None
+
+
+def volume(tets):
+    return np.linalg.det(tets[:, 1:] - tets[:, :1]).sum() / 6
+
+
+def figures_of(f):
+    return [getattr(f, "Get" + n)() for n in ("WorstQualityBefore", "WorstQualityAfter", "MeanQualityBefore",
+            "MeanQualityAfter", "QualityBound", "NumberOfCappedCells", "StopReason", "NumberOfOperations")]
+
+
+def compare(name, f, before, serial=None):
+    """Surface bit for bit, no facet of three cells, volume, figures; worst like serial's. Returns all cells."""
+    tets = np.concatenate(gather(tets=corners(f.GetOutput()))["tets"])
+    check(f.told == [], f"{name}: {f.told}")
+    if rank > 0:
+        gather(figures=figures_of(f))
+        return tets
+    (old, count), (new, now) = facets(before), facets(tets)
+    check(now.max() <= count.max(), f"{name}: a facet has {now.max()} cells")
+    check(np.array_equal(old[count == 1], new[now == 1]), f"{name}: another surface")
+    check(abs(volume(tets) / volume(before) - 1) < 1e-12, f"{name}: another volume")
+    check(len({tuple(row) for row in gather(figures=figures_of(f))["figures"]}) == 1, f"{name}: figures differ by rank")
+    if serial:
+        check(f.GetWorstQualityAfter() >= 0.98 * serial.GetWorstQualityAfter(),
+              f"{name}: worst {f.GetWorstQualityAfter()}, alone {serial.GetWorstQualityAfter()}")
+        for n, most in (("WorstQualityBefore", 1e-12), ("MeanQualityBefore", 1e-12), ("QualityBound", 1e-6)):
+            a, b = getattr(f, "Get" + n)(), getattr(serial, "Get" + n)()
+            check(abs(a - b) < most, f"{name}: {n} {a}, alone {b}")
+    return tets
+
+
+def history(f):
+    table = f.GetOutputDataObject(1)
+    return {table.GetColumnName(i): [table.GetValue(r, i).ToString() for r in range(table.GetNumberOfRows())]
+            for i in range(table.GetNumberOfColumns())}
+
+
+def test_whole():
+    """As good as alone, the same bits again and with two threads, one history."""
+    mesh = Mesh()
+    serial, f = alone(mesh), run(mesh.piece())
+    kept = run(mesh.piece(), False)
+    compare("whole", f, corners(mesh.whole()), serial)
+    check(min(w.min() for w in gather(kept=np.array([kept.GetWorstQualityAfter()]))["kept"])
+          < 0.55, "whole: the test is too easy")
+    again = run(mesh.piece(), NumberOfThreads=2)
+    check(np.array_equal(corners(f.GetOutput()), corners(again.GetOutput())), "whole: other bits with two threads")
+    if rank == 0:
+        mine, its = history(f), history(serial)
+        check(mine["Stage"][:2] == ["input", "pieces"] and set(mine["Stage"][2:]) == {"borders"}, f"stages {mine['Stage']}")
+        for column in ("Cells", "Points", "BelowTarget", "Worst"):
+            check(mine[column][0] == its[column][0], f"history: {column} {mine[column][0]}, alone {its[column][0]}")
+        check(int(mine["Points"][-1]) == len(np.unique(np.concatenate(
+            [t.reshape(-1, 3) for t in [np.load(f"{folder}/ranks{ranks}.tets.{r}.npy") for r in range(ranks)]]), axis=0)),
+            "history: points at the end")
+    else:
+        check(f.GetOutputDataObject(1).GetNumberOfRows() == 0, "history: rows on two ranks")
+
+
+def test_bound():
+    """Caps of the surface count, those of borders do not; a surface that cannot get better is named."""
+    mesh = Mesh(n=4, jitter=0.1)
+    low = mesh.node[:, 2] == 0
+    mesh.x[low & (mesh.node[:, 0] == 2) & (mesh.node[:, 1] == 2)] += [0.23, 0.0, 0.0]  # slender facets, on two pieces
+    serial, f = alone(mesh), run(mesh.piece())
+    compare("bound", f, corners(mesh.whole()), serial)
+    check(0 < f.GetNumberOfCappedCells(), "bound: the test is too easy")
+    if rank == 0 and f.GetWorstQualityAfter() == serial.GetWorstQualityAfter():
+        a, b = f.GetNumberOfCappedCells(), serial.GetNumberOfCappedCells()
+        check(a == b, f"bound: {a} capped, alone {b}")
+
+
+def test_ids():
+    """Ids above 2^53 survive; new ones are greater and unique; a moved point keeps its own."""
+    mesh = Mesh(n=5)
+    mesh.ids = 2 ** 60 + 1
+    f = run(mesh.piece())
+    compare("ids", f, corners(mesh.whole()))
+    out = f.GetOutput()
+    cells, points = (vtk_to_numpy(d.GetGlobalIds()) for d in (out.GetCellData(), out.GetPointData()))
+    check(out.GetPointData().GetGlobalIds().GetName() == "own ids", "ids: another name")
+    x = vtk_to_numpy(out.GetPoints().GetData())
+    every = gather(cells=cells, points=points, x=x)
+    cells, points, x = (np.concatenate(every[name]) for name in ("cells", "points", "x"))
+    check(len(np.unique(cells)) == len(cells) and cells.min() >= mesh.ids, "ids: cells")
+    where = {}
+    for p, at in zip(points, x):
+        check(where.setdefault(int(p), tuple(at)) == tuple(at), f"ids: point {p} at two places")
+    surface = np.flatnonzero((mesh.node == 0).any(axis=1) | (mesh.node == mesh.n).any(axis=1))
+    check(all(where.get(int(p) + mesh.ids) == tuple(mesh.x[p]) for p in surface), "ids: points of the surface")
+    check(len(set(where.values())) == len(where), "ids: two ids at one place")
+    # One id at two places is no id.
+    bad = mesh.piece()
+    if rank == 1:
+        bad.GetPoints().SetPoint(int(np.argmin(vtk_to_numpy(bad.GetPoints().GetData())[:, 0])), 0.4, 0.41, 0.42)
+    f = run(bad)
+    check(f.GetErrorCode() != 0 and f.GetOutput().GetNumberOfCells() == 0, "ids: a point at two places")
+    check(rank > 0 or "other coordinates" in "".join(f.told), f"ids: {f.told}")
+
+
+def test_data():
+    """Fields are as exact as alone, cell data come from the parent, nodes of fixed points stay."""
+    mesh = Mesh()
+    mesh.points["linear"] = mesh.x @ [1.0, 2.0, 3.0]
+    mesh.points["square"] = (mesh.x ** 2) @ [1.0, 1.0, 1.0]
+    mesh.points["place"] = (mesh.x * 1000).astype(np.int32)
+    mesh.points["fixed"] = ((np.arange(len(mesh.x)) % 11) == 0).astype(np.uint8)
+    mesh.values["cell"] = np.arange(len(mesh.cells), dtype=np.float32)
+
+    def fix(f):
+        f.SetFixedPointArray("fixed")
+    f = run(mesh.piece(), True, fix)
+    compare("data", f, corners(mesh.whole()))
+
+    start = corners(mesh.whole())
+    inverse = np.linalg.inv(np.transpose(start[:, 1:] - start[:, :1], (0, 2, 1)))
+
+    def sample(name, x):
+        """Values of the input at x, interpolated between the corners of the cell there."""
+        w = np.einsum("cij,pcj->pci", inverse, x[:, None] - start[:, 0])
+        w = np.concatenate([1 - w.sum(axis=2, keepdims=True), w], axis=2)
+        at = w.min(axis=2).argmax(axis=1)
+        return (mesh.points[name][mesh.cells[at]] * w[np.arange(len(x)), at]).sum(axis=1)
+    x = vtk_to_numpy(f.GetOutput().GetPoints().GetData())
+    data = f.GetOutput().GetPointData()
+    for name in ("linear", "square"):
+        error = np.abs(vtk_to_numpy(data.GetArray(name)) - sample(name, x)).max(initial=0)
+        check(error < 1e-12, f"data: {name} is off by {error}, which is not one interpolation")
+    new = set(map(tuple, x)) - set(map(tuple, mesh.x))
+    check(sum(gather(new=np.array(len(new)))["new"]) > 50, "data: the test is too easy")
+    place = vtk_to_numpy(data.GetArray("place"))
+    check(np.abs(place / 1000 - x).max(initial=0) < 0.3, "data: integers")
+    x = {tuple(p) for p in np.concatenate(gather(x=x)["x"])}
+    check(all(tuple(p) in x for p in mesh.x[mesh.points["fixed"] == 1]), "data: fixed points")
+    check(f.GetOutput().GetCellData().GetArray("cell").GetDataTypeAsString() == "float", "data: cell array")
+
+
+def test_regions():
+    """The interface of two regions is kept bit for bit; it lies in all pieces, or on their border."""
+    for axis in (0, 1):
+        mesh = Mesh(n=6, keep=lambda x: x[:, 0] == 0.5)
+        mesh.values["region"] = (mesh.centers()[:, 0] > 0.5).astype(np.int32)
+
+        def choose(f):
+            f.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "region")
+        serial, f = alone(mesh, choose), run(mesh.piece(axis), True, choose)
+        tets = compare(f"regions {axis}", f, corners(mesh.whole()), serial)
+        of = np.concatenate(gather(of=vtk_to_numpy(f.GetOutput().GetCellData().GetArray("region")))["of"])
+        before = facets(corners(mesh.whole()), mesh.values["region"])[0]
+        check(rank > 0 or len(before) == 72 and np.array_equal(before, facets(tets, of)[0]), f"regions {axis}: another interface")
+
+
+def test_crack():
+    """A crack of doubled nodes stays open: across the borders, and along one if there are ids."""
+    for axis, ids in ((1, False), (1, 10), (2, 10)):
+        mesh = Mesh(n=6, keep=lambda x: x[:, 2] == 0.5)
+        lips = (mesh.node[:, 2] == 3) & (mesh.node[:, 0] < 4)
+        twin = np.arange(len(mesh.x))
+        twin[lips] = len(mesh.x) + np.arange(lips.sum())
+        above = mesh.centers()[:, 2] > 0.5
+        mesh.cells[above] = twin[mesh.cells[above]]
+        mesh.x, mesh.node = (np.concatenate([a, a[lips]]) for a in (mesh.x, mesh.node))
+        mesh.ids = ids
+        f = run(mesh.piece(axis, 2 if axis == 2 and ranks == 2 else None))
+        compare(f"crack {axis} {ids}", f, corners(mesh.whole()))
+        if ids:
+            points = np.concatenate(gather(p=vtk_to_numpy(f.GetOutput().GetPointData().GetGlobalIds()))["p"])
+            check(set(np.concatenate([np.flatnonzero(lips), twin[lips]]) + ids) <= set(points), "crack: nodes are gone")
+        out = f.GetOutput()
+        cells = vtk_to_numpy(out.GetCells().GetConnectivityArray()).reshape(-1, 4) if out.GetNumberOfCells() else np.zeros((0, 4), int)
+        name = vtk_to_numpy(out.GetPointData().GetGlobalIds()) if ids else np.arange(out.GetNumberOfPoints()) + rank * 10 ** 6
+        every = gather(sides=name[cells[:, FACETS]].reshape(-1, 3), places=corners(out)[:, FACETS].reshape(-1, 3, 3))
+        sides, places = (np.concatenate(every[k]) for k in ("sides", "places"))
+        inside = (places[:, :, 2] == 0.5).all(axis=1) & (places[:, :, 0] <= 0.5 + 1e-9).all(axis=1)
+        number = np.unique(np.sort(sides[inside], axis=1), axis=0, return_counts=True)[1]
+        check(len(number) == 72 and number.max(initial=0) == 1, f"crack {axis} {ids}: {len(number)} facets, {number.max(initial=0)} cells")
+
+
+def test_one_rank():
+    """All on one rank: divided first. One rank without cells, and no cells at all."""
+    mesh = Mesh(n=6)
+    mesh.points["linear"] = mesh.x @ [1.0, 2.0, 3.0]
+    serial = alone(mesh)
+    for where in range(2):
+        f = run(mesh.grid(np.full(len(mesh.cells), rank == where)))
+        compare(f"all on rank {where}", f, corners(mesh.whole()), serial)
+        out = f.GetOutput()
+        check(out.GetNumberOfCells() > 0.1 * len(mesh.cells) / ranks, f"all on rank {where}: not divided")
+        x = vtk_to_numpy(out.GetPoints().GetData())
+        values = vtk_to_numpy(out.GetPointData().GetArray("linear"))
+        check(np.abs(values - x @ [1.0, 2.0, 3.0]).max(initial=0) < 1e-12, f"all on rank {where}: data")
+    if ranks > 2:
+        f = run(mesh.piece(count=2))
+        compare("one without cells", f, corners(mesh.whole()), serial)
+    f = run(vtkUnstructuredGrid())
+    check((f.GetWorstQualityBefore(), f.GetWorstQualityAfter(), f.GetQualityBound()) == (0, 0, 0), "nothing: figures")
+    check(f.told == [] and f.GetStopReason() == vtkMeshOptimizeFilter.NothingToDo, f"nothing: {f.told}")
+
+
+def test_budget():
+    """The growth budget is that of the whole run, all ranks and rounds together."""
+    mesh = Mesh()
+    for budget in (0.0, 0.02):
+        f = run(mesh.piece(), GrowthBudget=budget)
+        cells = len(compare(f"budget {budget}", f, corners(mesh.whole())))
+        check(cells <= (1 + budget) * len(mesh.cells), f"budget {budget}: {len(mesh.cells)} cells, then {cells}")
+
+
+def test_stops():
+    """Time limit and abort on one rank reach all; the mesh is whole."""
+    mesh = Mesh()
+    f = run(mesh.piece(), TimeLimit=1e-6)
+    compare("late", f, corners(mesh.whole()))
+    check(f.GetStopReason() == vtkMeshOptimizeFilter.TimeLimitReached, f"late: {f.GetStopReasonAsString()}")
+    for after in (0.0, 0.69):  # in the pieces, and at the borders
+        def abort(f):
+            if rank == ranks - 1:
+                f.AddObserver(vtkCommand.ProgressEvent, lambda o, e: o.SetAbortExecute(o.GetProgress() > after))
+        f = run(mesh.piece(), True, abort)
+        compare(f"abort after {after}", f, corners(mesh.whole()))
+        check(f.GetStopReason() == vtkMeshOptimizeFilter.Aborted, f"abort after {after}: {f.GetStopReasonAsString()}")
+
+
+def test_errors():
+    """An error on one rank is one on all, told once, with the rank; what is not built is told once, too."""
+    mesh = Mesh(n=4)
+    bad = mesh.piece()
+    if rank == 1:
+        bad.GetPoints().SetPoint(3, np.nan, 0.0, 0.0)
+    f = run(bad)
+    check(f.GetErrorCode() != 0 and f.GetOutput().GetNumberOfCells() == 0, "errors: no error")
+    check(len(f.told) == (rank == 0) and all("Rank 1: " in text for text in f.told), f"errors: {f.told}")
+    f = run(mesh.piece(), BoundaryMode=vtkMeshOptimizeFilter.Slide)
+    check(f.GetErrorCode() != 0 and len(f.told) == (rank == 0), f"errors: Slide {f.told}")
+    x, cells = mesh.x[mesh.node[:, 2] == 0], np.array([[0, 1, 5], [1, 6, 5]])
+    composite = lambda: (lambda c: c.SetBlock(0, mesh.piece()) or c)(__import__(
+        "vtkmodules.vtkCommonDataModel", fromlist=["x"]).vtkMultiBlockDataSet())
+    for name, grid, options in (("below", mesh.piece(), {"OptimizeBelow": 0.3}), ("paper", mesh.piece(), {"Algorithm": 0}),
+                                ("triangles", make_grid(x, cells), {}), ("composite", composite(), {})):
+        f = run(grid, **options)
+        check(f.GetErrorCode() == 0 and len(f.told) == (rank == 0), f"errors: {name} {f.told}")
+        check(rank > 0 or "borders between the ranks' pieces are kept" in f.told[0], f"errors: {name} {f.told}")
+        check(f.GetOutputDataObject(0).GetNumberOfElements(1) > 0, f"errors: {name} without output")
+
+
+def fail(*what):
+    """The others must not wait for a rank whose script has failed."""
+    traceback.print_exception(*what)
+    sys.stderr.flush()
+    os._exit(1)
+
+
+sys.excepthook = fail
+chosen = sys.argv[1:]
+for name, test in list(globals().items()):
+    if name.startswith("test_") and (not chosen or name in chosen):
+        test()
+        for failure in failures[:5]:
+            print(f"FAILED on rank {rank}, {name}:", failure, flush=True)
+        if sum(len(rows) for rows in gather(failed=np.zeros(len(failures)))["failed"]):
+            sys.exit(1)
+if rank == 0:
+    print(f"{ranks} ranks: all fine")
