@@ -28,7 +28,8 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
     again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
       now > before * (1.0 + WideGain) && this->isFarBelowBound();
     this->reserve_ = isLast && !again ? 0 : this->reserve_;
-    const bool many = this->run_.report.history.back().belowTarget > this->fewCells();
+    const bool many = !this->slides() &&
+      this->run_.report.history.back().belowTarget > this->fewCells();
     // The best effort polishes finely in any case, at the end of the run.
     const bool finely = many && isLast && this->options_.effort != Effort::Best;
     if (more && !again && finely && this->isFarBelowBound())
@@ -93,8 +94,9 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     // The worst cell gained enough: start again with the smallest neighbourhood.
     const double least = isWide ? WideGain : RoundGain * this->gain_;
     // Few cells cost little: where the surface takes part, these go on while they gain at all.
-    const bool areFew = this->slides() && worst.size()<wanted&& this->worst()> before;
-    if (this->worst() > before + least * std::fabs(before) || areFew)
+    const double now = this->worst();
+    const bool areFew = this->slides() && worst.size() < wanted && now > before;
+    if (now > before + least * std::fabs(before) || areFew)
     {
       layers = 0;
       wanted = isWide ? wanted : PolishedCells;
