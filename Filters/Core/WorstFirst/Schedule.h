@@ -104,13 +104,16 @@ private:
     return (this->caps_.bound() < 1.0 || this->slides()) &&
       this->worst() < NearBound * this->caps_.bound();
   }
-  /// Whether the many bad cells are left as they are from now on: a pass over them creeps, and the
-  /// surface, that holds most of such cells, is kept. Only the worst get more effort.
-  bool givesUpMany(double target, long bad) const
+  /// Whether the many bad cells are left as they are from now on: the last pass over them crept, and
+  /// the surface, that holds most of such cells, is kept. Only the worst get more effort. `badBefore`:
+  /// before the pass that made them `bad`, 0 before the first one.
+  bool givesUpMany(double target, long bad, long badBefore) const
   {
+    const double cells = static_cast<double>(this->mesh().countCells());
     const bool isQuick = this->options_.effort == Effort::Quick && target > Stages[0];
     return this->guard_ && this->creeps_ && !this->slides() &&
-      bad > (isQuick ? ManyStuckQuick : ManyStuck) * static_cast<double>(this->mesh().countCells());
+      ((isQuick && bad > ManyStuckQuick * cells) ||
+        (badBefore > 0 && bad > HopelesslyMany * badBefore && bad > ManyStuck * cells));
   }
   /// How hard a try is, to compare with an earlier failure. Tries without guard are the hardest.
   int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }

@@ -59,7 +59,7 @@ bool Schedule<D, Shape>::stage(double target)
     }
     const bool isSpent = !this->guard_ && !this->isPast(this->polishTarget_) &&
       this->looks_ >= this->mostLooks();
-    const bool leavesMany = this->givesUpMany(target, below);
+    const bool leavesMany = this->givesUpMany(target, below, belowBefore);
     this->leavesMany_ |= leavesMany;
     if (isSpent || leavesMany)
     {
