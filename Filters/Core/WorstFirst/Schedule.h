@@ -104,9 +104,9 @@ private:
     return (this->caps_.bound() < 1.0 || this->slides()) &&
       this->worst() < NearBound * this->caps_.bound();
   }
-  /// Whether the many bad cells are left as they are from now on: the last pass over them crept, and
-  /// the surface, that holds most of such cells, is kept. Only the worst get more effort. `badBefore`:
-  /// before the pass that made them `bad`, 0 before the first one.
+  /// Whether the many bad cells are left as they are from now on: the last pass over them crept,
+  /// and the surface, that holds most of such cells, is kept. Only the worst get more effort.
+  /// `badBefore`: before the pass that made them `bad`, 0 before the first one.
   bool givesUpMany(double target, long bad, long badBefore) const
   {
     const double cells = static_cast<double>(this->mesh().countCells());
