@@ -87,9 +87,9 @@ inline constexpr long Creeping = 5;
 /// rounds, by effort.
 inline constexpr long CreepingPart = 2, CreepingTries = 100, CreepingLift = 10;
 inline constexpr int CreepingRounds[] = { 0, 8, 20 };
-/// A run that creeps gives up the many if they are more than the fraction ManyStuck of the cells, and
-/// a pass leaves more than HopelesslyMany of them; a quick run past the first stage in any case, if
-/// they are more than ManyStuckQuick.
+/// A run that creeps gives up the many if they are more than the fraction ManyStuck of the cells,
+/// and a pass leaves more than HopelesslyMany of them; a quick run past the first stage in any
+/// case, if they are more than ManyStuckQuick.
 inline constexpr double ManyStuck = 0.8, ManyStuckQuick = 0.05, HopelesslyMany = 0.98;
 /// A stage ends if many cells are bad, and a pass leaves more than this fraction of them and does
 /// not lift the worst one.
