@@ -152,7 +152,8 @@ def volume(tets):
 
 def figures_of(f):
     return [getattr(f, "Get" + n)() for n in ("WorstQualityBefore", "WorstQualityAfter", "MeanQualityBefore",
-            "MeanQualityAfter", "QualityBound", "NumberOfCappedCells", "StopReason", "NumberOfOperations")]
+            "MeanQualityAfter", "QualityBound", "NumberOfCappedCells", "StopReason", "NumberOfOperations",
+            "NumberOfEvaluations")]
 
 
 def compare(name, f, before, serial=None):
@@ -167,6 +168,7 @@ def compare(name, f, before, serial=None):
     check(np.array_equal(old[count == 1], new[now == 1]), f"{name}: another surface")
     check(abs(volume(tets) / volume(before) - 1) < 1e-12, f"{name}: another volume")
     check(len({tuple(row) for row in gather(figures=figures_of(f))["figures"]}) == 1, f"{name}: figures differ by rank")
+    check(f.GetNumberOfEvaluations() > f.GetNumberOfOperations(), f"{name}: {f.GetNumberOfEvaluations()} evaluations")
     if serial:
         check(f.GetWorstQualityAfter() >= 0.98 * serial.GetWorstQualityAfter(),
               f"{name}: worst {f.GetWorstQualityAfter()}, alone {serial.GetWorstQualityAfter()}")

@@ -38,13 +38,13 @@ template <class Shape>
 double SmallPolyhedron<Shape>::quality(const PolyhedronSearch::Tetrahedron& t) const
 {
   const auto [a, b, c, d] = t;
-  ++evaluationsOfThread;
   if constexpr (QualityModel<3, Shape>::HasSum)
   {
     // Weights of edges are computed once for each pair of points, when a point comes: a cell costs
     // six additions and a determinant.
     if (this->model_->fast())
     {
+      ++evaluationsOfThread;
       const Vec<3> u = this->x_[b] - this->x_[a], v = this->x_[c] - this->x_[a];
       return EdgeSum<Shape>::quality(u.cross(v).dot(this->x_[d] - this->x_[a]),
         this->weight_[a][b] + this->weight_[a][c] + this->weight_[a][d] + this->weight_[b][c] +
@@ -53,9 +53,9 @@ double SmallPolyhedron<Shape>::quality(const PolyhedronSearch::Tetrahedron& t) c
   }
   if (this->model_->plain)
   {
+    ++evaluationsOfThread;
     return Shape::value(Corners<3>{ this->x_[a], this->x_[b], this->x_[c], this->x_[d] });
   }
-  --evaluationsOfThread; // the model counts it
   return (*this->model_)(Simplex<3>{ this->ids_[a], this->ids_[b], this->ids_[c], this->ids_[d] });
 }
 

@@ -22,6 +22,7 @@
 
 #include "Mesh/Cluster.h"
 #include "Quality/ElementQuality.h"
+#include "Quality/Evaluations.h"
 #include "Reposition/MinNormPoint.h"
 
 #include <algorithm>
@@ -112,6 +113,7 @@ void LocalAlgorithm<D, Shape>::formPoints(const Cluster<D>& cluster, double wors
     const int k = this->active_[a];
     SparsePoint<D>& w = this->points_[a];
     this->quality_.gradient(cluster.corners(k), this->metric(k), g);
+    ++evaluationsOfThread;
     w.first = cluster.quality[k] - worst;
     w.count = 0;
     for (int i = 0; i <= D; ++i)
@@ -196,6 +198,7 @@ bool LocalAlgorithm<D, Shape>::tryStep(const Cluster<D>& cluster, double lambda,
       x[i] = this->trialX_[cluster.nodes[k][i]];
     }
     const double q = this->quality_.value(x, this->metric(k));
+    ++evaluationsOfThread;
     if (!(q >= required) || (q <= 0.0 && cluster.quality[k] > 0.0))
     {
       return false;

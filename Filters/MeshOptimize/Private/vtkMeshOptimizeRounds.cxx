@@ -257,6 +257,7 @@ void Rounds::OptimizePieces()
   this->Result.NumberOfCellsBefore = this->All.Sum(run.NumberOfCellsBefore);
   this->Result.NumberOfReorientedCells = this->All.Sum(run.NumberOfReorientedCells);
   this->Result.NumberOfOperations = this->All.Sum(run.NumberOfOperations);
+  this->Result.Report.evaluations = this->All.Sum(run.Report.evaluations);
   this->Result.Overlap = FirstOf(this->All, run.Overlap);
   this->RecordInput(run);
   this->Record("pieces", run);
@@ -328,6 +329,7 @@ void Rounds::Round(int round)
   problem = Compare(before, Sign(this->All, this->Mine), false);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
+  this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);
   this->Record("borders", run);
   this->WaitWhereStuck();
   this->MustStop(run);

@@ -58,8 +58,10 @@ TEST(LocalAlgorithm, NothingWorseAndQualitiesTrue)
     SimplexMesh<3> mesh = buildMesh(jitteredGrid<3>(4, 0.3, seed));
     Cluster<3> cluster = clusterOf(mesh, 6 * 21, 1);
     EXPECT_GT(cluster.numberOfMoving, 8);
+    const EvaluationCount count;
     const LocalResult result = solve(cluster);
     EXPECT_GT(result.after, result.before);
+    EXPECT_GE(count.get(), 2 * result.iterations) << "each step a gradient and a value";
     const ElementQuality<3, MeanEdgeShape<3>> quality{ 0.0 };
     double worst = 1.0;
     for (std::size_t k = 0; k < cluster.cells.size(); ++k)
