@@ -56,9 +56,12 @@ missing() {
   done
 }
 
+# Unsafe means: dpkg does not wait until each file is on the disk. Some 430 packages come for ParaView, and wait minutes else.
+# The disk is synchronized once, at the end.
 apt_install() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-    -o DPkg::Lock::Timeout=600 -o Dpkg::Use-Pty=0 "$@" > /dev/null
+    -o DPkg::Lock::Timeout=600 -o Dpkg::Use-Pty=0 -o Dpkg::Options::=--force-unsafe-io "$@" > /dev/null
+  sync
 }
 
 # Installs what is missing of the core's packages and the given ones. In a new build folder the core, which is most of the

@@ -6,6 +6,8 @@
 #include "Metric/Gradation.h"
 #include "Metric/MetricVolume.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

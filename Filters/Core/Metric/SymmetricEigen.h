@@ -6,8 +6,6 @@
 
 #include "Mesh/Types.h"
 
-#include <Eigen/Eigenvalues>
-
 namespace meshopt
 {
 /// A symmetric tensor Q diag(values) Q'.
@@ -19,19 +17,7 @@ struct SymmetricEigen
 
   /// `m` must be finite; only its lower half is read. Safe for all magnitudes, since m is scaled
   /// first.
-  static SymmetricEigen of(const Tensor<D>& m)
-  {
-    SymmetricEigen e;
-    const double scale = m.cwiseAbs().maxCoeff();
-    if (scale > 0.0)
-    {
-      const Eigen::Matrix<double, D, D> scaled = m / scale;
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> solver(scaled);
-      e.vectors = solver.eigenvectors();
-      e.values = scale * solver.eigenvalues();
-    }
-    return e;
-  }
+  static SymmetricEigen of(const Tensor<D>& m);
 
   /// The tensor; symmetric to the last bit.
   Tensor<D> compose() const

@@ -38,23 +38,7 @@ class Improver
 public:
   /// Parameters: see Judge.
   Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const Switches& switches,
-    const Surface<D>* surface = nullptr, const Caps<D>* caps = nullptr)
-    : judge_(editor, model, switches, surface, caps)
-  {
-    // The cells that an insertion made worse are improved by all operations of this level. Motion
-    // of clusters has a higher level of its own, but here it is tried from Level::Insertion on.
-    std::get<LookAhead<D, Shape>>(this->operations_)
-      .setImprove(
-        [this](Index t, int level)
-        {
-          return this->improve(t, level) ||
-            (level >= Level::Insertion && this->judge_.switches().moveNodes &&
-              (std::get<SurfaceMotion<D, Shape>>(this->operations_)
-                  .improve(this->judge_, t, level) ||
-                std::get<ClusterMotion<D, Shape>>(this->operations_)
-                  .improve(this->judge_, t, level)));
-        });
-  }
+    const Surface<D>* surface = nullptr, const Caps<D>* caps = nullptr);
   Improver(const Improver&) = delete;
   Improver& operator=(const Improver&) = delete;
 
@@ -62,20 +46,10 @@ public:
 
   /// Tries to improve the neighbourhood of cell t, so that its quality rises. True on success; the
   /// judge's changed() then lists the cells concerned.
-  bool improve(Index t, int level)
-  {
-    this->judge_.start();
-    return std::apply([&](auto&... operation)
-      { return (this->attempt(operation, t, level) || ...); },
-      this->operations_);
-  }
+  bool improve(Index t, int level);
 
   /// Tries only changes of connectivity at cell t: edge and face removal. True if one helped.
-  bool swap(Index t)
-  {
-    this->judge_.start();
-    return std::get<Reconnect<D, Shape>>(this->operations_).improve(this->judge_, t, 0);
-  }
+  bool swap(Index t);
 
 private:
   template <class Operation>
@@ -97,6 +71,44 @@ private:
   Judge<D, Shape> judge_;
   OperationList<D, Shape> operations_;
 };
+
+template <int D, class Shape>
+Improver<D, Shape>::Improver(MeshEditor<D>& editor, const QualityModel<D, Shape>& model,
+  const Switches& switches, const Surface<D>* surface, const Caps<D>* caps)
+  : judge_(editor, model, switches, surface, caps)
+{
+  // The cells that an insertion made worse are improved by all operations of this level. Motion
+  // of clusters has a higher level of its own, but here it is tried from Level::Insertion on.
+  std::get<LookAhead<D, Shape>>(this->operations_)
+    .setImprove(
+      [this](Index t, int level)
+      {
+        return this->improve(t, level) ||
+          (level >= Level::Insertion && this->judge_.switches().moveNodes &&
+            (std::get<SurfaceMotion<D, Shape>>(this->operations_).improve(this->judge_, t, level) ||
+              std::get<ClusterMotion<D, Shape>>(this->operations_)
+                .improve(this->judge_, t, level)));
+      });
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::improve(Index t, int level)
+{
+  this->judge_.start();
+  return std::apply([&](auto&... operation) { return (this->attempt(operation, t, level) || ...); },
+    this->operations_);
+}
+
+template <int D, class Shape>
+bool Improver<D, Shape>::swap(Index t)
+{
+  this->judge_.start();
+  return std::get<Reconnect<D, Shape>>(this->operations_).improve(this->judge_, t, 0);
+}
+
+// The size stage uses these, too. Compiled once, with the part of the engine that they belong to.
+extern template class Improver<2, MeanEdgeShape<2>>;
+extern template class Improver<3, MeanEdgeShape<3>>;
 }
 
 #endif

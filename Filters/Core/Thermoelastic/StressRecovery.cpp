@@ -3,9 +3,9 @@
 // looks across a jump of the stress.
 #include "Thermoelastic/StressRecovery.h"
 
+#include "Metric/SymmetricEigen.h"
 #include "Thermoelastic/Parallel.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -73,10 +73,9 @@ Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D
     fit.slope += (stress[*c] - fit.mean) * d.transpose();
   }
   const Eigen::Matrix<double, D, D> aligned = spread;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> eigen(
-    aligned, Eigen::EigenvaluesOnly);
+  const Vec<D> extent = SymmetricEigen<D>::of(spread).values; // squares of widths
   // Only the ratio of extents matters, so that the test does not depend on units.
-  fit.isValid = eigen.eigenvalues()[0] > ThinnestPatch * eigen.eigenvalues()[D - 1];
+  fit.isValid = extent[0] > ThinnestPatch * extent[D - 1];
   if (fit.isValid)
   {
     fit.slope = (fit.slope * aligned.inverse()).eval();

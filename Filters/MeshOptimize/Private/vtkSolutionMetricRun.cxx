@@ -19,6 +19,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include <cmath>
 #include <cstring>
 #include <limits>

@@ -6,6 +6,8 @@
 
 #include "TestMeshes.h"
 
+#include <Eigen/LU>
+
 #include <functional>
 
 using namespace meshopt;
