@@ -205,14 +205,17 @@ def print_row(name, effort, r, opt):
 
 
 def print_summary(results, efforts):
-    print("\n| effort | runs | us/tet: median | greatest | bare passes: median | greatest | ratio: least | cells under .2, all |")
-    print("|---|---|---|---|---|---|---|---|")
+    print("\n| effort | runs | us/tet: median | 95 % | greatest | bare passes: median | greatest | ratio: least | cells under .2, all |")
+    print("|---" * 9 + "|")
     for effort in efforts:
         of = [r for (_, e), r in results.items() if e == effort]
         if of:
             us, bare = [r["us_per_tet"] for r in of], [passes(r) for r in of]
-            print(f"| {effort} | {len(of)} | {statistics.median(us):.3g} | {max(us):.3g} | {statistics.median(bare):.0f} "
-                  f"| {max(bare):.0f} | {min(ratio(r) for r in of):.3g} | {sum(r['poor'] for r in of)} |")
+            print(f"| {effort} | {len(of)} | {statistics.median(us):.3g} | {np.quantile(us, 0.95):.3g} | {max(us):.3g} "
+                  f"| {statistics.median(bare):.0f} | {max(bare):.0f} | {min(ratio(r) for r in of):.3g} | {sum(r['poor'] for r in of)} |")
+    for effort in efforts if len(results) > 10 * len(efforts) else []:
+        low = sorted((ratio(r), name) for (name, e), r in results.items() if e == effort)[:10]
+        print(f"\n{effort}, lowest ratios: " + ", ".join(f"{name} {value:.3g}" for value, name in low))
 
 
 def verdict(then, now):
