@@ -26,7 +26,7 @@ namespace
 // The core numbers points and cells with 32 bits, and facets with 32 bits of which 2 are the local
 // number.
 constexpr vtkIdType MaximumNumberOfPoints = vtkIdType(1) << 30;
-constexpr vtkIdType MaximumNumberOfCells = vtkIdType(1) << 29;
+using meshopt::MaximumNumberOfCells;
 
 /**
  * Dimension of cells by VTK type. Each type is asked for only once.

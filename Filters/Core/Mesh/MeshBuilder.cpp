@@ -82,7 +82,7 @@ struct MeshBuilder
       return this->error(std::string(what) + " has " + std::to_string(have) + " values for " +
         std::to_string(want) + " " + of + ".");
     };
-    if (this->input.cells.size() > (std::size_t(1) << 29))
+    if (this->input.cells.size() > static_cast<std::size_t>(MaximumNumberOfCells))
     {
       // Handles are then under 2^31: they fit into an Index, and with a bit for parity into 32
       // bits.

@@ -14,6 +14,7 @@ namespace meshopt
 /// Id of a point or a cell. 32 bits: at most 2^29 cells, since a facet handle is 4 * cell + facet.
 using Index = std::int32_t;
 inline constexpr Index None = -1;
+inline constexpr long MaximumNumberOfCells = 1L << 29;
 
 /// A point or vector of D coordinates; not over-aligned, so that records stay packed.
 template <int D>

@@ -69,12 +69,14 @@ void Optimizer<D>::optimize()
   }
   if (this->run_.options.algorithm == Algorithm::Paper1996)
   {
-    // The paper knows no budget: growth stays unlimited.
+    // The paper knows no budget: growth is limited by nothing but the number of ids.
+    this->run_.growth = roomToGrow(input.cells);
     const Options& o = this->run_.options;
     optimizePaper1996<D>(this->run_, o.targetQuality, o.lookAhead);
     return;
   }
-  const long growth = growthOf(this->run_.options, input.cells, D);
+  const long growth = std::min(
+    growthOf(this->run_.options, input.cells, D), roomToGrow(input.cells));
   this->run_.growth = growth;
   const bool isTangled = input.worst < -FlatQuality;
   if (isTangled && !this->untangle())
@@ -192,7 +194,8 @@ void Optimizer<D>::followAndOptimize(NodalMetric<D>& followed, double growth)
   }
   const auto cells = static_cast<double>(run.report.history.back().cells);
   const double part = std::min(growth, std::max(GrowthAfterSizes, CellsOfTwoNodes<D> / cells));
-  run.growth = std::lround(part * static_cast<double>(run.mesh().countCells()));
+  const long after = run.mesh().countCells();
+  run.growth = std::min(std::lround(part * static_cast<double>(after)), roomToGrow(after));
   const Clock::Part improving(run.clock, Sized, 1.0);
   optimizeWorstFirst<D>(run);
 }

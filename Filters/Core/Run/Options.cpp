@@ -2,6 +2,8 @@
 // Checks options before a run, so that no later step has to doubt them.
 #include "Run/Options.h"
 
+#include "Mesh/Types.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -110,5 +112,10 @@ long growthOf(const Options& options, long cells, int dimension)
   const long least = dimension == 3 ? 30 : 10;
   const double most = std::floor(options.growthBudget * static_cast<double>(cells));
   return options.growthBudget > 0.0 ? std::max(least, static_cast<long>(most)) : 0;
+}
+
+long roomToGrow(long cells)
+{
+  return std::max(0L, (MaximumNumberOfCells - cells) / 2);
 }
 }

@@ -61,6 +61,10 @@ struct Options : Switches
 /// rounded down. At least 30 in 3D and 10 in 2D if growthBudget > 0, since in a small mesh the
 /// fraction would not leave room for a single node.
 long growthOf(const Options& options, long cells, int dimension);
+
+/// The number of cells that a mesh of `cells` cells can gain until ids run out: half of those that
+/// are left, since threads hold ids in reserve. Whatever the options say.
+long roomToGrow(long cells);
 }
 
 #endif

@@ -71,9 +71,11 @@ template <int D>
 bool SizeStage<D>::follow(double predicted)
 {
   this->run_.report.sizes.predictedCells = predicted;
+  const long cells = this->mesh().countCells();
   this->mostCells_ = BrakeSlack +
-    static_cast<long>(BrakeFactor *
-      std::clamp(predicted, static_cast<double>(this->mesh().countCells()), MostPredicted));
+    static_cast<long>(
+      BrakeFactor * std::clamp(predicted, static_cast<double>(cells), MostPredicted));
+  this->mostCells_ = std::min(this->mostCells_, cells + roomToGrow(cells));
   // Beginning with the longest edges, the target for splitting is halved in each round. Only the
   // rounds after that count.
   this->longest_ = std::max(Longest, 0.5 * this->longestEdge());

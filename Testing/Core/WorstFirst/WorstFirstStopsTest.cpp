@@ -104,6 +104,9 @@ TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
   EXPECT_EQ(growthOf(options, 10007, 3), 1000);
   options.growthBudget = 0.0;
   EXPECT_EQ(growthOf(options, 12, 2), 0);
+  // Ids run out at 2^29 cells, whatever the budget is.
+  EXPECT_EQ(roomToGrow(MaximumNumberOfCells - 100), 50);
+  EXPECT_EQ(roomToGrow(MaximumNumberOfCells), 0);
 }
 
 // ---- why it stops -------------------------------------------------------------------------------
