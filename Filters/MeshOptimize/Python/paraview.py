@@ -105,9 +105,13 @@ def _chart(name, kind):
 
 
 def _show_bars(measure, chart):
-    bars = simple.Show(simple.OutputPort(measure, 2), chart)
-    bars.UseIndexForXAxis, bars.XArrayName, bars.SeriesVisibility = 0, "BinCenter", ["Count"]
+    """Logarithmic, or the few bad elements could not be seen beside the many others."""
+    simple.Show(simple.OutputPort(measure, 2), chart)  # its columns: ParaViewPlugin/Charts.xml
     chart.BottomAxisTitle, chart.LeftAxisTitle, chart.ShowLegend = "quality", "elements", 0
+    counts = servermanager.Fetch(measure, idx=2).GetColumnByName("Count")
+    elements = sum(counts.GetValue(k) for k in range(counts.GetNumberOfTuples()))
+    chart.LeftAxisLogScale = chart.LeftAxisUseCustomRange = 1  # a bin without elements has no logarithm
+    chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 0.5, 10 ** math.ceil(math.log10(max(elements, 2)))
 
 
 def show_worst_elements(source=None, number=10):
@@ -204,13 +208,7 @@ def show_history(optimized=None):
         optimized.UpdatePipeline()
         optimized.UpdatePropertyInformation()
         chart = _chart("History", "XYChartView")
-        lines = simple.Show(simple.OutputPort(optimized, 1), chart)
-        lines.UseIndexForXAxis, lines.XArrayName = 0, "Pass"
-        lines.SeriesVisibility = ["Worst", "Mean"]
-        lines.SeriesLabel = ["Worst", "worst element", "Mean", "mean"]
-        lines.SeriesColor = ["Worst", "0.8", "0.1", "0.11", "Mean", "0.2", "0.4", "0.6"]
-        lines.SeriesLineThickness = ["Worst", "3", "Mean", "2"]
-        lines.SeriesMarkerStyle = ["Worst", "4", "Mean", "0"]
+        simple.Show(simple.OutputPort(optimized, 1), chart)  # its columns: ParaViewPlugin/Charts.xml
         chart.ChartTitle = (f"worst {optimized.WorstQualityBefore:.4f} -> {optimized.WorstQualityAfter:.4f}: "
                             f"{optimized.StopReason}")
         chart.BottomAxisTitle, chart.LeftAxisTitle = "pass", "quality"
