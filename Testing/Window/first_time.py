@@ -3,7 +3,8 @@
 
     /usr/bin/python3 Testing/Window/first_time.py FOLDER [MESH.vtu]     writes pictures of the steps and better.vtu
 
-Needs Xvfb, openbox and xdotool, and ParaView 5.11: the buttons are pressed where that one has them in a window of 1400 x 880.
+Needs Xvfb, openbox and xdotool, and ParaView 5.11 or 5.13 (then with qt6-svg-plugins, for the icons): the buttons are pressed
+where these have them in a window of 1400 x 880.
 Presses of the mouse are counted; typing and shortcuts are free. PV_PLUGIN_PATH says where the plugin is (./bootstrap.sh env).
 """
 import os
