@@ -19,7 +19,7 @@ from screen import screen
 
 NEEDED = ("paraview", "openbox", "xdotool", "Xvfb")
 SIZE = 1400, 880
-APPLY = 60, 466
+APPLY = {"5.11": (60, 466), "5.13": (56, 487)}  # by version of ParaView
 BUTTONS = {"Worst elements": (800, 122), "Histogram": (900, 122), "Before and after": (1006, 122), "History": (1100, 122)}
 DATA_MODE = 760, 487  # in the dialog of the writer
 PATIENCE = 120  # seconds
@@ -38,6 +38,7 @@ class Window:
         self.rest()
         self.keys("Escape")  # the welcome
         window = self.find("ParaView 5")[-1]
+        self.version = self.xdotool("getwindowname", window).split()[1].rsplit(".", 1)[0]
         self.xdotool("windowsize", "--sync", window, *SIZE, "windowmove", window, 0, 0, "windowactivate", "--sync", window)
         self.rest()
 
@@ -85,6 +86,13 @@ class Window:
         self.xdotool("click", 1)
         self.rest()
 
+    def apply(self):
+        x, y = APPLY[self.version]
+        self.press(x, y)
+        pixel = self.display.pixels()[y - 8, x].astype(int)
+        if pixel[1] > pixel[0] + 20:
+            raise SystemExit(f"FAILED: Apply is still green: {pixel}")
+
     def keys(self, *names):
         self.xdotool("key", *names)
         self.rest()
@@ -110,7 +118,7 @@ def first_time(folder, mesh, with_pictures=True):
             window.keys("ctrl+o")
             window.type(str(mesh))
             window.keys("Return")
-            window.press(*APPLY)
+            window.apply()
             picture("1_opened")
             window.press(*BUTTONS["Worst elements"])
             picture("2_worst_elements")
@@ -118,7 +126,7 @@ def first_time(folder, mesh, with_pictures=True):
             window.type("Mesh Optimize")
             window.keys("Return")
             picture("3_mesh_optimize")
-            window.press(*APPLY)
+            window.apply()
             picture("4_applied")
             window.press(*BUTTONS["Before and after"])
             picture("5_before_and_after")
