@@ -25,6 +25,14 @@ DATA_MODE = 760, 487  # in the dialog of the writer
 PATIENCE = 120  # seconds
 
 
+def reason_to_skip(version):
+    """Why the window cannot be driven here, or nothing; `version` of ParaView."""
+    missing = [name for name in NEEDED if not shutil.which(name)]
+    if missing:
+        return f"not installed: {', '.join(missing)}"
+    return "" if version.startswith(tuple(APPLY)) else f"buttons may be elsewhere in ParaView {version}"
+
+
 class Window:
     """ParaView on a screen of its own, with the settings of a new user."""
 
