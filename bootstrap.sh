@@ -38,7 +38,10 @@ choose_release() {
       packages+=(qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools)
       test_packages+=(calculix-ccx)
       ;;
-    "debian trixie") packages+=(qt6-base-dev) ;;
+    "debian trixie")
+      packages+=(qt6-base-dev)
+      test_packages+=(python3-pyvista)
+      ;;
     *)
       echo "bootstrap.sh knows the packages of Debian 12 (bookworm) and 13 (trixie), and this is: $release" >&2
       echo "See \"Build\" in CONTRIBUTING.md: it says what to install." >&2

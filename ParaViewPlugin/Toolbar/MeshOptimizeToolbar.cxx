@@ -10,6 +10,8 @@
 #include <QMainWindow>
 #include <QToolBar>
 
+#include <dlfcn.h>
+
 #include <string>
 
 namespace
@@ -30,6 +32,40 @@ const Button Buttons[] = {
     "The mesh before and after the chosen Mesh Optimize filter, side by side" },
   { "History", "show_history",
     "The worst and the mean quality after each pass of the chosen Mesh Optimize filter" },
+};
+
+// While one is there, what happens is one step of ParaView's undo and redo. ParaView's core and its
+// stack of steps are known by their names only: their headers would need pqCore's -dev packages.
+class UndoSet
+{
+public:
+  explicit UndoSet(const char* label)
+  {
+    using Instance = QObject* (*)(); // pqApplicationCore::instance()
+    const auto instance = reinterpret_cast<Instance>(
+      dlsym(RTLD_DEFAULT, "_ZN17pqApplicationCore8instanceEv"));
+    const QObject* core = instance ? instance() : nullptr;
+    for (QObject* child : core ? core->children() : QObjectList())
+    {
+      if (child->inherits("pqUndoStack"))
+      {
+        this->Stack = child;
+        QMetaObject::invokeMethod(child, "beginUndoSet", Q_ARG(QString, QString(label)));
+      }
+    }
+  }
+  ~UndoSet()
+  {
+    if (this->Stack)
+    {
+      QMetaObject::invokeMethod(this->Stack, "endUndoSet");
+    }
+  }
+  UndoSet(const UndoSet&) = delete;
+  UndoSet& operator=(const UndoSet&) = delete;
+
+private:
+  QObject* Stack = nullptr;
 };
 
 // What goes wrong is told in one line in ParaView's output messages.
@@ -83,9 +119,12 @@ extern "C" Q_DECL_EXPORT bool MeshOptimizeToolbarAdd(const char* pythonFolder)
     QAction* action = bar->addAction(button.Text);
     action->setObjectName(button.Function);
     action->setToolTip(button.Tip);
-    const std::string function(button.Function);
-    QObject::connect(
-      action, &QAction::triggered, bar, [function, folder]() { Call(function, folder); });
+    QObject::connect(action, &QAction::triggered, bar,
+      [button, folder]()
+      {
+        const UndoSet set(button.Text);
+        Call(button.Function, folder);
+      });
   }
   window->addToolBar(bar);
   return true;

@@ -51,6 +51,8 @@ def row(prop):
 def tables_of(path):
     """The two tables of one XML file, as they must stand in the page: (kind, proxy) -> text."""
     proxy = ElementTree.parse(path).find("ProxyGroup/SourceProxy")
+    if proxy is None:  # no filter: Charts.xml
+        return {}
     properties = {p.get("name"): p for p in proxy if p.tag.endswith("VectorProperty")}
     results = [name for name, p in properties.items() if p.get("information_only") == "1"]
     rows, shown = [], set()

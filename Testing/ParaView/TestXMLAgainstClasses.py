@@ -109,6 +109,8 @@ def check_measures(where, prefix, instance, available):
 
 def check_proxy(path):
     proxy_xml = ElementTree.parse(path).getroot().find("ProxyGroup/SourceProxy")
+    if proxy_xml is None:  # no filter: Charts.xml
+        return
     proxy = proxy_xml.get("name")
     if proxy in OPTIONAL and not hasattr(meshoptimize, proxy_xml.get("class")):
         return

@@ -16,4 +16,20 @@ points = before.points.copy()
 after, report = meshoptimize.optimize(before, target_quality=0.3)
 assert type(after) is type(before) is pyvista.UnstructuredGrid
 assert (before.points == points).all() and "MeshQuality" not in before.cell_data
+assert after.active_scalars_name == "MeshQuality"
 assert after.cell_data["MeshQuality"].min() == report.worst_after > 0.25
+
+# As PyVista's users come to a mesh: by its reader, and by its filters.
+read = pyvista.read(os.path.join(os.environ["MESHOPTIMIZE_DATA"], "crack40.vtu"))
+measured = meshoptimize.quality(read)
+assert measured.minimum == report.worst_before < 0.01 and measured.cells == read.n_cells, measured
+part = read.extract_cells(range(5000))
+part.cell_data["number"] = range(5000)
+better, report = meshoptimize.optimize(part, effort="quick")
+assert type(better) is pyvista.UnstructuredGrid and "number" in better.cell_data and report.worst_after > report.worst_before
+try:
+    meshoptimize.optimize(pyvista.MultiBlock([read]))
+except TypeError as error:
+    assert "vtkMeshOptimizeFilter" in str(error), error
+else:
+    raise AssertionError("blocks are taken for one grid")

@@ -4,20 +4,19 @@
     TestFirstTime.py MESH.vtu FOLDER VERSION_OF_PARAVIEW      77, and a word, where a tool is missing, or ParaView is another
 """
 import pathlib
-import shutil
 import sys
 
 import meshoptimize
-from first_time import NEEDED, first_time
+from first_time import first_time, reason_to_skip
 
 MOST = 8
 
 
 def main():
     mesh, folder, version = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
-    missing = [name for name in NEEDED if not shutil.which(name)]
-    if missing or not version.startswith("5.11"):
-        print("skipped:", f"not installed: {', '.join(missing)}" if missing else f"buttons are elsewhere in ParaView {version}")
+    reason = reason_to_skip(version)
+    if reason:
+        print("skipped:", reason)
         return 77
     folder.mkdir(parents=True, exist_ok=True)
     presses = first_time(folder, mesh, with_pictures=False)

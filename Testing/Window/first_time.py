@@ -3,7 +3,8 @@
 
     /usr/bin/python3 Testing/Window/first_time.py FOLDER [MESH.vtu]     writes pictures of the steps and better.vtu
 
-Needs Xvfb, openbox and xdotool, and ParaView 5.11: the buttons are pressed where that one has them in a window of 1400 x 880.
+Needs Xvfb, openbox and xdotool, and ParaView 5.11 or 5.13 (then with qt6-svg-plugins, for the icons): the buttons are pressed
+where these have them in a window of 1400 x 880.
 Presses of the mouse are counted; typing and shortcuts are free. PV_PLUGIN_PATH says where the plugin is (./bootstrap.sh env).
 """
 import os
@@ -18,10 +19,18 @@ from screen import screen
 
 NEEDED = ("paraview", "openbox", "xdotool", "Xvfb")
 SIZE = 1400, 880
-APPLY = 60, 466
+APPLY = {"5.11": (60, 466), "5.13": (56, 487)}  # by version of ParaView
 BUTTONS = {"Worst elements": (800, 122), "Histogram": (900, 122), "Before and after": (1006, 122), "History": (1100, 122)}
 DATA_MODE = 760, 487  # in the dialog of the writer
 PATIENCE = 120  # seconds
+
+
+def reason_to_skip(version):
+    """Why the window cannot be driven here, or nothing; `version` of ParaView."""
+    missing = [name for name in NEEDED if not shutil.which(name)]
+    if missing:
+        return f"not installed: {', '.join(missing)}"
+    return "" if version.startswith(tuple(APPLY)) else f"buttons may be elsewhere in ParaView {version}"
 
 
 class Window:
@@ -37,6 +46,7 @@ class Window:
         self.rest()
         self.keys("Escape")  # the welcome
         window = self.find("ParaView 5")[-1]
+        self.version = self.xdotool("getwindowname", window).split()[1].rsplit(".", 1)[0]
         self.xdotool("windowsize", "--sync", window, *SIZE, "windowmove", window, 0, 0, "windowactivate", "--sync", window)
         self.rest()
 
@@ -84,6 +94,13 @@ class Window:
         self.xdotool("click", 1)
         self.rest()
 
+    def apply(self):
+        x, y = APPLY[self.version]
+        self.press(x, y)
+        pixel = self.display.pixels()[y - 8, x].astype(int)
+        if pixel[1] > pixel[0] + 20:
+            raise SystemExit(f"FAILED: Apply is still green: {pixel}")
+
     def keys(self, *names):
         self.xdotool("key", *names)
         self.rest()
@@ -109,7 +126,7 @@ def first_time(folder, mesh, with_pictures=True):
             window.keys("ctrl+o")
             window.type(str(mesh))
             window.keys("Return")
-            window.press(*APPLY)
+            window.apply()
             picture("1_opened")
             window.press(*BUTTONS["Worst elements"])
             picture("2_worst_elements")
@@ -117,7 +134,7 @@ def first_time(folder, mesh, with_pictures=True):
             window.type("Mesh Optimize")
             window.keys("Return")
             picture("3_mesh_optimize")
-            window.press(*APPLY)
+            window.apply()
             picture("4_applied")
             window.press(*BUTTONS["Before and after"])
             picture("5_before_and_after")

@@ -46,18 +46,19 @@ def _options(parser, arguments, cls):
     return options
 
 
-def _check_inputs(parser, sources):
-    for source in sources:
-        if source.suffix.lower() not in _files.SUFFIXES:
-            parser.error(f"{source}: the format is none of {', '.join(_files.SUFFIXES)}")
+def _check_formats(parser, paths):
+    for path in paths:
+        try:
+            _files.suffix_of(path)
+        except ValueError as error:
+            parser.error(str(error))
 
 
 def _targets(parser, sources, out, force):
     """A file to write for each input. Wrong use ends the program with status 2."""
     if len(sources) == 1 and not out.is_dir():
         targets = [out]
-        if out.suffix.lower() not in _files.SUFFIXES:
-            parser.error(f"{out}: the format is none of {', '.join(_files.SUFFIXES)}")
+        _check_formats(parser, targets)
         if not out.parent.is_dir():
             parser.error(f"the folder {out.parent} is not there")
     elif out.exists() and not out.is_dir() or not out.exists() and out.suffix:
@@ -123,7 +124,7 @@ def mesh_optimize(arguments=None, program="mesh-optimize"):
     parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw before and after; of one input")
     _add_properties(parser, vtkMeshOptimizeFilter)
     given = parser.parse_args(arguments)
-    _check_inputs(parser, given.sources)
+    _check_formats(parser, given.sources)
     options = _options(parser, given, vtkMeshOptimizeFilter)
     if given.picture and len(given.sources) > 1:
         parser.error("--picture is for one input")
@@ -170,7 +171,7 @@ def mesh_quality(arguments=None, program="mesh-quality"):
     parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw the mesh; of one input")
     _add_properties(parser, vtkMeshQualityMinMax)
     given = parser.parse_args(arguments)
-    _check_inputs(parser, given.sources)
+    _check_formats(parser, given.sources)
     options = _options(parser, given, vtkMeshQualityMinMax)
     if given.picture and len(given.sources) > 1:
         parser.error("--picture is for one input")

@@ -22,6 +22,14 @@ MESHIO_FORMATS = {".msh": "gmsh", ".mesh": "medit", ".meshb": "medit", ".inp": "
                   ".nas": "nastran", ".fem": "nastran"}
 SUFFIXES = (*VTK_FORMATS, *MESHIO_FORMATS)
 
+# Meshes in several parts. The calls and commands take one grid; ParaView, with the plugin, takes them as they are.
+_SCRIPT = 'from paraview.simple import *; SaveData("OUT{0}", proxy=MeshOptimize(Input=OpenDataFile("{1}")), DataMode="Binary")'
+_OF_PARTS = {
+    ".pvtu": "pieces, which ParaView optimizes on several ranks: mpirun -np 4 pvbatch ranks.py {1} OUT{0}, with ranks.py of "
+             "ParaViewPlugin/Examples",
+    **dict.fromkeys((".vtm", ".vtmb", ".vtpd", ".vtpc"), f"blocks, which ParaView optimizes. In pvpython: {_SCRIPT}"),
+}
+
 # Keywords at the beginning of a line that meshio passes over in silence, and those that it reads.
 _KEYWORDS = {
     "medit": (re.compile(r"^\s*([A-Za-z]+)\s*\d*\s*$", re.MULTILINE),
@@ -33,8 +41,10 @@ _KEYWORDS = {
 }
 
 
-def _suffix(path):
+def suffix_of(path):
     suffix = pathlib.Path(path).suffix.lower()
+    if suffix in _OF_PARTS:
+        raise ValueError(f"{path}: a file of {_OF_PARTS[suffix].format(suffix, path)}")
     if suffix not in SUFFIXES:
         raise ValueError(f"{path}: the format {suffix or 'without a suffix'} is none of {', '.join(SUFFIXES)}")
     return suffix
@@ -154,7 +164,7 @@ def read(path):
     UserWarning
         What of the file is left out.
     """
-    suffix = _suffix(path)
+    suffix = suffix_of(path)
     if not os.path.isfile(path):
         raise FileNotFoundError(f"{path} is not there")
     if suffix in VTK_FORMATS:
@@ -195,7 +205,7 @@ def write(mesh, path):
     ...     meshoptimize.read(path).GetNumberOfCells()
     1
     """
-    suffix = _suffix(path)
+    suffix = suffix_of(path)
     path = pathlib.Path(path)
     part = path.with_name(f".{path.stem}.part{suffix}")  # in the same folder, so that it can be renamed
     try:

@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkUnstructuredGrid
 
 from ._grids import CELL_OF_CORNERS, simplices, vtk_points
 from ._meshio import MeshioMesh
@@ -61,5 +61,8 @@ def adapter(mesh):
         return MeshioMesh(mesh)
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
         return ArrayMesh(*mesh)
+    if isinstance(mesh, vtkCompositeDataSet):
+        raise TypeError(f"a mesh is one grid, and a {type(mesh).__name__} is several: call optimize() for each, or "
+                        "vtkMeshOptimizeFilter, which takes all blocks as they are")
     raise TypeError("a mesh is a vtkUnstructuredGrid, a meshio.Mesh or a pair of arrays (points, cells), and this is a "
                     f"{type(mesh).__name__}")

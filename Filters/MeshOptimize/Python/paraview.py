@@ -97,17 +97,26 @@ def _finish(source, *views):
     simple.SetActiveSource(source)
 
 
-def _chart(name, kind):
+def _arrange(name, view, table=None):
+    """Puts the view into a layout of its own, the table under it.
+
+    Comes when all is shown: undo begins at the end, and ParaView 5.11 crashes where it takes a spreadsheet, which has just
+    changed, from its layout.
+    """
     layout = simple.CreateLayout(name)
-    chart = simple.CreateView(kind)
-    simple.AssignViewToLayout(chart, layout, 0)
-    return chart
+    simple.AssignViewToLayout(view, layout, 0)
+    if table:
+        simple.AssignViewToLayout(table, layout, layout.SplitVertical(0, 0.7) + 1)
 
 
 def _show_bars(measure, chart):
-    bars = simple.Show(simple.OutputPort(measure, 2), chart)
-    bars.UseIndexForXAxis, bars.XArrayName, bars.SeriesVisibility = 0, "BinCenter", ["Count"]
+    """Logarithmic, or the few bad elements could not be seen beside the many others."""
+    simple.Show(simple.OutputPort(measure, 2), chart)  # its columns: ParaViewPlugin/Charts.xml
     chart.BottomAxisTitle, chart.LeftAxisTitle, chart.ShowLegend = "quality", "elements", 0
+    counts = servermanager.Fetch(measure, idx=2).GetColumnByName("Count")
+    elements = sum(counts.GetValue(k) for k in range(counts.GetNumberOfTuples()))
+    chart.LeftAxisLogScale = chart.LeftAxisUseCustomRange = 1  # a bin without elements has no logarithm
+    chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 0.5, 10 ** math.ceil(math.log10(max(elements, 2)))
 
 
 def show_worst_elements(source=None, number=10):
@@ -124,10 +133,7 @@ def show_worst_elements(source=None, number=10):
 def _show_worst_elements(source, number):
     measure = _measured(source, NumberOfWorstCells=number)
     worst = simple.OutputPort(measure, 3)
-    layout = simple.CreateLayout("Worst elements")
     view, table = simple.CreateView("RenderView"), simple.CreateView("SpreadSheetView")
-    simple.AssignViewToLayout(view, layout, 0)
-    simple.AssignViewToLayout(table, layout, layout.SplitVertical(0, 0.7) + 1)
     _show_body(measure, view)
     _show_bad(worst, view)
     table.FieldAssociation = "Cell Data"
@@ -139,6 +145,7 @@ def _show_worst_elements(source, number):
     _look(view, centre, size, bounds[4] == bounds[5])
     view.CameraParallelProjection = 1
     view.CameraParallelScale = 0.3 * size
+    _arrange("Worst elements", view, table)
     _finish(measure, view, table)
     return view, table, measure
 
@@ -154,15 +161,10 @@ def compare_before_and_after(optimized=None):
 
 
 def _compare_before_and_after(optimized):
-    layout = simple.CreateLayout("Before and after")
-    right = layout.SplitHorizontal(0, 0.5) + 1
-    places = [layout.SplitVertical(place, 0.65) for place in (right - 1, right)]
     views, charts = [], []
-    for name, source, place in (("before", optimized.Input, places[0]), ("after", optimized, places[1])):
+    for name, source in (("before", optimized.Input), ("after", optimized)):
         measure = _measured(simple.MeshQualityMinMax(Input=source), QualityMeasure=optimized.QualityMeasure)
         view, chart = simple.CreateView("RenderView"), simple.CreateView("XYBarChartView")
-        simple.AssignViewToLayout(view, layout, place)
-        simple.AssignViewToLayout(chart, layout, place + 1)
         _show_body(measure, view)
         bad = simple.Threshold(Input=measure, Scalars=["CELLS", "MeshQuality"], LowerThreshold=BAD,
                                ThresholdMethod="Below Lower Threshold")
@@ -177,6 +179,12 @@ def _compare_before_and_after(optimized):
     bounds = measure.GetDataInformation().GetBounds()
     _look(views[0], [(low + high) / 2 for low, high in zip(bounds[::2], bounds[1::2])],
           math.dist(bounds[::2], bounds[1::2]), bounds[4] == bounds[5])
+    layout = simple.CreateLayout("Before and after")
+    right = layout.SplitHorizontal(0, 0.5) + 1
+    places = [layout.SplitVertical(place, 0.65) for place in (right - 1, right)]
+    for view, chart, place in zip(views, charts, places):
+        simple.AssignViewToLayout(view, layout, place)
+        simple.AssignViewToLayout(chart, layout, place + 1)
     simple.ResetCamera(views[0])
     simple.AddCameraLink(views[0], views[1], "Before and after")
     for name in ("CameraPosition", "CameraFocalPoint", "CameraViewUp", "CameraParallelScale", "CenterOfRotation"):
@@ -190,9 +198,10 @@ def show_histogram(source=None):
     source = _source(source)
     with _traced("show_histogram", source):
         measure = _measured(source)
-        chart = _chart("Histogram", "XYBarChartView")
+        chart = simple.CreateView("XYBarChartView")
         _show_bars(measure, chart)
         chart.ChartTitle = f"worst {measure.MinimumQuality:.4f}, mean {measure.MeanQuality:.4f}"
+        _arrange("Histogram", chart)
         _finish(measure, chart)
         return chart, measure
 
@@ -203,18 +212,13 @@ def show_history(optimized=None):
     with _traced("show_history", optimized):
         optimized.UpdatePipeline()
         optimized.UpdatePropertyInformation()
-        chart = _chart("History", "XYChartView")
-        lines = simple.Show(simple.OutputPort(optimized, 1), chart)
-        lines.UseIndexForXAxis, lines.XArrayName = 0, "Pass"
-        lines.SeriesVisibility = ["Worst", "Mean"]
-        lines.SeriesLabel = ["Worst", "worst element", "Mean", "mean"]
-        lines.SeriesColor = ["Worst", "0.8", "0.1", "0.11", "Mean", "0.2", "0.4", "0.6"]
-        lines.SeriesLineThickness = ["Worst", "3", "Mean", "2"]
-        lines.SeriesMarkerStyle = ["Worst", "4", "Mean", "0"]
+        chart = simple.CreateView("XYChartView")
+        simple.Show(simple.OutputPort(optimized, 1), chart)  # its columns: ParaViewPlugin/Charts.xml
         chart.ChartTitle = (f"worst {optimized.WorstQualityBefore:.4f} -> {optimized.WorstQualityAfter:.4f}: "
                             f"{optimized.StopReason}")
         chart.BottomAxisTitle, chart.LeftAxisTitle = "pass", "quality"
         chart.LeftAxisUseCustomRange, chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 1, 0, 1
         chart.LegendLocation = "TopLeft"
+        _arrange("History", chart)
         _finish(optimized, chart)
         return chart
