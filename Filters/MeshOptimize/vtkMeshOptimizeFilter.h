@@ -465,9 +465,9 @@ public:
    * Results are those of the whole on all ranks; the history is on the first. Filters/RANKS.md
    * says what each option then means, and which data are needed.
    *
-   * This is for tetrahedra in one grid with WorstFirst. With OptimizeBelow, sizes, a metric,
-   * triangles, other cells, ghost cells or composite data, one warning says that the borders are
-   * kept. BoundaryMode Slide on several pieces is an error.
+   * This is for tetrahedra, or triangles in one plane, in one grid with WorstFirst. With
+   * OptimizeBelow, sizes, a metric, other cells, ghost cells or composite data, one warning says
+   * that the borders are kept. BoundaryMode Slide on several pieces is an error.
    *
    * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
    * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.

@@ -12,6 +12,7 @@
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace vtkMeshOptimizeBridge
@@ -37,7 +38,7 @@ std::string FindObstacle(const Request& request)
 /**
  * What of this rank's piece is not built for borders.
  */
-std::string FindObstacle(vtkUnstructuredGrid* input, std::string& error)
+std::string FindObstacle(vtkUnstructuredGrid* input, int& dimension, std::string& error)
 {
   if (!input)
   {
@@ -45,13 +46,10 @@ std::string FindObstacle(vtkUnstructuredGrid* input, std::string& error)
   }
   vtkMeshBridge::Cells cells;
   error = vtkMeshBridge::ClassifyCells(input, cells);
-  if (cells.Dimension == 2)
-  {
-    return "the mesh is of triangles";
-  }
+  dimension = cells.Dimension;
   if (!error.empty() || !cells.IsIdentity())
   {
-    return "there are other cells than tetrahedra, or ghost cells";
+    return "there are other cells than tetrahedra, or than triangles in a plane, or ghost cells";
   }
   for (int kind : { 0, 1 })
   {
@@ -95,13 +93,19 @@ std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
   return {};
 }
 
-std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstructuredGrid* input)
+std::string FindObstacle(
+  const Ranks& ranks, const Request& request, vtkUnstructuredGrid* input, int& dimension)
 {
   std::string error, obstacle = FindObstacle(request);
   if (obstacle.empty())
   {
-    obstacle = FindObstacle(input, error);
+    int mine = 0;
+    obstacle = FindObstacle(input, mine, error);
     ranks.Agree(error);
+    const std::vector<int> all = ranks.Gather(mine);
+    dimension = *std::max_element(all.begin(), all.end());
+    const bool isMixed = mine != 0 && mine != dimension;
+    obstacle = isMixed ? "some ranks have triangles only, others tetrahedra" : obstacle;
     const std::string arrays = CompareArrays(ranks, input);
     obstacle = obstacle.empty() ? arrays : obstacle;
   }
@@ -131,13 +135,14 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
       {
         request.NumberOfThreads = GetShareOfCores(ranks);
       }
-      obstacle = FindObstacle(ranks, request, input);
+      int dimension = 0;
+      obstacle = FindObstacle(ranks, request, input, dimension);
       if (!obstacle.empty())
       {
         return std::string();
       }
       Rounds rounds(ranks, request, outcome);
-      rounds.Read(input);
+      rounds.Read(input, dimension == 0 ? 3 : dimension);
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();
       rounds.OptimizeBorders();

@@ -8,6 +8,7 @@
 #include "vtkMeshRanksBand.h"
 #include "vtkMeshRanksCheck.h"
 #include "vtkMeshRanksDivide.h"
+#include "vtkMeshRanksPlane.h"
 
 #include "vtkCellData.h"
 #include "vtkNew.h"
@@ -17,10 +18,13 @@
 
 #include "WorstFirst/Constants.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -98,7 +102,7 @@ Rounds::Rounds(const Ranks& ranks, const Request& request, Outcome& outcome)
 {
 }
 
-void Rounds::Read(vtkUnstructuredGrid* input)
+void Rounds::Read(vtkUnstructuredGrid* input, int dimension)
 {
   InputArrays arrays;
   this->All.Agree(FindInputArrays(this->Wanted.Filter, input, arrays));
@@ -133,7 +137,11 @@ void Rounds::Read(vtkUnstructuredGrid* input)
     this->FirstCell.begin(), this->FirstCell.end(), this->FirstCell.begin(), vtkIdType(0));
   std::vector<vtkIdType> points, cells(count);
   std::iota(cells.begin(), cells.end(), vtkIdType(0));
-  this->Mine = ReadPiece(input, cells, 4, this->Points, this->Cells, arrays.FixedPoints,
+  if (dimension == 2)
+  {
+    this->FindPlane(input, cells);
+  }
+  this->Mine = ReadPiece(input, cells, dimension + 1, this->Points, this->Cells, arrays.FixedPoints,
     this->FirstCell[this->All.GetRank()], points);
   vtkDataArray* pointIds = input->GetPointData()->GetGlobalIds();
   vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
@@ -148,10 +156,37 @@ void Rounds::Read(vtkUnstructuredGrid* input)
     this->Mine.Flags[p] |= shared.Has(p) ? Waiting : 0;
   }
   this->PointsAtFirst = Measure(this->All, this->Mine, shared, 0.0).Points;
-  this->Growth = meshopt::growthOf(this->Wanted.Options, static_cast<long>(this->CellsAtFirst), 3);
+  this->Growth = meshopt::growthOf(
+    this->Wanted.Options, static_cast<long>(this->CellsAtFirst), dimension);
   this->Shrink = static_cast<long>(
     meshopt::worstfirst::ShrinkBudget * static_cast<double>(this->CellsAtFirst));
 }
+
+/**
+ * All triangles lie in one plane, and have one upper side, whatever the piece of a rank is like.
+ */
+void Rounds::FindPlane(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& triangles)
+{
+  const vtkMeshBridge::GridView view(input);
+  vtkMeshBridge::Box box;
+  const vtkMeshBridge::Plane plane = vtkMeshRanks::FindPlane(this->All, view, triangles, box);
+  std::string error = vtkMeshBridge::CheckExtent(box);
+  if (error.empty() && !plane.HasAll())
+  {
+    std::ostringstream text;
+    text << "The triangles are not in one plane: a point is " << plane.Farthest
+         << " away from it (extent of the mesh " << plane.Extent
+         << "). Triangles are optimized in a plane only; a volume needs tetrahedra.";
+    error = text.str();
+  }
+  this->All.Agree(error);
+  this->Plane = plane.Frame;
+  const meshopt::Vec<3> normal = this->Plane.Axes[0].cross(this->Plane.Axes[1]);
+  this->Normal = { { normal[0], normal[1], normal[2] } };
+  this->Wanted.Plane = &this->Plane;
+}
+
+Signature Rounds::Sign() const { return vtkMeshRanks::Sign(this->All, this->Mine, this->Normal); }
 
 void Rounds::Divide()
 {
@@ -161,11 +196,11 @@ void Rounds::Divide()
   {
     return;
   }
-  const Signature before = Sign(this->All, this->Mine);
+  const Signature before = this->Sign();
   std::vector<char> isMoved;
   Move(this->All, vtkMeshRanks::Divide(this->Mine, this->All.GetCount()), this->Points, this->Cells,
     this->Mine, isMoved);
-  const std::string problem = Compare(before, Sign(this->All, this->Mine), true);
+  const std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(
     problem.empty() ? "" : "After the mesh was divided among the ranks " + problem + ".");
 }
@@ -302,13 +337,13 @@ void Rounds::OptimizeBorders()
 
 void Rounds::Round(int round)
 {
-  const Signature before = Sign(this->All, this->Mine);
+  const Signature before = this->Sign();
   Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isMoved;
   Move(this->All, FindBands(this->All, this->Mine, shared, Layers[round]), this->Points,
     this->Cells, this->Mine, isMoved);
   shared = FindShared(this->All, this->Mine);
-  std::string problem = Compare(before, Sign(this->All, this->Mine), true);
+  std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(problem.empty() ? "" : "After cells have moved between ranks " + problem + ".");
   for (vtkIdType p = 0; p < this->Mine.GetNumberOfPoints(); ++p)
   {
@@ -326,7 +361,7 @@ void Rounds::Round(int round)
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
   this->All.Agree(Join(parts, this->Mine));
-  problem = Compare(before, Sign(this->All, this->Mine), false);
+  problem = Compare(before, this->Sign(), false);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);

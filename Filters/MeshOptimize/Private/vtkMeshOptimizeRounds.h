@@ -7,8 +7,10 @@
 
 #include "vtkMeshOptimizeRequest.h"
 #include "vtkMeshRanksBound.h"
+#include "vtkMeshRanksCheck.h"
 #include "vtkMeshRanksIds.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -30,9 +32,9 @@ public:
 
   /**
    * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if all
-   * of it is on one rank.
+   * of it is on one rank. `dimension` is that of the cells of all ranks.
    */
-  void Read(vtkUnstructuredGrid* input);
+  void Read(vtkUnstructuredGrid* input, int dimension);
 
   /**
    * Optimizes the piece of each rank with its border kept.
@@ -52,6 +54,8 @@ public:
   void Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output);
 
 private:
+  void FindPlane(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& triangles);
+  vtkMeshRanks::Signature Sign() const;
   void Divide();
   void Optimize(vtkMeshRanks::Part& part, double weight, double share, Outcome& outcome);
   void NumberNew(vtkMeshRanks::Part& part);
@@ -71,7 +75,9 @@ private:
   vtkMeshRanks::Schema Points, Cells;
   vtkMeshRanks::Numbering Ids;
   vtkIdType FirstNewPoint = 0;
-  std::vector<vtkIdType> FirstCell; ///< of each rank's input, over all ranks
+  vtkMeshBridge::Frame<2> Plane;                        ///< of triangles
+  std::array<double, 3> Normal = { { 0.0, 0.0, 1.0 } }; ///< of that plane
+  std::vector<vtkIdType> FirstCell;                     ///< of each rank's input, over all ranks
   vtkMeshRanks::Part Mine;
   vtkIdType CellsAtFirst = 0, PointsAtFirst = 0; ///< of all ranks
   long Growth = 0, Shrink = 0;    ///< how many cells all ranks may gain and lose, from CellsAtFirst

@@ -113,8 +113,8 @@ void Rounds::Record(const char* stage, const Outcome& run)
   const double target = this->Wanted.Options.targetQuality;
   const Shared shared = FindShared(this->All, this->Mine);
   const Figures now = Measure(this->All, this->Mine, shared, target);
-  this->Surface = MeasureSurface(
-    this->All, this->Mine, shared, this->ReadRegions(), this->Wanted.Options.measure, target);
+  this->Surface = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
+    this->Wanted.Options.measure, target, this->Plane);
   vtkIdType capped = 0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
@@ -150,7 +150,8 @@ StopReason Rounds::FindReason() const
 
 void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
 {
-  SampleOnce(this->All, input, this->FirstCell, this->Points, this->FirstNewPoint, this->Mine);
+  SampleOnce(
+    this->All, input, this->FirstCell, this->Points, this->FirstNewPoint, this->Plane, this->Mine);
   const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
   meshopt::Report& report = this->Result.Report;
   report.stopReason = this->FindReason();

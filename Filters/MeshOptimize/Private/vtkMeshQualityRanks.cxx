@@ -4,6 +4,7 @@
 #include "vtkMeshQualityRanks.h"
 
 #include "vtkMeshBridgeValues.h"
+#include "vtkMeshRanksPlane.h"
 
 #include "Base/Scramble.h"
 
@@ -31,40 +32,6 @@ namespace
 {
 
 using Key = std::uint64_t;
-
-//------------------------------------------------------------------------------
-void PutVector(Bytes& bytes, const Vec<3>& x)
-{
-  Put(bytes, std::array<double, 3>{ { x[0], x[1], x[2] } });
-}
-
-Vec<3> TakeVector(Reader& reader)
-{
-  const auto x = reader.Take<std::array<double, 3>>();
-  return { x[0], x[1], x[2] };
-}
-
-void PutFacts(Bytes& bytes, const PlaneFacts& facts)
-{
-  for (const Vec<3>* x : { &facts.Bounds.Low, &facts.Bounds.High, &facts.Largest, &facts.Point,
-         &facts.Sum, &facts.Turned })
-  {
-    PutVector(bytes, *x);
-  }
-  Put(bytes, facts.Precision);
-}
-
-PlaneFacts TakeFacts(Reader& reader)
-{
-  PlaneFacts facts;
-  for (Vec<3>* x : { &facts.Bounds.Low, &facts.Bounds.High, &facts.Largest, &facts.Point,
-         &facts.Sum, &facts.Turned })
-  {
-    *x = TakeVector(reader);
-  }
-  facts.Precision = reader.Take<double>();
-  return facts;
-}
 
 /**
  * A block as all ranks together know it.

@@ -51,9 +51,10 @@ std::uint64_t SignedHash(
   return isOdd ? 0 - hash : hash;
 }
 
-double VolumeOf(const Part& part, vtkIdType c)
+using Vector = meshopt::Vec<3>;
+
+double VolumeOf(const Part& part, vtkIdType c, const Vector& up)
 {
-  using Vector = meshopt::Vec<3>;
   Vector x[4];
   for (int i = 0; i < part.Corners; ++i)
   {
@@ -61,7 +62,7 @@ double VolumeOf(const Part& part, vtkIdType c)
     x[i] = Vector(p[0], p[1], p[2]);
   }
   const Vector normal = (x[1] - x[0]).cross(x[2] - x[0]);
-  return part.Corners == 4 ? normal.dot(x[3] - x[0]) / 6.0 : normal.norm() / 2.0;
+  return part.Corners == 4 ? normal.dot(x[3] - x[0]) / 6.0 : normal.dot(up) / 2.0;
 }
 
 } // namespace
@@ -100,18 +101,19 @@ Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, doub
 }
 
 //------------------------------------------------------------------------------
-Signature Sign(const Ranks& ranks, const Part& part)
+Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal)
 {
   std::vector<std::uint64_t> hashes(part.PointIds.size());
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
     hashes[p] = HashOfPoint(part, p);
   }
+  const Vector up(normal[0], normal[1], normal[2]);
   Signature mine;
   mine.Cells = part.GetNumberOfCells();
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
   {
-    mine.Volume += VolumeOf(part, c);
+    mine.Volume += VolumeOf(part, c, up);
     for (int local = 0; local < part.Corners; ++local)
     {
       mine.Surface += SignedHash(OrientedNodes(part, c, local), part.Corners - 1, hashes);

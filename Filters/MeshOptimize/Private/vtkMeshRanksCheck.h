@@ -8,6 +8,7 @@
 
 #include "vtkMeshRanksFacets.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -40,7 +41,10 @@ struct Signature
   std::uint64_t Surface = 0;
 };
 
-Signature Sign(const Ranks& ranks, const Part& part);
+/**
+ * `normal`: of the plane of triangles, whose areas have signs.
+ */
+Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
 
 /**
  * An error if `after` is not of the same mesh as `before`; `cells` says whether the number of cells
