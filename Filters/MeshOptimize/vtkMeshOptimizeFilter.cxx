@@ -79,6 +79,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SurfaceTolerance: " << this->SurfaceTolerance << "\n";
   os << indent << "ToleranceIsAbsolute: " << this->ToleranceIsAbsolute << "\n";
   os << indent << "OptimizeBorders: " << this->OptimizeBorders << "\n";
+  os << indent << "NumberOfGhostLevels: " << this->NumberOfGhostLevels << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "WorstQualityBefore: " << this->WorstQualityBefore << "\n";
@@ -213,7 +214,7 @@ struct Ports
   vtkPolyData* Geometry;
   vtkDataObject* Output;
   vtkTable* History;
-  int NumberOfPieces;
+  int NumberOfPieces, NumberOfGhostLevels;
 };
 
 /**
@@ -361,6 +362,12 @@ int CountPieces(vtkInformation* info)
   return info->Has(pieces) ? info->Get(pieces) : 1;
 }
 
+int CountGhostLevels(vtkInformation* info)
+{
+  const auto levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
+  return info->Has(levels) ? info->Get(levels) : 0;
+}
+
 /**
  * The border of a piece is not a boundary of the mesh, so it cannot slide.
  */
@@ -402,6 +409,8 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
 {
   const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
   request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
+  request.NumberOfGhostLevels = std::max(
+    filter->GetNumberOfGhostLevels(), ports.NumberOfGhostLevels);
   const std::string error = bridge::OptimizeOnRanks(
     filter->GetController(), request, [&]() { return CheckRequest(request, tasks); },
     isComposite ? nullptr : tasks[0].Input, isComposite ? nullptr : tasks[0].Output, outcome,
@@ -513,7 +522,8 @@ int vtkMeshOptimizeFilter::RequestData(
 {
   const Ports ports{ vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
     vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1),
-    CountPieces(outputVector->GetInformationObject(0)) };
+    CountPieces(outputVector->GetInformationObject(0)),
+    CountGhostLevels(outputVector->GetInformationObject(0)) };
   // What all ranks know is told by the first.
   const bool isTold = HasRanks(this, ports) && this->Controller->GetLocalProcessId() > 0;
   Results results;

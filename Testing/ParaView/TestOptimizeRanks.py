@@ -4,7 +4,7 @@ import os
 import sys
 
 import numpy as np
-from meshoptimize import vtkMeshOptimizeFilter
+from meshoptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkCommand
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkUnstructuredGrid
@@ -308,6 +308,63 @@ def test_plane():
     check(f.GetErrorCode() != 0 and (rank > 0 or "not in one plane" in f.told[0]), f"bent: {f.told}")
     f = run(PlaneMesh().piece(), BoundaryMode=vtkMeshOptimizeFilter.Slide)
     check(f.GetErrorCode() != 0 and len(f.told) == (rank == 0), f"plane: Slide {f.told}")
+
+
+def test_ghosts():
+    """Ghost cells in the input are dropped, with and without ids: the same mesh as without them. Hidden cells are kept."""
+    mesh = Mesh(n=6)
+    mesh.points["linear"] = mesh.x @ [1.0, 2.0, 3.0]
+    for ids in (False, 10):
+        mesh.ids = ids
+        own = (mesh.centers()[:, 0] * ranks).astype(int) == rank
+        near = np.isin(mesh.cells, np.unique(mesh.cells[own])).any(axis=1)  # one layer: all cells that share a point
+        grid, marks = mesh.grid(near), np.where(own[near], 0, 1).astype(np.uint8)
+        add(grid.GetCellData(), "vtkGhostType", marks)
+        owned = np.isin(np.unique(mesh.cells[near]), np.unique(mesh.cells[own]))
+        add(grid.GetPointData(), "vtkGhostType", np.where(owned, 0, 1).astype(np.uint8))
+        check(marks.any(), "ghosts: the test is too easy")
+        f, plain = run(grid), run(mesh.piece())
+        compare(f"ghosts {ids}", f, corners(mesh.whole()))
+        a, b = corners(f.GetOutput()), corners(plain.GetOutput())
+        check(len(a) == len(b) and np.array_equal(a, b), f"ghosts {ids}: another mesh")
+        check(f.GetOutput().GetCellData().GetArray("vtkGhostType") is None, f"ghosts {ids}: marks are left")
+        same = vtk_to_numpy(f.GetOutput().GetPointData().GetArray("linear")) - vtk_to_numpy(plain.GetOutput().GetPointData().GetArray("linear"))
+        check(np.abs(same).max(initial=0) < 1e-12, f"ghosts {ids}: data")
+    hidden = mesh.piece()
+    add(hidden.GetCellData(), "vtkGhostType", np.where(np.arange(hidden.GetNumberOfCells()) == 0, 32, 0).astype(np.uint8))
+    f = run(hidden)
+    check(rank > 0 or "borders between the ranks' pieces are kept" in "".join(f.told), f"hidden: {f.told}")
+    check(f.GetOutput().GetCellData().GetArray("vtkGhostType").GetRange()[1] == 32, "hidden: lost")
+
+
+def test_ghost_levels():
+    """Layers of ghost cells, as the property or the pipeline asks: just the cells that share a point with the layer before."""
+    mesh = Mesh(n=6)
+    mesh.points["linear"] = mesh.x @ [1.0, 2.0, 3.0]
+    mesh.ids = 10
+    for layers, options in ((1, {"NumberOfGhostLevels": 1}), (2, {"asked": 2}), (2, {"NumberOfGhostLevels": 2, "asked": 1})):
+        f = run(mesh.piece(), **options)
+        out = f.GetOutput()
+        ghost, twin = (vtk_to_numpy(d.GetArray("vtkGhostType")) for d in (out.GetCellData(), out.GetPointData()))
+        names = vtk_to_numpy(out.GetPointData().GetGlobalIds())
+        cells = names[vtk_to_numpy(out.GetCells().GetConnectivityArray()).reshape(-1, 4)]
+        ids, x = vtk_to_numpy(out.GetCellData().GetGlobalIds()), vtk_to_numpy(out.GetPoints().GetData())
+        every = gather(own=cells[ghost == 0], ids=ids[ghost == 0], names=names[twin == 0])
+        own, all_ids, all_names = (np.concatenate(every[k]) for k in ("own", "ids", "names"))
+        check(len(np.unique(all_ids)) == len(all_ids), f"levels {layers}: a cell on two ranks")
+        check(len(np.unique(all_names)) == len(all_names) == len(np.unique(own)), f"levels {layers}: owners of points")
+        near = np.isin(all_ids, ids[ghost == 0])
+        for _ in range(layers):
+            near = np.isin(own, np.unique(own[near])).any(axis=1)
+        check(np.array_equal(np.sort(ids), np.sort(all_ids[near])), f"levels {layers}: {len(ids)} cells, not {near.sum()}")
+        check((ghost == 1).any() and set(ghost) == {0, 1}, f"levels {layers}: the test is too easy")
+        check(np.abs(vtk_to_numpy(out.GetPointData().GetArray("linear")) - x @ [1.0, 2.0, 3.0]).max() < 1e-12, f"levels {layers}: data")
+        again = vtkMeshQualityMinMax()
+        again.SetInputData(out)
+        again.UpdatePiece(rank, ranks, 0)
+        for a, b in ((again.GetMinimumQuality(), f.GetWorstQualityAfter()), (again.GetNumberOfMeasuredCells(), len(all_ids)),
+                     (again.GetQualityBound(), f.GetQualityBound())):
+            check(abs(a - b) < 1e-6, f"levels {layers}: measured {a}, not {b}")
 
 
 def test_stops():

@@ -97,8 +97,8 @@ def alone(mesh, before=lambda f: None):
     return run(mesh.whole(), False, before) if rank == 0 else None
 
 
-def run(grid, everywhere=True, before=lambda f: None, **options):
-    """The filter, updated on this rank's piece, or alone. f.told has its warnings and errors."""
+def run(grid, everywhere=True, before=lambda f: None, asked=0, **options):
+    """The filter, updated on this rank's piece with ghost layers, or alone. f.told has its warnings and errors."""
     f = vtkMeshOptimizeFilter()
     f.SetOptimizeBorders(everywhere)
     f.SetNumberOfThreads(1)
@@ -113,7 +113,7 @@ def run(grid, everywhere=True, before=lambda f: None, **options):
     f.AddObserver(vtkCommand.ErrorEvent, tell)
     f.AddObserver(vtkCommand.WarningEvent, tell)
     before(f)
-    f.UpdatePiece(rank, ranks, 0) if everywhere else f.Update()
+    f.UpdatePiece(rank, ranks, asked) if everywhere else f.Update()
     return f
 
 

@@ -3,6 +3,7 @@
 
 #include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeGridView.h"
 #include "vtkMeshOptimizeArrays.h"
 #include "vtkMeshOptimizeRounds.h"
 #include "vtkMeshRanksNode.h"
@@ -10,6 +11,7 @@
 
 #include "vtkCellData.h"
 #include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -36,20 +38,51 @@ std::string FindObstacle(const Request& request)
 }
 
 /**
- * What of this rank's piece is not built for borders.
+ * Whether the cells beside the simplices are nothing but copies of other ranks' simplices. Hidden
+ * cells are no copies: dropped, they would be lost.
  */
-std::string FindObstacle(vtkUnstructuredGrid* input, int& dimension, std::string& error)
+bool HasOnlyCopies(vtkUnstructuredGrid* input, const vtkMeshBridge::Cells& cells)
+{
+  if (static_cast<vtkIdType>(cells.Simplices.size()) + cells.NumberOfGhostSimplices !=
+    cells.NumberOfCells)
+  {
+    return false;
+  }
+  constexpr unsigned char others = vtkMeshBridge::GhostCells::Skipped &
+    ~static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL);
+  vtkUnsignedCharArray* flags = input->GetCellGhostArray();
+  for (vtkIdType c = 0; flags && c < flags->GetNumberOfValues(); ++c)
+  {
+    if (flags->GetValue(c) & others)
+    {
+      return false;
+    }
+  }
+  vtkUnsignedCharArray* points = input->GetPointGhostArray();
+  for (vtkIdType p = 0; points && p < points->GetNumberOfValues(); ++p)
+  {
+    if (points->GetValue(p) & vtkDataSetAttributes::HIDDENPOINT)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/**
+ * What of this rank's piece is not built for borders. Finds its cells.
+ */
+std::string FindObstacle(
+  vtkUnstructuredGrid* input, vtkMeshBridge::Cells& cells, std::string& error)
 {
   if (!input)
   {
     return "the input is composite";
   }
-  vtkMeshBridge::Cells cells;
   error = vtkMeshBridge::ClassifyCells(input, cells);
-  dimension = cells.Dimension;
-  if (!error.empty() || !cells.IsIdentity())
+  if (!error.empty() || !HasOnlyCopies(input, cells))
   {
-    return "there are other cells than tetrahedra, or than triangles in a plane, or ghost cells";
+    return "there are other cells than tetrahedra, or than triangles in a plane";
   }
   for (int kind : { 0, 1 })
   {
@@ -93,15 +126,15 @@ std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
   return {};
 }
 
-std::string FindObstacle(
-  const Ranks& ranks, const Request& request, vtkUnstructuredGrid* input, int& dimension)
+std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstructuredGrid* input,
+  vtkMeshBridge::Cells& cells, int& dimension)
 {
   std::string error, obstacle = FindObstacle(request);
   if (obstacle.empty())
   {
-    int mine = 0;
-    obstacle = FindObstacle(input, mine, error);
+    obstacle = FindObstacle(input, cells, error);
     ranks.Agree(error);
+    const int mine = cells.Dimension;
     const std::vector<int> all = ranks.Gather(mine);
     dimension = *std::max_element(all.begin(), all.end());
     const bool isMixed = mine != 0 && mine != dimension;
@@ -136,13 +169,14 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
         request.NumberOfThreads = GetShareOfCores(ranks);
       }
       int dimension = 0;
-      obstacle = FindObstacle(ranks, request, input, dimension);
+      vtkMeshBridge::Cells cells;
+      obstacle = FindObstacle(ranks, request, input, cells, dimension);
       if (!obstacle.empty())
       {
         return std::string();
       }
       Rounds rounds(ranks, request, outcome);
-      rounds.Read(input, dimension == 0 ? 3 : dimension);
+      rounds.Read(input, cells.Simplices, dimension == 0 ? 3 : dimension);
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();
       rounds.OptimizeBorders();

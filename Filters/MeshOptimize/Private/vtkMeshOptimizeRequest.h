@@ -44,6 +44,7 @@ struct Request
   meshopt::CurveOptions Curves;     ///< of triangles
   meshopt::SurfaceOptions Surface;  ///< of tetrahedra
   bool ToleranceIsAbsolute = false; ///< Surface.tolerance is a length, not a fraction
+  int NumberOfGhostLevels = 0;      ///< on many ranks: layers of ghost cells in the output
   vtkPolyData* Geometry = nullptr;  ///< source of the curves; nullptr: the mesh itself
   /// The plane of the triangles, if they are a part of a mesh; nullptr: they say themselves.
   const vtkMeshBridge::Frame<2>* Plane = nullptr;

@@ -102,7 +102,8 @@ Rounds::Rounds(const Ranks& ranks, const Request& request, Outcome& outcome)
 {
 }
 
-void Rounds::Read(vtkUnstructuredGrid* input, int dimension)
+void Rounds::Read(
+  vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension)
 {
   InputArrays arrays;
   this->All.Agree(FindInputArrays(this->Wanted.Filter, input, arrays));
@@ -131,23 +132,21 @@ void Rounds::Read(vtkUnstructuredGrid* input, int dimension)
     this->Cells = Schema::Of(input->GetCellData(), "MeshQuality");
   }
   this->FirstCell = this->All.Gather(count);
-  this->CellsAtFirst = std::accumulate(
-    this->FirstCell.begin(), this->FirstCell.end(), vtkIdType(0));
+  this->CellsAtFirst = this->All.Sum(static_cast<vtkIdType>(simplices.size()));
   std::exclusive_scan(
     this->FirstCell.begin(), this->FirstCell.end(), this->FirstCell.begin(), vtkIdType(0));
-  std::vector<vtkIdType> points, cells(count);
-  std::iota(cells.begin(), cells.end(), vtkIdType(0));
+  std::vector<vtkIdType> points;
   if (dimension == 2)
   {
-    this->FindPlane(input, cells);
+    this->FindPlane(input, simplices);
   }
-  this->Mine = ReadPiece(input, cells, dimension + 1, this->Points, this->Cells, arrays.FixedPoints,
-    this->FirstCell[this->All.GetRank()], points);
+  this->Mine = ReadPiece(input, simplices, dimension + 1, this->Points, this->Cells,
+    arrays.FixedPoints, this->FirstCell[this->All.GetRank()], points);
   vtkDataArray* pointIds = input->GetPointData()->GetGlobalIds();
   vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
   this->Ids.HasPointIds = this->All.IsAny(pointIds && count > 0);
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
-  Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, cells), this->Ids, this->Mine);
+  Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), this->Ids, this->Mine);
   this->FirstNewPoint = this->Ids.NextPoint;
   this->Divide();
   const Shared shared = FindShared(this->All, this->Mine);

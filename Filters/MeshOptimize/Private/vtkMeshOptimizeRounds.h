@@ -32,9 +32,10 @@ public:
 
   /**
    * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if all
-   * of it is on one rank. `dimension` is that of the cells of all ranks.
+   * of it is on one rank. `simplices`: the cells that are the mesh; all others are copies of those
+   * of other ranks, and are dropped. `dimension` is that of the cells of all ranks.
    */
-  void Read(vtkUnstructuredGrid* input, int dimension);
+  void Read(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension);
 
   /**
    * Optimizes the piece of each rank with its border kept.
