@@ -103,6 +103,12 @@ def test_ids():
     surface = np.flatnonzero((mesh.node == 0).any(axis=1) | (mesh.node == mesh.n).any(axis=1))
     check(all(where.get(int(p) + mesh.ids) == tuple(mesh.x[p]) for p in surface), "ids: points of the surface")
     check(len(set(where.values())) == len(where), "ids: two ids at one place")
+    # Cells go home.
+    first = mesh.ids + np.flatnonzero((mesh.centers()[:, 0] * ranks).astype(int) == rank)
+    old = vtk_to_numpy(out.GetCellData().GetGlobalIds())
+    old = old[old < mesh.ids + len(mesh.cells)]
+    check(np.isin(old, first).all() and len(old) > 0, f"ids: {np.isin(old, first).sum()} of {len(old)} cells at home")
+    check(0.7 < out.GetNumberOfCells() / len(first) < 1.4, f"ids: {len(first)} cells, then {out.GetNumberOfCells()}")
     # One id at two places is no id.
     bad = mesh.piece()
     if rank == 1:

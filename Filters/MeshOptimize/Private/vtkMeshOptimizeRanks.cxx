@@ -180,6 +180,7 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();
       rounds.OptimizeBorders();
+      rounds.SendHome();
       const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
       outcome.Seconds = spent.count();
       rounds.Write(input, output);

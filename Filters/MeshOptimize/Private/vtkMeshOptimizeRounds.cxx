@@ -40,6 +40,8 @@ constexpr int MostRounds = 4;
 constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
 /// The part of what may still grow that a round uses; the last may use all.
 constexpr double ShareOfRound = 0.75;
+/// A rank with more than this times the mean does not get back its cells.
+constexpr double MostOfMean = 1.2;
 /// The part of the progress that the pieces take.
 constexpr double PiecesDone = 0.7;
 
@@ -149,6 +151,7 @@ void Rounds::Read(
   Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), this->Ids, this->Mine);
   this->FirstNewPoint = this->Ids.NextPoint;
   this->Divide();
+  this->Mine.Home.assign(this->Mine.CellIds.size(), this->All.GetRank());
   const Shared shared = FindShared(this->All, this->Mine);
   for (vtkIdType p = 0; p < this->Mine.GetNumberOfPoints(); ++p)
   {
@@ -367,6 +370,69 @@ void Rounds::Round(int round)
   this->Record("borders", run);
   this->WaitWhereStuck();
   this->MustStop(run);
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+/**
+ * The target of each cell that is not at home and may go there; -1: it stays.
+ */
+std::vector<int> FindHomes(const Ranks& ranks, const Part& part, vtkIdType cells)
+{
+  std::vector<vtkIdType> counts(ranks.GetCount(), 0);
+  for (const int home : part.Home)
+  {
+    ++counts[home];
+  }
+  std::vector<Bytes> out(ranks.GetCount());
+  for (int r = 0; r < ranks.GetCount(); ++r)
+  {
+    Put(out[r], counts[r]);
+  }
+  vtkIdType here = 0; // if all came home
+  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+  {
+    here += Reader(bytes).Take<vtkIdType>();
+  }
+  const std::vector<vtkIdType> loads = ranks.Gather(here);
+  const double most = MostOfMean * static_cast<double>(cells) / ranks.GetCount();
+  std::vector<int> target(part.Home.size(), -1);
+  for (std::size_t c = 0; c < target.size(); ++c)
+  {
+    const int home = part.Home[c];
+    const bool isFull = static_cast<double>(loads[home]) > most;
+    target[c] = home == ranks.GetRank() || isFull ? -1 : home;
+  }
+  return target;
+}
+
+} // namespace
+
+void Rounds::SendHome()
+{
+  const Part before = this->Mine; // shares the arrays
+  const std::string fault = this->All.Together(
+    [&]()
+    {
+      const std::vector<int> target = FindHomes(this->All, this->Mine, this->Result.NumberOfCells);
+      const bool goes = std::any_of(target.begin(), target.end(), [](int t) { return t >= 0; });
+      if (this->All.IsAny(goes))
+      {
+        const Signature whole = this->Sign();
+        std::vector<char> isMoved;
+        Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
+        const std::string problem = Compare(whole, this->Sign(), true);
+        this->All.Agree(problem.empty() ? "" : "After cells have gone home " + problem + ".");
+      }
+      return std::string();
+    });
+  if (!fault.empty())
+  {
+    this->Mine = before;
+    this->Result.Fault = this->Result.Fault.empty() ? fault : this->Result.Fault;
+  }
 }
 
 } // namespace vtkMeshOptimizeBridge

@@ -50,6 +50,12 @@ public:
   void OptimizeBorders();
 
   /**
+   * Cells go back to the rank that had them, or their parents, at first; except to ranks that would
+   * have more than 1.2 of the mean. If that fails, they stay, and outcome.Fault says why.
+   */
+  void SendHome();
+
+  /**
    * Completes data and figures, and makes the output.
    */
   void Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output);

@@ -114,6 +114,7 @@ Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
   {
     mine.Volume += VolumeOf(part, c, up);
+    mine.Ids += meshopt::scramble(static_cast<std::uint64_t>(part.CellIds[c]));
     for (int local = 0; local < part.Corners; ++local)
     {
       mine.Surface += SignedHash(OrientedNodes(part, c, local), part.Corners - 1, hashes);
@@ -123,6 +124,7 @@ Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>
   for (const Signature& one : ranks.Gather(mine))
   {
     sum.Cells += one.Cells;
+    sum.Ids += one.Ids;
     sum.Volume += one.Volume;
     sum.Surface += one.Surface;
   }
@@ -135,6 +137,10 @@ std::string Compare(const Signature& before, const Signature& after, bool cells)
   {
     return "there are " + std::to_string(after.Cells) + " cells in place of " +
       std::to_string(before.Cells);
+  }
+  if (cells && before.Ids != after.Ids)
+  {
+    return "the ids of the cells are not the same";
   }
   if (before.Surface != after.Surface)
   {

@@ -37,7 +37,8 @@ Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, doub
 struct Signature
 {
   vtkIdType Cells = 0;
-  double Volume = 0.0; ///< for triangles the area
+  std::uint64_t Ids = 0; ///< the sum of the hashes of the cells' ids
+  double Volume = 0.0;   ///< for triangles the area
   std::uint64_t Surface = 0;
 };
 
@@ -47,8 +48,8 @@ struct Signature
 Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
 
 /**
- * An error if `after` is not of the same mesh as `before`; `cells` says whether the number of cells
- * must be the same, too. Volumes may differ by rounding.
+ * An error if `after` is not of the same mesh as `before`; `cells` says whether the cells must be the
+ * same, too, by number and ids. Volumes may differ by rounding.
  */
 std::string Compare(const Signature& before, const Signature& after, bool cells);
 
