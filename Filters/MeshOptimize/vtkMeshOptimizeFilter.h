@@ -467,7 +467,8 @@ public:
    *
    * This is for tetrahedra, or triangles in one plane, in one grid with WorstFirst. With
    * OptimizeBelow, sizes, a metric, other cells or composite data, one warning says that the
-   * borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide on several pieces is an error.
+   * borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide on several pieces is
+   * an error.
    *
    * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
    * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.
@@ -480,9 +481,9 @@ public:
 
   ///@{
   /**
-   * Layers of ghost cells that the output of each rank gets, if OptimizeBorders is in effect: copies
-   * of the other ranks' cells around its piece, marked by vtkGhostType. If the pipeline asks for
-   * more layers, there are as many as it asks for. Ghost cells of the input are dropped first.
+   * Layers of ghost cells that the output of each rank gets, if OptimizeBorders is in effect:
+   * copies of the other ranks' cells around its piece, marked by vtkGhostType. If the pipeline asks
+   * for more layers, there are as many as it asks for. Ghost cells of the input are dropped first.
    * Range [0, inf); default 0.
    */
   vtkSetClampMacro(NumberOfGhostLevels, int, 0, VTK_INT_MAX);

@@ -46,9 +46,9 @@ void Check(bool fine, const std::string& text)
 constexpr int Size = 6; // of the cube
 
 /**
- * Changes the id of the first cell that a rank sends, or the last bits of points, the first time:
- * of all, or only of those that are not on the borders of the slabs. The former differ from the points that the other rank has
- * already, the latter only from those that stay behind.
+ * Changes, the first time, the id of the first cell that a rank sends, or the last bits of points:
+ * of all, or only of those that are not on the borders of the slabs. The former differ from the
+ * points that the other rank has already, the latter only from those that stay behind.
  */
 class Corrupting : public vtkMPICommunicator
 {

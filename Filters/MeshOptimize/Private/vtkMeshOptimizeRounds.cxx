@@ -276,6 +276,36 @@ bool Rounds::MustStop(const Outcome& run)
   return this->Stopped != StopReason::NotRun;
 }
 
+/**
+ * Takes back what ranks have made of their pieces where cells that lie on each other have led two
+ * ranks to the same facet. `run` is then one without any change, which gives the qualities.
+ */
+void Rounds::UndoConflicts(const Part& before, Outcome& run)
+{
+  bool isUndone = false;
+  for (bool goesOn = true; goesOn;)
+  {
+    const bool undoes = HasOverusedFacet(this->All, this->Mine) && !isUndone;
+    goesOn = this->All.IsAny(undoes);
+    if (goesOn)
+    {
+      Part part = undoes ? before : MakePart(before.Corners, this->Points, this->Cells);
+      const Request wanted = this->Wanted;
+      meshopt::Options& options = this->Wanted.Options;
+      options.moveNodes = options.reconnect = options.insertNodes = options.removeNodes = false;
+      Outcome idle;
+      this->Optimize(part, 0.0, 0.0, idle);
+      this->Wanted = wanted;
+      if (undoes)
+      {
+        run = std::move(idle);
+        this->Mine = std::move(part);
+        isUndone = true;
+      }
+    }
+  }
+}
+
 void Rounds::OptimizePieces()
 {
   // What is at a border cannot get much better now: its share is left for the rounds.
@@ -287,9 +317,14 @@ void Rounds::OptimizePieces()
       [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
   }
   Outcome run;
+  const Part before = this->Mine; // shares the arrays
   this->Last = PiecesDone;
   this->Optimize(
     this->Mine, inside / static_cast<double>(std::max<vtkIdType>(this->CellsAtFirst, 1)), 1.0, run);
+  if (this->All.IsAny(run.Report.worstBefore <= 0.0 && run.NumberOfSimplices > 0))
+  {
+    this->UndoConflicts(before, run);
+  }
   this->Result.NumberOfSimplices = this->All.Sum(run.NumberOfSimplices);
   this->Result.NumberOfCellsBefore = this->All.Sum(run.NumberOfCellsBefore);
   this->Result.NumberOfReorientedCells = this->All.Sum(run.NumberOfReorientedCells);
@@ -357,13 +392,27 @@ void Rounds::Round(int round)
   std::vector<Part> parts = Split(
     this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
   Outcome run;
+  const bool isTangled = this->Result.Report.worstAfter <= 0.0;
+  const Part band = isTangled ? parts[1] : Part(); // shares the arrays
   const double mine = static_cast<double>(parts[1].GetNumberOfCells());
   const double bands = static_cast<double>(this->All.Sum(parts[1].GetNumberOfCells()));
   this->Result.NumberOfCellsInBands += static_cast<vtkIdType>(bands);
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
   this->All.Agree(Join(parts, this->Mine));
-  problem = Compare(before, this->Sign(), false);
+  for (bool goesOn = isTangled, isUndone = false; goesOn;)
+  {
+    const bool undoes = HasOverusedFacet(this->All, this->Mine) && !isUndone;
+    goesOn = this->All.IsAny(undoes);
+    if (undoes)
+    {
+      parts[1] = band;
+      run = Outcome();
+      isUndone = true;
+    }
+    this->All.Agree(undoes ? Join(parts, this->Mine) : "");
+  }
+  problem = Compare(before, this->Sign(), false, isTangled);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);

@@ -65,6 +65,7 @@ private:
   vtkMeshRanks::Signature Sign() const;
   void Divide();
   void Optimize(vtkMeshRanks::Part& part, double weight, double share, Outcome& outcome);
+  void UndoConflicts(const vtkMeshRanks::Part& before, Outcome& run);
   void NumberNew(vtkMeshRanks::Part& part);
   void Round(int round);
   double GetGoal() const;

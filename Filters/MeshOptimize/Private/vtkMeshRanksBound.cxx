@@ -101,8 +101,8 @@ std::vector<Side> FindSides(
 }
 
 /**
- * Adds sides of other ranks at edges (of triangles: nodes) that this rank has, too: an angle between two facets is wrong
- * if one between them is missing.
+ * Adds sides of other ranks at edges (of triangles: nodes) that this rank has, too: an angle
+ * between two facets is wrong if one between them is missing.
  */
 void AddSidesOfOthers(
   const Ranks& ranks, const Part& part, const Shared& shared, std::vector<Side>& sides)

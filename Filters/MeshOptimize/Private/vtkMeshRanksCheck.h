@@ -29,10 +29,11 @@ Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, doub
 /**
  * What tells two divisions of one mesh from two meshes.
  *
- * Surface is the sum over all cells of their facets' hashes (of ids and bits of coordinates), with
- * the sign of the facet's orientation. A facet that two cells have, on the same rank or not, comes
- * twice with different signs, so only the true surface is left: a facet that is missing, moved,
- * doubled, or not the same on both sides changes the sum.
+ * Surface combines by exclusive or, over all cells, the hashes of their facets (of ids and bits of
+ * coordinates). A facet that two cells have, on the same rank or not, comes twice and cancels out,
+ * so only the true surface is left: a facet that is missing, moved, or not the same on both sides
+ * changes the result. The order in which a cell lists its points does not: cells that are numbered
+ * the wrong way round may be turned by any run.
  */
 struct Signature
 {
@@ -48,10 +49,19 @@ struct Signature
 Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
 
 /**
- * An error if `after` is not of the same mesh as `before`; `cells` says whether the cells must be the
- * same, too, by number and ids. Volumes may differ by rounding.
+ * Whether this part has a facet of more than two cells, of all ranks together, with all nodes on
+ * the Skin. Valid meshes never get one. But where cells lie on each other, two runs side by side
+ * may both make the same facet of nodes that they share. Collective.
  */
-std::string Compare(const Signature& before, const Signature& after, bool cells);
+bool HasOverusedFacet(const Ranks& ranks, const Part& part);
+
+/**
+ * An error if `after` is not of the same mesh as `before`; `cells` says whether the cells must be
+ * the same, too, by number and ids. Volumes may differ by rounding;
+ * with `isTangled` they are not compared, since cells may be turned.
+ */
+std::string Compare(
+  const Signature& before, const Signature& after, bool cells, bool isTangled = false);
 
 } // namespace vtkMeshRanks
 
