@@ -15,12 +15,14 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -400,30 +402,117 @@ bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
 }
 
 /**
- * Optimizes the one mesh that all ranks have. If it is not built for this input and request, an
- * obstacle says why, and nothing is done.
+ * The leaves of a tree that are grids or nothing yet, by flat index.
+ */
+std::vector<int> ListPlaces(vtkDataObjectTree* tree)
+{
+  std::vector<int> places;
+  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  leaf->SkipEmptyNodesOff();
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    vtkDataObject* object = leaf->GetCurrentDataObject();
+    if (!object || vtkUnstructuredGrid::SafeDownCast(object))
+    {
+      places.push_back(static_cast<int>(leaf->GetCurrentFlatIndex()));
+    }
+  }
+  return places;
+}
+
+void SetLeaf(vtkDataObjectTree* tree, int block, vtkDataObject* object)
+{
+  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  leaf->SkipEmptyNodesOff();
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    if (static_cast<int>(leaf->GetCurrentFlatIndex()) == block)
+    {
+      tree->SetDataSet(leaf, object);
+      return;
+    }
+  }
+}
+
+/**
+ * Optimizes the meshes that all ranks have: one, or one in each block. If it is not built for this
+ * input and request, an obstacle says why, and what has been done does not count.
  */
 std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
   bridge::Request& request, std::vector<Task>& tasks, bridge::Outcome& outcome,
   std::string& obstacle)
 {
-  const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
+  vtkMultiProcessController* controller = filter->GetController();
+  auto tree = vtkDataObjectTree::SafeDownCast(ports.Output);
+  std::vector<int> here, blocks;
+  for (const Task& task : tasks)
+  {
+    here.push_back(task.Block);
+  }
+  const std::vector<int> places = tree ? ListPlaces(tree) : here;
+  if (!bridge::ListBlocks(controller, here, places, blocks))
+  {
+    obstacle = "the blocks of the ranks differ";
+    return {};
+  }
   request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
   request.NumberOfGhostLevels = std::max(
     filter->GetNumberOfGhostLevels(), ports.NumberOfGhostLevels);
-  const std::string error = bridge::OptimizeOnRanks(
-    filter->GetController(), request, [&]() { return CheckRequest(request, tasks); },
-    isComposite ? nullptr : tasks[0].Input, isComposite ? nullptr : tasks[0].Output, outcome,
-    obstacle);
-  if (error.empty() && obstacle.empty())
+  bridge::StartHistory(ports.History, tree != nullptr, false);
+  bridge::Outcome all;
+  for (const int block : blocks)
   {
-    bridge::StartHistory(ports.History, false, false);
-    if (filter->GetController()->GetLocalProcessId() == 0)
+    const auto mine = std::find_if(
+      tasks.begin(), tasks.end(), [block](const Task& task) { return task.Block == block; });
+    vtkNew<vtkUnstructuredGrid> empty, fresh; // other ranks alone have this block
+    const bool isHere = mine != tasks.end();
+    vtkUnstructuredGrid* output = isHere ? mine->Output : fresh.Get();
+    const std::string title = tree ? "Block " + std::to_string(block) + ": " : "";
+    bridge::Outcome one;
+    const std::string error = bridge::OptimizeOnRanks(
+      controller, request, [&]() { return CheckRequest(request, tasks); },
+      isHere ? mine->Input : empty.Get(), output, one, obstacle);
+    if (!error.empty())
     {
-      bridge::AppendHistory(outcome.Report, 0, ports.History);
+      return title + error;
     }
+    if (!obstacle.empty())
+    {
+      // Blocks before this one are made again, by each rank for itself.
+      for (const int done : blocks)
+      {
+        if (tree && std::find(here.begin(), here.end(), done) == here.end())
+        {
+          SetLeaf(tree, done, nullptr);
+        }
+      }
+      for (const Task& task : tasks)
+      {
+        task.Output->Initialize();
+      }
+      return {};
+    }
+    if (!isHere && output->GetNumberOfCells() > 0)
+    {
+      SetLeaf(tree, block, output);
+    }
+    if (controller->GetLocalProcessId() == 0)
+    {
+      bridge::AppendHistory(one.Report, block, ports.History);
+    }
+    for (std::string* text : { &one.Overlap, &one.Tangle, &one.Sizes, &one.Fault })
+    {
+      *text = text->empty() ? "" : title + *text;
+    }
+    const std::string fault = all.Fault.empty() ? one.Fault : all.Fault;
+    const bool isFirst = block == blocks.front();
+    const vtkIdType bands = all.NumberOfCellsInBands + one.NumberOfCellsInBands;
+    isFirst ? void(all = one) : all.Add(one);
+    all.Fault = fault;
+    all.NumberOfCellsInBands = bands;
   }
-  return error;
+  outcome = all;
+  return {};
 }
 
 /**

@@ -465,9 +465,9 @@ public:
    * Results are those of the whole on all ranks; the history is on the first. Filters/RANKS.md
    * says what each option then means, and which data are needed.
    *
-   * This is for tetrahedra, or triangles in one plane, in one grid with WorstFirst. With
-   * OptimizeBelow, sizes, a metric, other cells or composite data, one warning says that the
-   * borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide on several pieces is
+   * This is for tetrahedra, or triangles in one plane, with WorstFirst. In composite data the grids
+   * of all ranks with the same flat index are one mesh. With OptimizeBelow, sizes, a metric or other
+   * cells, one warning says that the borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide on several pieces is
    * an error.
    *
    * It has an effect if the number of pieces that is asked for is that of the controller's ranks,

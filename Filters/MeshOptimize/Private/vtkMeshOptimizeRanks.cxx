@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -75,10 +76,6 @@ bool HasOnlyCopies(vtkUnstructuredGrid* input, const vtkMeshBridge::Cells& cells
 std::string FindObstacle(
   vtkUnstructuredGrid* input, vtkMeshBridge::Cells& cells, std::string& error)
 {
-  if (!input)
-  {
-    return "the input is composite";
-  }
   error = vtkMeshBridge::ClassifyCells(input, cells);
   if (!error.empty() || !HasOnlyCopies(input, cells))
   {
@@ -104,7 +101,7 @@ std::string FindObstacle(
 std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
 {
   Bytes arrays;
-  if (input && input->GetNumberOfCells() > 0)
+  if (input->GetNumberOfCells() > 0)
   {
     for (int kind : { 0, 1 })
     {
@@ -153,6 +150,32 @@ std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstruct
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool ListBlocks(vtkMultiProcessController* controller, const std::vector<int>& here,
+  const std::vector<int>& places, std::vector<int>& blocks)
+{
+  const Ranks ranks(controller);
+  bool lacksOne = false;
+  const std::string error = ranks.Together(
+    [&]()
+    {
+      Bytes mine;
+      PutAll(mine, here);
+      std::set<int> all;
+      for (const Bytes& bytes : ranks.Gather(mine))
+      {
+        const std::vector<int> theirs = Reader(bytes).TakeAll<int>();
+        all.insert(theirs.begin(), theirs.end());
+      }
+      blocks.assign(all.begin(), all.end());
+      const std::set<int> known(places.begin(), places.end());
+      lacksOne = ranks.IsAny(std::any_of(
+        blocks.begin(), blocks.end(), [&](int block) { return known.count(block) == 0; }));
+      return std::string();
+    });
+  return error.empty() && !lacksOne;
+}
 
 //------------------------------------------------------------------------------
 std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& request,
