@@ -466,9 +466,9 @@ public:
    * says what each option then means, and which data are needed.
    *
    * This is for tetrahedra, or triangles in one plane, with WorstFirst. In composite data the grids
-   * of all ranks with the same flat index are one mesh. With OptimizeBelow, sizes, a metric or other
-   * cells, one warning says that the borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide on several pieces is
-   * an error.
+   * of all ranks with the same flat index are one mesh. With OptimizeBelow, sizes, a metric or
+   * other cells, one warning says that the borders are kept. Ghost cells of the input are dropped.
+   * BoundaryMode Slide on several pieces is an error.
    *
    * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
    * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.
