@@ -156,7 +156,7 @@ def look(case, f, serial, after, figures):
         if not tangled and abs(volume_of(cells[0]) - volume_of(before[0])) > 1e-9 * volume_of(before[0]):
             return "another volume", 1.0
     a, b = f.GetWorstQualityAfter(), serial.GetWorstQualityAfter()
-    if a < f.GetWorstQualityBefore():
+    if a < f.GetWorstQualityBefore() and not tangled:
         return f"the worst fell to {a}", 1.0
     return "", (a / b if b > 1e-9 else 1.0 if a > b - 0.02 else 0.0)
 

@@ -317,11 +317,12 @@ void Rounds::OptimizePieces()
       [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
   }
   Outcome run;
-  const Part before = this->Mine; // shares the arrays
+  const bool isTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
+  const Part before = isTangled ? this->Mine : Part(); // shares the arrays
   this->Last = PiecesDone;
   this->Optimize(
     this->Mine, inside / static_cast<double>(std::max<vtkIdType>(this->CellsAtFirst, 1)), 1.0, run);
-  if (this->All.IsAny(run.Report.worstBefore <= 0.0 && run.NumberOfSimplices > 0))
+  if (isTangled)
   {
     this->UndoConflicts(before, run);
   }
@@ -461,7 +462,8 @@ std::vector<int> FindHomes(const Ranks& ranks, const Part& part, vtkIdType cells
 
 void Rounds::SendHome()
 {
-  const Part before = this->Mine; // shares the arrays
+  Part before;
+  bool isSent = false;
   const std::string fault = this->All.Together(
     [&]()
     {
@@ -469,6 +471,8 @@ void Rounds::SendHome()
       const bool goes = std::any_of(target.begin(), target.end(), [](int t) { return t >= 0; });
       if (this->All.IsAny(goes))
       {
+        before = this->Mine; // shares the arrays
+        isSent = true;
         const Signature whole = this->Sign();
         std::vector<char> isMoved;
         Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
@@ -479,7 +483,10 @@ void Rounds::SendHome()
     });
   if (!fault.empty())
   {
-    this->Mine = before;
+    if (isSent)
+    {
+      this->Mine = std::move(before);
+    }
     this->Result.Fault = this->Result.Fault.empty() ? fault : this->Result.Fault;
   }
 }

@@ -121,6 +121,17 @@ Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>
   return sum;
 }
 
+bool HasNotPositive(const Part& part, const std::array<double, 3>& normal)
+{
+  const Vector up(normal[0], normal[1], normal[2]);
+  vtkIdType c = 0;
+  while (c < part.GetNumberOfCells() && VolumeOf(part, c, up) > 0.0)
+  {
+    ++c;
+  }
+  return c < part.GetNumberOfCells();
+}
+
 bool HasOverusedFacet(const Ranks& ranks, const Part& part)
 {
   std::vector<std::uint64_t> hashes(part.PointIds.size());

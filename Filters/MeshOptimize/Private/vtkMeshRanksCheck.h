@@ -49,6 +49,11 @@ struct Signature
 Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
 
 /**
+ * Whether a cell of this part is flat, or numbered as if it were inverted.
+ */
+bool HasNotPositive(const Part& part, const std::array<double, 3>& normal);
+
+/**
  * Whether this part has a facet of more than two cells, of all ranks together, with all nodes on
  * the Skin. Valid meshes never get one. But where cells lie on each other, two runs side by side
  * may both make the same facet of nodes that they share. Collective.
