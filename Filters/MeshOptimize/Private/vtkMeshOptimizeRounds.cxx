@@ -317,12 +317,12 @@ void Rounds::OptimizePieces()
       [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
   }
   Outcome run;
-  const bool isTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
-  const Part before = isTangled ? this->Mine : Part(); // shares the arrays
+  this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
+  const Part before = this->IsTangled ? this->Mine : Part(); // shares the arrays
   this->Last = PiecesDone;
   this->Optimize(
     this->Mine, inside / static_cast<double>(std::max<vtkIdType>(this->CellsAtFirst, 1)), 1.0, run);
-  if (isTangled)
+  if (this->IsTangled)
   {
     this->UndoConflicts(before, run);
   }
@@ -393,15 +393,14 @@ void Rounds::Round(int round)
   std::vector<Part> parts = Split(
     this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
   Outcome run;
-  const bool isTangled = this->Result.Report.worstAfter <= 0.0;
-  const Part band = isTangled ? parts[1] : Part(); // shares the arrays
+  const Part band = this->IsTangled ? parts[1] : Part(); // shares the arrays
   const double mine = static_cast<double>(parts[1].GetNumberOfCells());
   const double bands = static_cast<double>(this->All.Sum(parts[1].GetNumberOfCells()));
   this->Result.NumberOfCellsInBands += static_cast<vtkIdType>(bands);
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
   this->All.Agree(Join(parts, this->Mine));
-  for (bool goesOn = isTangled, isUndone = false; goesOn;)
+  for (bool goesOn = this->IsTangled, isUndone = false; goesOn;)
   {
     const bool undoes = HasOverusedFacet(this->All, this->Mine) && !isUndone;
     goesOn = this->All.IsAny(undoes);
@@ -413,7 +412,7 @@ void Rounds::Round(int round)
     }
     this->All.Agree(undoes ? Join(parts, this->Mine) : "");
   }
-  problem = Compare(before, this->Sign(), false, isTangled);
+  problem = Compare(before, this->Sign(), false, this->IsTangled);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);
