@@ -92,8 +92,8 @@ private:
   double First = 0.0, Last = 1.0; ///< the part of the progress that runs now
   meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
   vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state
-  /// Cells of the input are flat or inverted, or numbered so: runs may turn cells, and what two runs
-  /// make side by side may not fit together.
+  /// Cells of the input are flat or inverted, or numbered so: runs may turn cells, and what two of
+  /// them make side by side may not fit together.
   bool IsTangled = false;
   bool IsShort = false; ///< the last run on some rank needed more cells than it may add
 };
