@@ -123,25 +123,10 @@ Vec<3> AreaVector(const GridView& grid, vtkIdType triangle)
  * The sum of all area vectors, after those that point backwards are reversed. Its sign is such that
  * the reversed part is the smaller one. Zero only if no triangle has an area.
  */
-Vec<3> FindNormal(const GridView& grid, const std::vector<vtkIdType>& triangles)
+Vec<3> FindNormal(const PlaneFacts& facts)
 {
-  Vec<3> largest = Vec<3>::Zero();
-  for (vtkIdType triangle : triangles)
-  {
-    const Vec<3> area = AreaVector(grid, triangle);
-    if (area.squaredNorm() > largest.squaredNorm())
-    {
-      largest = area;
-    }
-  }
-  Vec<3> sum = Vec<3>::Zero(), turned = Vec<3>::Zero();
-  for (vtkIdType triangle : triangles)
-  {
-    const Vec<3> area = AreaVector(grid, triangle);
-    (area.dot(largest) < 0.0 ? turned : sum) += area;
-  }
-  const Vec<3> normal = sum - turned;
-  return turned.squaredNorm() > sum.squaredNorm() ? Vec<3>(-normal) : normal;
+  const Vec<3> normal = facts.Sum - facts.Turned;
+  return facts.Turned.squaredNorm() > facts.Sum.squaredNorm() ? Vec<3>(-normal) : normal;
 }
 
 /**
@@ -194,34 +179,75 @@ double DistanceOf(const Frame<2>& frame, const Vec<3>& x)
   return std::abs(frame.Axes[0].cross(frame.Axes[1]).dot(x - frame.Origin));
 }
 
-/**
- * Finds the farthest point; among equally far points the one with the lowest id.
- */
-void FindFarthest(
-  const GridView& grid, const std::vector<vtkIdType>& triangles, const Vec<3>& normal, Plane& plane)
+Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, const Box& box)
 {
+  PlaneFacts facts = FindPlaneFacts(grid, triangles);
+  facts.Bounds = box;
+  AddAreas(grid, triangles, facts);
+  Plane plane = MakePlane(facts);
+  FindFarthest(grid, triangles, plane);
+  return plane;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void PlaneFacts::Merge(const PlaneFacts& other)
+{
+  if (!other.IsEmpty())
+  {
+    this->Point = this->IsEmpty() ? other.Point : this->Point;
+    this->Bounds.Add(other.Bounds.Low);
+    this->Bounds.Add(other.Bounds.High);
+  }
+  if (other.Largest.squaredNorm() > this->Largest.squaredNorm())
+  {
+    this->Largest = other.Largest;
+  }
+  this->Precision = std::max(this->Precision, other.Precision);
+  this->Sum += other.Sum;
+  this->Turned += other.Turned;
+}
+
+PlaneFacts FindPlaneFacts(const GridView& grid, const std::vector<vtkIdType>& triangles)
+{
+  PlaneFacts facts;
+  if (triangles.empty())
+  {
+    return facts;
+  }
+  facts.Bounds = FindBox(grid, triangles, 3);
+  facts.Point = grid.GetPoint(PointsOf(grid, triangles.front())[0]);
+  facts.Precision = grid.GetPrecision();
   for (vtkIdType triangle : triangles)
   {
-    for (vtkIdType p : PointsOf(grid, triangle))
+    const Vec<3> area = AreaVector(grid, triangle);
+    if (area.squaredNorm() > facts.Largest.squaredNorm())
     {
-      const double distance = std::abs(normal.dot(grid.GetPoint(p) - plane.Frame.Origin));
-      if (distance > plane.Farthest ||
-        (distance == plane.Farthest && distance > 0.0 && p < plane.FarthestPoint))
-      {
-        plane.Farthest = distance;
-        plane.FarthestPoint = p;
-      }
+      facts.Largest = area;
     }
+  }
+  return facts;
+}
+
+void AddAreas(const GridView& grid, const std::vector<vtkIdType>& triangles, PlaneFacts& facts)
+{
+  facts.Sum = facts.Turned = Vec<3>::Zero();
+  for (vtkIdType triangle : triangles)
+  {
+    const Vec<3> area = AreaVector(grid, triangle);
+    (area.dot(facts.Largest) < 0.0 ? facts.Turned : facts.Sum) += area;
   }
 }
 
-Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, const Box& box)
+Plane MakePlane(const PlaneFacts& facts)
 {
+  const Box& box = facts.Bounds;
   Plane plane;
   plane.Extent = box.GetDiagonal();
   // Far from the origin, and as floats, coordinates are less exact than the extent alone tells.
-  plane.Tolerance = 1e-6 * plane.Extent + 4.0 * grid.GetPrecision() * box.GetMagnitude();
-  Vec<3> normal = FindNormal(grid, triangles);
+  plane.Tolerance = 1e-6 * plane.Extent + 4.0 * facts.Precision * box.GetMagnitude();
+  Vec<3> normal = FindNormal(facts);
   const int constant = FindConstantCoordinate(box);
   if (constant >= 0)
   {
@@ -234,13 +260,34 @@ Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, c
   }
   normal.normalize();
   // The middle of the box need not lie in the plane.
-  const Vec<3> x = grid.GetPoint(PointsOf(grid, triangles.front())[0]);
-  plane.Frame = MakeTilted(0.5 * (box.Low + box.High), x, normal);
-  FindFarthest(grid, triangles, normal, plane);
+  plane.Frame = MakeTilted(0.5 * (box.Low + box.High), facts.Point, normal);
+  plane.Normal = normal;
   return plane;
 }
 
-} // namespace
+/**
+ * Among equally far points the one with the lowest id.
+ */
+void FindFarthest(const GridView& grid, const std::vector<vtkIdType>& triangles, Plane& plane)
+{
+  if (plane.Frame.Direct[0] >= 0) // all have the same coordinate
+  {
+    return;
+  }
+  for (vtkIdType triangle : triangles)
+  {
+    for (vtkIdType p : PointsOf(grid, triangle))
+    {
+      const double distance = std::abs(plane.Normal.dot(grid.GetPoint(p) - plane.Frame.Origin));
+      if (distance > plane.Farthest ||
+        (distance == plane.Farthest && distance > 0.0 && p < plane.FarthestPoint))
+      {
+        plane.Farthest = distance;
+        plane.FarthestPoint = p;
+      }
+    }
+  }
+}
 
 bool Plane::Has(const Vec<3>& x) const { return DistanceOf(this->Frame, x) <= this->Tolerance; }
 

@@ -83,7 +83,8 @@ std::string CheckExtent(const Box& box);
 struct Plane
 {
   vtkMeshBridge::Frame<2> Frame;
-  double Extent = 0.0;    ///< diagonal of the triangles' box
+  meshopt::Vec<3> Normal = meshopt::Vec<3>::UnitZ(); ///< of a plane that is not direct
+  double Extent = 0.0;                               ///< diagonal of the triangles' box
   double Tolerance = 0.0; ///< 1e-6 of Extent, plus the rounding error of the coordinate type
   double Farthest = 0.0;  ///< greatest distance of a point from the plane
   vtkIdType FarthestPoint = -1;
@@ -102,6 +103,31 @@ struct Plane
  * axes, their coordinates are used unchanged; z is the first candidate to be left out.
  */
 Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles);
+
+/**
+ * The same in steps, for triangles of which each process has a part. Between the steps Merge()
+ * makes the facts of all parts one, in an order that is the same everywhere.
+ */
+struct PlaneFacts
+{
+  Box Bounds;
+  meshopt::Vec<3> Largest = meshopt::Vec<3>::Zero(); ///< area vector of the largest triangle
+  meshopt::Vec<3> Point = meshopt::Vec<3>::Zero();   ///< a corner of the first triangle
+  double Precision = 0.0;                            ///< of the coordinates
+  /// Sums of the area vectors that point to the side of `Largest`, and of the others.
+  meshopt::Vec<3> Sum = meshopt::Vec<3>::Zero(), Turned = meshopt::Vec<3>::Zero();
+
+  bool IsEmpty() const { return !(this->Bounds.Low[0] <= this->Bounds.High[0]); }
+  /// With the facts of another part: after the first step, and after the second.
+  void Merge(const PlaneFacts& other);
+};
+/// The first step: all but the sums. There may be no triangles.
+PlaneFacts FindPlaneFacts(const GridView& grid, const std::vector<vtkIdType>& triangles);
+/// The second step, with `Largest` of all parts: the sums of this part.
+void AddAreas(const GridView& grid, const std::vector<vtkIdType>& triangles, PlaneFacts& facts);
+/// The plane of facts that are not empty. Which point is the farthest is the last step.
+Plane MakePlane(const PlaneFacts& facts);
+void FindFarthest(const GridView& grid, const std::vector<vtkIdType>& triangles, Plane& plane);
 
 /**
  * In 3D there is nothing to find; only the extent is checked.

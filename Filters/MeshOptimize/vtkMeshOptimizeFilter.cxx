@@ -15,12 +15,14 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
+#include "vtkDataObjectTreeIterator.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -79,6 +81,7 @@ void vtkMeshOptimizeFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SurfaceTolerance: " << this->SurfaceTolerance << "\n";
   os << indent << "ToleranceIsAbsolute: " << this->ToleranceIsAbsolute << "\n";
   os << indent << "OptimizeBorders: " << this->OptimizeBorders << "\n";
+  os << indent << "NumberOfGhostLevels: " << this->NumberOfGhostLevels << "\n";
   os << indent << "Controller: " << this->Controller << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "WorstQualityBefore: " << this->WorstQualityBefore << "\n";
@@ -213,7 +216,7 @@ struct Ports
   vtkPolyData* Geometry;
   vtkDataObject* Output;
   vtkTable* History;
-  int NumberOfPieces;
+  int NumberOfPieces, NumberOfGhostLevels;
 };
 
 /**
@@ -361,6 +364,12 @@ int CountPieces(vtkInformation* info)
   return info->Has(pieces) ? info->Get(pieces) : 1;
 }
 
+int CountGhostLevels(vtkInformation* info)
+{
+  const auto levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
+  return info->Has(levels) ? info->Get(levels) : 0;
+}
+
 /**
  * The border of a piece is not a boundary of the mesh, so it cannot slide.
  */
@@ -393,28 +402,117 @@ bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
 }
 
 /**
- * Optimizes the one mesh that all ranks have. If it is not built for this input and request, an
- * obstacle says why, and nothing is done.
+ * The leaves of a tree that are grids or nothing yet, by flat index.
+ */
+std::vector<int> ListPlaces(vtkDataObjectTree* tree)
+{
+  std::vector<int> places;
+  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  leaf->SkipEmptyNodesOff();
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    vtkDataObject* object = leaf->GetCurrentDataObject();
+    if (!object || vtkUnstructuredGrid::SafeDownCast(object))
+    {
+      places.push_back(static_cast<int>(leaf->GetCurrentFlatIndex()));
+    }
+  }
+  return places;
+}
+
+void SetLeaf(vtkDataObjectTree* tree, int block, vtkDataObject* object)
+{
+  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  leaf->SkipEmptyNodesOff();
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    if (static_cast<int>(leaf->GetCurrentFlatIndex()) == block)
+    {
+      tree->SetDataSet(leaf, object);
+      return;
+    }
+  }
+}
+
+/**
+ * Optimizes the meshes that all ranks have: one, or one in each block. If it is not built for this
+ * input and request, an obstacle says why, and what has been done does not count.
  */
 std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
   bridge::Request& request, std::vector<Task>& tasks, bridge::Outcome& outcome,
   std::string& obstacle)
 {
-  const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
-  request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
-  const std::string error = bridge::OptimizeOnRanks(
-    filter->GetController(), request, [&]() { return CheckRequest(request, tasks); },
-    isComposite ? nullptr : tasks[0].Input, isComposite ? nullptr : tasks[0].Output, outcome,
-    obstacle);
-  if (error.empty() && obstacle.empty())
+  vtkMultiProcessController* controller = filter->GetController();
+  auto tree = vtkDataObjectTree::SafeDownCast(ports.Output);
+  std::vector<int> here, blocks;
+  for (const Task& task : tasks)
   {
-    bridge::StartHistory(ports.History, false, false);
-    if (filter->GetController()->GetLocalProcessId() == 0)
-    {
-      bridge::AppendHistory(outcome.Report, 0, ports.History);
-    }
+    here.push_back(task.Block);
   }
-  return error;
+  const std::vector<int> places = tree ? ListPlaces(tree) : here;
+  if (!bridge::ListBlocks(controller, here, places, blocks))
+  {
+    obstacle = "the blocks of the ranks differ";
+    return {};
+  }
+  request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
+  request.NumberOfGhostLevels = std::max(
+    filter->GetNumberOfGhostLevels(), ports.NumberOfGhostLevels);
+  bridge::StartHistory(ports.History, tree != nullptr, false);
+  bridge::Outcome all;
+  for (const int block : blocks)
+  {
+    const auto mine = std::find_if(
+      tasks.begin(), tasks.end(), [block](const Task& task) { return task.Block == block; });
+    vtkNew<vtkUnstructuredGrid> empty, fresh; // other ranks alone have this block
+    const bool isHere = mine != tasks.end();
+    vtkUnstructuredGrid* output = isHere ? mine->Output : fresh.Get();
+    const std::string title = tree ? "Block " + std::to_string(block) + ": " : "";
+    bridge::Outcome one;
+    const std::string error = bridge::OptimizeOnRanks(
+      controller, request, [&]() { return CheckRequest(request, tasks); },
+      isHere ? mine->Input : empty.Get(), output, one, obstacle);
+    if (!error.empty())
+    {
+      return title + error;
+    }
+    if (!obstacle.empty())
+    {
+      // Blocks before this one are made again, by each rank for itself.
+      for (const int done : blocks)
+      {
+        if (tree && std::find(here.begin(), here.end(), done) == here.end())
+        {
+          SetLeaf(tree, done, nullptr);
+        }
+      }
+      for (const Task& task : tasks)
+      {
+        task.Output->Initialize();
+      }
+      return {};
+    }
+    if (!isHere && output->GetNumberOfCells() > 0)
+    {
+      SetLeaf(tree, block, output);
+    }
+    if (controller->GetLocalProcessId() == 0)
+    {
+      bridge::AppendHistory(one.Report, block, ports.History);
+    }
+    for (std::string* text : { &one.Overlap, &one.Tangle, &one.Sizes, &one.Fault })
+    {
+      *text = text->empty() ? "" : title + *text;
+    }
+    const std::string fault = all.Fault.empty() ? one.Fault : all.Fault;
+    const bool isFirst = block == blocks.front();
+    const vtkIdType bands = all.NumberOfCellsInBands + one.NumberOfCellsInBands;
+    isFirst ? void(all = one) : all.Add(one);
+    all.Fault = fault;
+    all.NumberOfCellsInBands = bands;
+  }
+  outcome = all;
+  return {};
 }
 
 /**
@@ -513,7 +611,8 @@ int vtkMeshOptimizeFilter::RequestData(
 {
   const Ports ports{ vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
     vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1),
-    CountPieces(outputVector->GetInformationObject(0)) };
+    CountPieces(outputVector->GetInformationObject(0)),
+    CountGhostLevels(outputVector->GetInformationObject(0)) };
   // What all ranks know is told by the first.
   const bool isTold = HasRanks(this, ports) && this->Controller->GetLocalProcessId() > 0;
   Results results;

@@ -465,9 +465,10 @@ public:
    * Results are those of the whole on all ranks; the history is on the first. Filters/RANKS.md
    * says what each option then means, and which data are needed.
    *
-   * This is for tetrahedra in one grid with WorstFirst. With OptimizeBelow, sizes, a metric,
-   * triangles, other cells, ghost cells or composite data, one warning says that the borders are
-   * kept. BoundaryMode Slide on several pieces is an error.
+   * This is for tetrahedra, or triangles in one plane, with WorstFirst. In composite data the grids
+   * of all ranks with the same flat index are one mesh. With OptimizeBelow, sizes, a metric or
+   * other cells, one warning says that the borders are kept. Ghost cells of the input are dropped.
+   * BoundaryMode Slide on several pieces is an error.
    *
    * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
    * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.
@@ -476,6 +477,17 @@ public:
   vtkSetMacro(OptimizeBorders, bool);
   vtkGetMacro(OptimizeBorders, bool);
   vtkBooleanMacro(OptimizeBorders, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Layers of ghost cells that the output of each rank gets, if OptimizeBorders is in effect:
+   * copies of the other ranks' cells around its piece, marked by vtkGhostType. If the pipeline asks
+   * for more layers, there are as many as it asks for. Ghost cells of the input are dropped first.
+   * Range [0, inf); default 0.
+   */
+  vtkSetClampMacro(NumberOfGhostLevels, int, 0, VTK_INT_MAX);
+  vtkGetMacro(NumberOfGhostLevels, int);
   ///@}
 
   ///@{
@@ -601,6 +613,7 @@ private:
   double SurfaceTolerance = 1e-3;
   bool ToleranceIsAbsolute = false;
   bool OptimizeBorders = false;
+  int NumberOfGhostLevels = 0;
   vtkMultiProcessController* Controller = nullptr;
 
   double WorstQualityBefore = 0.0, WorstQualityAfter = 0.0;

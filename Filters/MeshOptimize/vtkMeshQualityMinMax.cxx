@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties, ports and blocks. Each block is measured by the functions of Private; ranks meet once
-// for figures and once for the histogram.
+// Properties, ports and blocks. Each block is measured by the functions of Private; ranks meet for
+// the plane of triangles, the surface, the figures and the histogram.
 #include "vtkMeshQualityMinMax.h"
 
 #include "vtkMeshBridgeGridView.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeArrays.h"
+#include "vtkMeshQualityRanks.h"
 #include "vtkMeshQualityReport.h"
 
 #include "vtkCellData.h"
@@ -25,6 +26,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshQualityMinMax);
@@ -161,8 +164,14 @@ struct vtkMeshQualityMinMax::Run
 
   void Pass(vtkDataObject* input, vtkDataObject* output);
   void PassBlock(vtkDataObject* input, vtkDataObject* output, unsigned int block);
+  bool IsAlone() const
+  {
+    return !this->Self->Controller || this->Self->Controller->GetNumberOfProcesses() == 1;
+  }
   std::string FindArrays();
   std::string Measure();
+  std::string MeasureOnRanks();
+  std::string MeasureBlocks();
   std::string MeasureBlock(const quality::Block& block);
   void CountInBins(meshopt::QualityHistogram& histogram);
 
@@ -171,7 +180,9 @@ struct vtkMeshQualityMinMax::Run
   quality::Figures Figures;
   int Rank;
   bool IsComposite = false;
-  std::vector<quality::Block> Blocks; // of the output
+  std::vector<quality::Block> Blocks;                // of the output
+  std::map<unsigned int, quality::Planarity> Planes; // of all ranks; only if not alone
+  std::vector<quality::Surface> Surfaces;            // of the blocks; only if not alone
 };
 
 //------------------------------------------------------------------------------
@@ -247,6 +258,13 @@ std::string vtkMeshQualityMinMax::Run::FindArrays()
 std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
 {
   quality::Grid grid(block.Mesh);
+  if (!this->IsAlone())
+  {
+    const auto plane = this->Planes.find(block.FlatIndex);
+    const bool isPlane = plane != this->Planes.end();
+    grid.SetPlane(
+      isPlane && plane->second.IsFlat, isPlane ? plane->second.Frame : vtkMeshBridge::Frame<2>());
+  }
   const std::string error = grid.Read(block.Arrays, this->Options.Beta > 0.0);
   if (!error.empty())
   {
@@ -259,7 +277,15 @@ std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
     grid, this->Options, block.Part, values->GetPointer(0));
   if (!vtkMeshBridge::CheckAbort(this->Self))
   {
-    quality::MeasureSurface(grid, this->Options, values->GetPointer(0), figures);
+    quality::Surface surface = quality::FindSurface(grid, this->Options, values->GetPointer(0));
+    if (this->IsAlone())
+    {
+      quality::MeasureSurface(surface, this->Options, figures);
+    }
+    else
+    {
+      this->Surfaces[&block - this->Blocks.data()] = std::move(surface);
+    }
   }
   this->Figures.Merge(figures);
   block.Mesh->GetCellData()->AddArray(values);
@@ -268,9 +294,9 @@ std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
 }
 
 //------------------------------------------------------------------------------
-std::string vtkMeshQualityMinMax::Run::Measure()
+std::string vtkMeshQualityMinMax::Run::MeasureBlocks()
 {
-  std::string error = this->FindArrays();
+  std::string error;
   for (std::size_t b = 0; b < this->Blocks.size() && error.empty(); ++b)
   {
     // What has been measured so far stays.
@@ -286,6 +312,43 @@ std::string vtkMeshQualityMinMax::Run::Measure()
     this->Self->UpdateProgress(static_cast<double>(b + 1) / this->Blocks.size());
   }
   return error;
+}
+
+/**
+ * With the plane of all triangles, and without the borders of the pieces. An error of one rank is
+ * one of all.
+ */
+std::string vtkMeshQualityMinMax::Run::MeasureOnRanks()
+{
+  const vtkMeshRanks::Ranks ranks(this->Self->Controller);
+  return ranks.Together(
+    [&]()
+    {
+      ranks.Agree(this->FindArrays());
+      this->Planes = quality::FindPlanes(ranks, this->Blocks);
+      this->Surfaces.resize(this->Blocks.size());
+      ranks.Agree(this->MeasureBlocks());
+      // Where a rank has not looked at its surface, all facets at its border would seem to be it.
+      if (this->Options.ComputeBound && !ranks.IsAny(vtkMeshBridge::CheckAbort(this->Self)))
+      {
+        quality::RemoveBorders(ranks, this->Blocks, this->Surfaces);
+        for (const quality::Surface& surface : this->Surfaces)
+        {
+          quality::MeasureSurface(surface, this->Options, this->Figures);
+        }
+      }
+      return std::string();
+    });
+}
+
+std::string vtkMeshQualityMinMax::Run::Measure()
+{
+  if (!this->IsAlone())
+  {
+    return this->MeasureOnRanks();
+  }
+  const std::string error = this->FindArrays();
+  return error.empty() ? this->MeasureBlocks() : error;
 }
 
 //------------------------------------------------------------------------------
@@ -387,8 +450,12 @@ int vtkMeshQualityMinMax::RequestData(
     {
       vtkDataObject::GetData(outputVector, port)->Initialize();
     }
-    // Returning 0 would make the executive add an error of its own.
-    vtkErrorMacro(<< (error.empty() ? "Another rank has an error." : error));
+    // Returning 0 would make the executive add an error of its own. What all ranks know is told
+    // by the first.
+    if (run.Rank == 0)
+    {
+      vtkErrorMacro(<< error);
+    }
   }
   this->SetErrorCode(usable ? vtkErrorCode::NoError : vtkErrorCode::UserError);
   this->StoreFigures(run);

@@ -26,13 +26,17 @@
  *    rank has only its own ones.
  *
  * Tables are filled on rank 0 and empty elsewhere; the figures that Get...() returns are the same
- * on all ranks.
+ * on all ranks. The plane and the upper side of triangles are those of all ranks, too. An error on
+ * one rank is one on all, told by the first.
  *
  * Bound and CappedCells say how much of the result is due to the surface. No mesh with this surface
  * (and these facets between regions) can have a worst element above Bound. CappedCells elements
- * belong to facets that keep them below TargetQuality, whatever is done inside. Blocks and ranks
- * are treated separately: facets between them count as surface, unless ghost cells show otherwise.
- * (vtkMeshOptimizeFilter keeps the facets to ghost cells, so its own bound can be lower.) The bound
+ * belong to facets that keep them below TargetQuality, whatever is done inside. Blocks are treated
+ * separately: facets between them count as surface. Facets between the pieces of a block on several
+ * ranks do not: they are the same if their corners have the same global ids or, if some piece has
+ * none, the same coordinates. (A crack of doubled nodes along a border is then taken for border;
+ * the bound is still one.) Nor do facets to ghost cells; vtkMeshOptimizeFilter keeps these, so that
+ * its own bound can be lower. The bound
  * is known for triangles in a plane and for tetrahedra. With the measure Shape it follows from
  * facets and dihedral angles, with Mean Ratio and Volume Length from facets. Otherwise, and with a
  * metric array, it is the value of the regular element.

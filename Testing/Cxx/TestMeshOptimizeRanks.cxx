@@ -46,16 +46,16 @@ void Check(bool fine, const std::string& text)
 constexpr int Size = 6; // of the cube
 
 /**
- * Changes the last bits of points that a rank sends, the first time: of all, or only of those that
- * are not on the borders of the slabs. The former differ from the points that the other rank has
- * already, the latter only from those that stay behind.
+ * Changes, the first time, the id of the first cell that a rank sends, or the last bits of points:
+ * of all, or only of those that are not on the borders of the slabs. The former differ from the
+ * points that the other rank has already, the latter only from those that stay behind.
  */
 class Corrupting : public vtkMPICommunicator
 {
 public:
   static Corrupting* New() { VTK_STANDARD_NEW_BODY(Corrupting); }
   vtkTypeMacro(Corrupting, vtkMPICommunicator);
-  bool IsOn = false, SparesBorders = false;
+  bool IsOn = false, SparesBorders = false, ChangesId = false;
 
   int SendVoidArray(
     const void* data, vtkIdType length, int type, int remoteHandle, int tag) override
@@ -77,6 +77,13 @@ public:
     }
     this->IsOn = false;
     std::vector<char> wrong(bytes, bytes + length);
+    if (this->ChangesId)
+    {
+      // Flags of points and the number of cells come next, then the ids of these: of the first one.
+      const std::size_t at = 32 + 33 * points;
+      ++wrong[at + 5];
+      return this->Superclass::SendVoidArray(wrong.data(), length, type, remoteHandle, tag);
+    }
     for (vtkTypeInt64 i = 0; i < coordinates; ++i)
     {
       const std::size_t at = 16 + 8 * points + 8 * i;
@@ -172,11 +179,12 @@ void TestLastGoodState(vtkMPIController* controller)
   vtkNew<vtkUnstructuredGrid> piece;
   MakePiece(Size, rank, ranks, piece);
   vtkIdType cellsBefore = 0;
-  for (int kind : { 0, 1, 2 })
+  for (int kind : { 0, 1, 2, 3 })
   {
     const bool isOn = kind > 0;
     wire->IsOn = isOn;
     wire->SparesBorders = kind == 2;
+    wire->ChangesId = kind == 3;
     int told = 0;
     vtkNew<vtkCallbackCommand> listen;
     listen->SetCallback(Count);

@@ -1,101 +1,147 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkMeshQualityMinMax on several ranks gives on each of them the figures of the whole mesh. Run by pvbatch under mpirun."""
+"""vtkMeshQualityMinMax on several ranks gives on each of them the figures of the whole mesh. By pvbatch --symmetric."""
+import os
 import sys
 
 import numpy as np
 from meshoptimize import vtkMeshQualityMinMax
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkDataObject, vtkUnstructuredGrid
-from vtkmodules.vtkParallelCore import vtkMultiProcessController
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_STRING
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 
-controller = vtkMultiProcessController.GetGlobalController()
-rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
-N = 6000
-x = np.random.default_rng(3).random((4 * N, 3))
-region = np.arange(N, dtype=np.int32) // 1000  # most regions are on one rank only
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # pvbatch does not
+from ranks_case import Mesh, add, check, controller, gather, make_grid, rank, ranks, run_tests
 
 
-def make_grid(cells):
-    grid = vtkUnstructuredGrid()
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(x[np.concatenate([4 * cells[:, None] + np.arange(4)])].reshape(-1, 3), deep=1))
-    grid.SetPoints(points)
-    grid.Allocate(len(cells))
-    for k in range(len(cells)):
-        grid.InsertNextCell(VTK_TETRA, 4, [4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3])
-    array = numpy_to_vtk(region[cells], deep=1)
-    array.SetName("region")
-    grid.GetCellData().AddArray(array)
-    return grid
-
-
-def run(cells, everywhere):
+def measure(grid, everywhere, regions):
     f = vtkMeshQualityMinMax()
     f.SetController(controller if everywhere else None)
-    f.SetInputData(make_grid(cells))
-    f.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "region")
-    f.Update()
+    f.SetInputData(grid)
+    if regions:
+        f.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, "region")
+    f.UpdatePiece(rank, ranks, 0) if everywhere else f.Update()
     return f
 
 
-failures = []
-mine = np.arange(N)[np.arange(N) * ranks // N == rank]
-if ranks > 2 and rank == 1:
-    mine = mine[:0]  # a rank without cells
-counted = np.arange(N) if ranks <= 2 else np.arange(N)[np.arange(N) * ranks // N != 1]
-whole, part = run(counted, False), run(mine, True)
-for getter in ("MinimumQuality", "MaximumQuality", "NumberOfMeasuredCells", "NumberOfInvertedCells", "QualityBound", "NumberOfCappedCells"):
-    a, b = getattr(whole, "Get" + getter)(), getattr(part, "Get" + getter)()
-    if a != b:
-        failures.append(f"{getter}: {b} on {ranks} ranks, {a} on one")
-for getter in ("MeanQuality", "StandardDeviation"):
-    a, b = getattr(whole, "Get" + getter)(), getattr(part, "Get" + getter)()
-    if abs(a - b) > 1e-14:
-        failures.append(f"{getter}: {b} on {ranks} ranks, {a} on one")
-q = vtk_to_numpy(whole.GetOutput().GetCellData().GetArray("MeshQuality"))
-owner = int(np.argmin(q)) if ranks <= 2 else int(counted[np.argmin(q)])
-if part.GetWorstCellRank() != owner * ranks // N:
-    failures.append(f"worst cell on rank {part.GetWorstCellRank()}, not {owner * ranks // N}")
+def compare(name, whole, part):
+    """All figures, on all ranks; the tables on the first; the worst cells on those that have them."""
+    for getter in ("MinimumQuality", "MaximumQuality", "NumberOfMeasuredCells", "NumberOfInvertedCells", "NumberOfOtherCells",
+                   "NumberOfNotMeasurableCells", "QualityBound", "NumberOfCappedCells", "MeanQuality", "StandardDeviation"):
+        a, b = getattr(whole, "Get" + getter)(), getattr(part, "Get" + getter)()
+        check(abs(a - b) < (1e-6 if getter == "QualityBound" else 1e-12), f"{name}: {getter} {b}, alone {a}")
+    tables = [[f.GetOutputDataObject(port) for f in (whole, part)] for port in (1, 2)]
+    for (mine, its), columns in zip(tables, (("Count", "Minimum", "Maximum", "Mean", "Bound", "CappedCells"), ("Count",))):
+        check(its.GetNumberOfRows() == (mine.GetNumberOfRows() if rank == 0 else 0), f"{name}: {its.GetNumberOfRows()} rows")
+        for column in columns if rank == 0 else ():
+            a, b = (vtk_to_numpy(t.GetColumnByName(column)) for t in (mine, its))
+            check(len(a) == len(b) and np.nanmax(np.abs(a - b)) < 1e-6, f"{name}: column {column} {b}, alone {a}")
+    worst = [f.GetOutputDataObject(3).GetCellData().GetArray("MeshQuality") for f in (whole, part)]
+    every = np.concatenate(gather(worst=vtk_to_numpy(worst[1]) if worst[1].GetNumberOfTuples() else np.zeros(0))["worst"])
+    check(np.allclose(np.sort(every), np.sort(vtk_to_numpy(worst[0])), 0, 1e-12), f"{name}: worst cells {np.sort(every)}")
+    owners = gather(owner=np.array([part.GetWorstCellRank()]))["owner"]
+    here = part.GetOutputDataObject(3).GetNumberOfCells()
+    check(rank != owners[0][0] or (here > 0 and worst[1].GetValue(0) == part.GetMinimumQuality()), f"{name}: worst cell's rank")
 
-table, histogram, worst = (part.GetOutputDataObject(p) for p in (1, 2, 3))
-if table.GetNumberOfRows() != (whole.GetOutputDataObject(1).GetNumberOfRows() if rank == 0 else 0):
-    failures.append(f"{table.GetNumberOfRows()} rows of summary on rank {rank}")
-if rank == 0:
-    for name in ("Count", "Minimum", "Maximum", "Bound", "CappedCells"):
-        a = vtk_to_numpy(whole.GetOutputDataObject(1).GetColumnByName(name))
-        b = vtk_to_numpy(table.GetColumnByName(name))
-        if not np.array_equal(a, b):
-            failures.append(f"column {name}: {b}, not {a}")
-    a = vtk_to_numpy(whole.GetOutputDataObject(2).GetColumnByName("Count"))
-    b = vtk_to_numpy(histogram.GetColumnByName("Count"))
-    if not np.array_equal(a, b):
-        failures.append("histogram")
-threshold = np.sort(q)[9]
-here = vtk_to_numpy(part.GetOutput().GetCellData().GetArray("MeshQuality")) if len(mine) else np.array([])
-if worst.GetNumberOfCells() != (here <= threshold).sum():
-    failures.append(f"{worst.GetNumberOfCells()} worst cells on rank {rank}, not {(here <= threshold).sum()}")
 
-# One rank has an unusable value: all stop with an error, none waits for the others.
-grid = make_grid(mine)
-sizes = np.ones(4 * len(mine))
-if rank == ranks - 1:
-    sizes[5] = -1.0
-sizes = numpy_to_vtk(sizes, deep=1)
-sizes.SetName("size")
-grid.GetPointData().AddArray(sizes)
-messages = []
-bad = vtkMeshQualityMinMax()
-bad.AddObserver("ErrorEvent", lambda *_: messages.append(1))
-bad.SetInputData(grid)
-bad.SetBeta(1.0)
-bad.SetInputArrayToProcess(2, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "size")
-bad.Update()
-if len(messages) != 1 or bad.GetErrorCode() == 0:
-    failures.append(f"{len(messages)} errors, error code {bad.GetErrorCode()}")
+def test_loose():
+    """Cells that touch nothing, at random; most regions are on one rank only, and with three ranks one has no cells."""
+    n = 6000
+    x = np.random.default_rng(3).random((4 * n, 3))
+    cells = np.arange(4 * n).reshape(-1, 4)
 
-for failure in failures:
-    print(f"FAILED on rank {rank}:", failure)
-controller.Barrier()
-if failures:  # without failures MPI is to be finalized as usual
-    sys.exit(1)
+    def grid(chosen):
+        grid = make_grid(x[cells[chosen]].reshape(-1, 3), np.arange(4 * len(chosen)).reshape(-1, 4))
+        add(grid.GetCellData(), "region", (chosen // 1000).astype(np.int32))
+        return grid
+    owner = np.arange(n) * ranks // n
+    counted = np.flatnonzero((owner != 1) | (ranks < 3))
+    compare("loose", measure(grid(counted), False, True), measure(grid(counted[owner[counted] == rank]), True, True))
+
+
+def test_surface():
+    """What is at a border is no surface: bound, caps, summary and worst cells are those of the whole, by ids and without."""
+    mesh = Mesh(n=5, jitter=0.2)
+    low = mesh.node[:, 2] == 0
+    mesh.x[low & (mesh.node[:, 0] == 2) & (mesh.node[:, 1] == 2)] += [0.18, 0.0, 0.0]  # slender facets at the border
+    mesh.values["region"] = (mesh.centers()[:, 1] > 0.55).astype(np.int32)
+    for axis in (0, 1):  # along the regions' interface, too
+        for ids in (False, 2 ** 60):
+            for regions in (False, True):
+                mesh.ids = ids
+                compare(f"surface {axis} {ids} {regions}", measure(mesh.whole(), False, regions),
+                        measure(mesh.piece(axis), True, regions))
+
+
+def test_interface_on_border():
+    """A facet between two regions is kept, also where it lies between two ranks."""
+    mesh = Mesh(n=4, jitter=0.2, keep=lambda x: np.abs(x[:, 0] - 0.5) < 0.01)
+    middle = mesh.node[:, 0] == 2
+    mesh.x[middle & (mesh.node[:, 1] == 2) & (mesh.node[:, 2] == 2)] += [0.0, 0.23, 0.0]
+    mesh.values["region"] = (mesh.centers()[:, 0] > 0.5).astype(np.int32)
+    whole = measure(mesh.whole(), False, True)
+    check(whole.GetQualityBound() < measure(mesh.whole(), False, False).GetQualityBound() - 0.01, "interface: too easy")
+    compare("interface", whole, measure(mesh.piece(0, 2), True, True))
+
+
+def test_triangles():
+    """One plane and one upper side for all: also if a piece alone would have another, and in space."""
+    i = np.arange(64)
+    node = np.stack([i // 8, i % 8], 1)
+    base = i[(node < 7).all(axis=1)]
+    cells = np.concatenate([np.stack([base, base + 8, base + 9], 1), np.stack([base, base + 9, base + 1], 1)])
+    x = np.zeros((64, 3))
+    x[:, :2] = node + np.random.default_rng(2).uniform(-0.3, 0.3, (64, 2)) * ((node > 0) & (node < 7))
+    x[7, :2] -= 0.4  # a corner that bounds the quality
+    first = x[cells, 0].mean(axis=1) < 3
+    cells[first] = cells[first][:, [0, 2, 1]]  # the smaller part lies on its back
+    tilted = x @ np.array([[0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [-0.8, 0.0, 0.6]])
+    bent = x + np.where(x[:, :1] > 4, (x[:, :1] - 4) * [[0.0, 0.0, 1.0]], 0.0)
+    for name, at in (("plane", x), ("tilted", tilted), ("bent", bent)):
+        mine = np.minimum((x[cells, 0].mean(axis=1) * ranks / 7).astype(int), ranks - 1) == rank
+        used = np.unique(cells[mine])
+        whole = measure(make_grid(at, cells), False, False)
+        check((whole.GetNumberOfInvertedCells() > 0) == (name != "bent"), f"{name}: too easy")
+        compare(name, whole, measure(make_grid(at[used], np.searchsorted(used, cells[mine])), True, False))
+
+
+def test_crack():
+    """A crack of doubled nodes is surface; along a border it is one if there are ids, and else the bound is still one."""
+    mesh = Mesh(n=6, jitter=0.2, keep=lambda x: np.abs(x[:, 0] - 0.5) < 0.01)
+    lips = (mesh.node[:, 0] == 3) & (mesh.node[:, 1] < 5)
+    mesh.x[lips & (mesh.node[:, 1] == 3) & (mesh.node[:, 2] == 3)] += [0.0, 0.15, 0.0]
+    twin = np.arange(len(mesh.x))
+    twin[lips] = len(mesh.x) + np.arange(lips.sum())
+    above = mesh.centers()[:, 0] > 0.5
+    mesh.cells[above] = twin[mesh.cells[above]]
+    mesh.x, mesh.node = (np.concatenate([a, a[lips]]) for a in (mesh.x, mesh.node))
+    for axis, count, ids in ((1, None, False), (1, None, 7), (0, 2, 7)):
+        mesh.ids = ids
+        compare(f"crack {axis} {ids}", measure(mesh.whole(), False, False), measure(mesh.piece(axis, count), True, False))
+    mesh.ids = False
+    whole, part = measure(mesh.whole(), False, False), measure(mesh.piece(0, 2), True, False)
+    check(part.GetQualityBound() >= whole.GetQualityBound(), "crack without ids: no bound")
+
+
+def test_error():
+    """An unusable value on one rank: all stop, none waits for the others; told once, with the rank."""
+    grid = Mesh(n=3).piece()
+    sizes = np.ones(grid.GetNumberOfPoints())
+    if rank == ranks - 1:
+        sizes[5] = -1.0
+    add(grid.GetPointData(), "size", sizes)
+    messages = []
+    bad = vtkMeshQualityMinMax()
+
+    def tell(caller, event, text):
+        messages.append(text)
+    tell.CallDataType = VTK_STRING
+    bad.AddObserver("ErrorEvent", tell)
+    bad.SetInputData(grid)
+    bad.SetBeta(1.0)
+    bad.SetInputArrayToProcess(2, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "size")
+    bad.Update()
+    check(bad.GetErrorCode() != 0 and len(messages) == (rank == 0), f"error: {messages}, code {bad.GetErrorCode()}")
+    check(all(f"Rank {ranks - 1}: " in text for text in messages), f"error: {messages}")
+
+
+run_tests(globals())

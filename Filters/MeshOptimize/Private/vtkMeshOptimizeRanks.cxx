@@ -3,6 +3,7 @@
 
 #include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeCells.h"
+#include "vtkMeshBridgeGridView.h"
 #include "vtkMeshOptimizeArrays.h"
 #include "vtkMeshOptimizeRounds.h"
 #include "vtkMeshRanksNode.h"
@@ -10,9 +11,12 @@
 
 #include "vtkCellData.h"
 #include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <chrono>
+#include <set>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -35,23 +39,47 @@ std::string FindObstacle(const Request& request)
 }
 
 /**
- * What of this rank's piece is not built for borders.
+ * Whether the cells beside the simplices are nothing but copies of other ranks' simplices. Hidden
+ * cells are no copies: dropped, they would be lost.
  */
-std::string FindObstacle(vtkUnstructuredGrid* input, std::string& error)
+bool HasOnlyCopies(vtkUnstructuredGrid* input, const vtkMeshBridge::Cells& cells)
 {
-  if (!input)
+  if (static_cast<vtkIdType>(cells.Simplices.size()) + cells.NumberOfGhostSimplices !=
+    cells.NumberOfCells)
   {
-    return "the input is composite";
+    return false;
   }
-  vtkMeshBridge::Cells cells;
+  constexpr unsigned char others = vtkMeshBridge::GhostCells::Skipped &
+    ~static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL);
+  vtkUnsignedCharArray* flags = input->GetCellGhostArray();
+  for (vtkIdType c = 0; flags && c < flags->GetNumberOfValues(); ++c)
+  {
+    if (flags->GetValue(c) & others)
+    {
+      return false;
+    }
+  }
+  vtkUnsignedCharArray* points = input->GetPointGhostArray();
+  for (vtkIdType p = 0; points && p < points->GetNumberOfValues(); ++p)
+  {
+    if (points->GetValue(p) & vtkDataSetAttributes::HIDDENPOINT)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/**
+ * What of this rank's piece is not built for borders. Finds its cells.
+ */
+std::string FindObstacle(
+  vtkUnstructuredGrid* input, vtkMeshBridge::Cells& cells, std::string& error)
+{
   error = vtkMeshBridge::ClassifyCells(input, cells);
-  if (cells.Dimension == 2)
+  if (!error.empty() || !HasOnlyCopies(input, cells))
   {
-    return "the mesh is of triangles";
-  }
-  if (!error.empty() || !cells.IsIdentity())
-  {
-    return "there are other cells than tetrahedra, or ghost cells";
+    return "there are other cells than tetrahedra, or than triangles in a plane";
   }
   for (int kind : { 0, 1 })
   {
@@ -73,7 +101,7 @@ std::string FindObstacle(vtkUnstructuredGrid* input, std::string& error)
 std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
 {
   Bytes arrays;
-  if (input && input->GetNumberOfCells() > 0)
+  if (input->GetNumberOfCells() > 0)
   {
     for (int kind : { 0, 1 })
     {
@@ -95,13 +123,19 @@ std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
   return {};
 }
 
-std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstructuredGrid* input)
+std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstructuredGrid* input,
+  vtkMeshBridge::Cells& cells, int& dimension)
 {
   std::string error, obstacle = FindObstacle(request);
   if (obstacle.empty())
   {
-    obstacle = FindObstacle(input, error);
+    obstacle = FindObstacle(input, cells, error);
     ranks.Agree(error);
+    const int mine = cells.Dimension;
+    const std::vector<int> all = ranks.Gather(mine);
+    dimension = *std::max_element(all.begin(), all.end());
+    const bool isMixed = mine != 0 && mine != dimension;
+    obstacle = isMixed ? "some ranks have triangles only, others tetrahedra" : obstacle;
     const std::string arrays = CompareArrays(ranks, input);
     obstacle = obstacle.empty() ? arrays : obstacle;
   }
@@ -118,6 +152,32 @@ std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstruct
 } // namespace
 
 //------------------------------------------------------------------------------
+bool ListBlocks(vtkMultiProcessController* controller, const std::vector<int>& here,
+  const std::vector<int>& places, std::vector<int>& blocks)
+{
+  const Ranks ranks(controller);
+  bool lacksOne = false;
+  const std::string error = ranks.Together(
+    [&]()
+    {
+      Bytes mine;
+      PutAll(mine, here);
+      std::set<int> all;
+      for (const Bytes& bytes : ranks.Gather(mine))
+      {
+        const std::vector<int> theirs = Reader(bytes).TakeAll<int>();
+        all.insert(theirs.begin(), theirs.end());
+      }
+      blocks.assign(all.begin(), all.end());
+      const std::set<int> known(places.begin(), places.end());
+      lacksOne = ranks.IsAny(std::any_of(
+        blocks.begin(), blocks.end(), [&](int block) { return known.count(block) == 0; }));
+      return std::string();
+    });
+  return error.empty() && !lacksOne;
+}
+
+//------------------------------------------------------------------------------
 std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& request,
   const std::function<std::string()>& check, vtkUnstructuredGrid* input,
   vtkUnstructuredGrid* output, Outcome& outcome, std::string& obstacle)
@@ -131,16 +191,19 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
       {
         request.NumberOfThreads = GetShareOfCores(ranks);
       }
-      obstacle = FindObstacle(ranks, request, input);
+      int dimension = 0;
+      vtkMeshBridge::Cells cells;
+      obstacle = FindObstacle(ranks, request, input, cells, dimension);
       if (!obstacle.empty())
       {
         return std::string();
       }
       Rounds rounds(ranks, request, outcome);
-      rounds.Read(input);
+      rounds.Read(input, cells.Simplices, dimension == 0 ? 3 : dimension);
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();
       rounds.OptimizeBorders();
+      rounds.SendHome();
       const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
       outcome.Seconds = spent.count();
       rounds.Write(input, output);

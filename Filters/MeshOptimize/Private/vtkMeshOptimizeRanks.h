@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 class vtkMultiProcessController;
 class vtkUnstructuredGrid;
@@ -17,7 +18,15 @@ namespace vtkMeshOptimizeBridge
 {
 
 /**
- * Optimizes the mesh whose piece on this rank is `input`; nullptr if the input is no grid. First
+ * Brings together which blocks of composite data have a grid on some rank, by flat index. `here`:
+ * those of this rank; `places`: all leaves of this rank that have or may have a grid. Returns
+ * whether each block has its place on all ranks. Collective.
+ */
+bool ListBlocks(vtkMultiProcessController* controller, const std::vector<int>& here,
+  const std::vector<int>& places, std::vector<int>& blocks);
+
+/**
+ * Optimizes the mesh whose piece on this rank is `input`. First
  * `check` looks at what is on this rank, and returns an error or an empty string.
  *
  * The outcome is that of the whole on all ranks. Returns the first error of any rank, the rank

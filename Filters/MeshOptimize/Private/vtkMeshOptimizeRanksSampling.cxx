@@ -55,11 +55,13 @@ struct Box
 /**
  * The input of this rank, which answers questions.
  */
+template <int D>
 class Source
 {
 public:
-  Source(vtkUnstructuredGrid* grid, const Schema& schema)
+  Source(vtkUnstructuredGrid* grid, const vtkMeshBridge::Frame<D>& frame, const Schema& schema)
     : Grid(grid)
+    , Frame(frame)
   {
     vtkPointData* data = grid->GetPointData();
     for (vtkAbstractArray* like : schema.Arrays)
@@ -103,13 +105,13 @@ public:
     for (Reader reader(questions); !reader.IsAtEnd();)
     {
       const Question question = reader.Take<Question>();
-      const meshopt::Vec<3> x(question.X[0], question.X[1], question.X[2]);
-      const meshopt::Background<3>& background = this->GetBackground();
+      const meshopt::Vec<D> x = this->Frame.ToCore(question.X.data());
+      const meshopt::Background<D>& background = this->GetBackground();
       const auto place = background.locate(
         x, question.Hint < 0 ? meshopt::None : static_cast<meshopt::Index>(question.Hint));
       distances.push_back(place.cell == meshopt::None ? Far : place.distance);
       samples.push_back(
-        place.cell == meshopt::None ? Sample() : MakeSample<3>(background, x, place));
+        place.cell == meshopt::None ? Sample() : MakeSample<D>(background, x, place));
     }
     if (samples.empty())
     {
@@ -138,23 +140,24 @@ public:
   }
 
 private:
-  const meshopt::Background<3>& GetBackground()
+  const meshopt::Background<D>& GetBackground()
   {
     if (!this->Background)
     {
       std::vector<vtkIdType> all(this->Grid->GetNumberOfCells());
       std::iota(all.begin(), all.end(), vtkIdType(0));
-      meshopt::SimplexMesh<3> mesh; // cannot fail: the piece was optimized
-      meshopt::SimplexMesh<3>::build(
-        vtkMeshBridge::ImportGeometry(this->Grid, all, vtkMeshBridge::Frame<3>()), mesh);
+      meshopt::SimplexMesh<D> mesh; // cannot fail: the piece was optimized
+      meshopt::SimplexMesh<D>::build(
+        vtkMeshBridge::ImportGeometry(this->Grid, all, this->Frame), mesh);
       this->Background.emplace(mesh);
     }
     return *this->Background;
   }
 
   vtkUnstructuredGrid* Grid;
+  vtkMeshBridge::Frame<D> Frame;
   vtkMeshRanks::Arrays Arrays, Likes;
-  std::optional<meshopt::Background<3>> Background;
+  std::optional<meshopt::Background<D>> Background;
 };
 
 /**
@@ -171,7 +174,8 @@ struct Search
  * Asks each rank r for the points asked[r] (indices of `searches`), and takes over what is nearer
  * than what is known.
  */
-void Ask(const Ranks& ranks, Source& source, const std::vector<std::vector<std::size_t>>& asked,
+template <int D>
+void Ask(const Ranks& ranks, Source<D>& source, const std::vector<std::vector<std::size_t>>& asked,
   const std::vector<vtkIdType>& hints, const Schema& schema, std::vector<Search>& searches,
   Part& part)
 {
@@ -222,17 +226,10 @@ void Ask(const Ranks& ranks, Source& source, const std::vector<std::vector<std::
   }
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-void SampleOnce(const Ranks& ranks, vtkUnstructuredGrid* input,
-  const std::vector<vtkIdType>& firstCell, const Schema& schema, vtkIdType firstNew, Part& part)
+template <int D>
+void SampleIn(const Ranks& ranks, Source<D>& source, const std::vector<vtkIdType>& firstCell,
+  const Schema& schema, vtkIdType firstNew, Part& part)
 {
-  if (schema.Arrays.empty())
-  {
-    return;
-  }
-  Source source(input, schema);
   std::vector<Search> searches;
   std::vector<vtkIdType> hints;
   std::vector<std::vector<std::size_t>> asked(ranks.GetCount());
@@ -263,6 +260,29 @@ void SampleOnce(const Ranks& ranks, vtkUnstructuredGrid* input,
     }
   }
   Ask(ranks, source, asked, {}, schema, searches, part);
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+void SampleOnce(const Ranks& ranks, vtkUnstructuredGrid* input,
+  const std::vector<vtkIdType>& firstCell, const Schema& schema, vtkIdType firstNew,
+  const vtkMeshBridge::Frame<2>& plane, Part& part)
+{
+  if (schema.Arrays.empty())
+  {
+    return;
+  }
+  if (part.Corners == 4)
+  {
+    Source<3> source(input, vtkMeshBridge::Frame<3>(), schema);
+    SampleIn(ranks, source, firstCell, schema, firstNew, part);
+  }
+  else
+  {
+    Source<2> source(input, plane, schema);
+    SampleIn(ranks, source, firstCell, schema, firstNew, part);
+  }
 }
 
 } // namespace vtkMeshOptimizeBridge

@@ -5,6 +5,7 @@
 #ifndef vtkMeshOptimizeRanksSampling_h
 #define vtkMeshOptimizeRanksSampling_h
 
+#include "vtkMeshBridgeFrame.h"
 #include "vtkMeshRanksPart.h"
 
 #include <vector>
@@ -19,11 +20,12 @@ namespace vtkMeshOptimizeBridge
  * then again in a band, is not as exact as the input is. The rank whose input has the hint looks
  * for the place; if it is not there, all ranks whose box has it look, and the nearest counts (the
  * lowest rank if equal). `input` is the piece that this rank had at first, whose cells count from
- * firstCell[rank]. Points with ids under `firstNew` keep their pedigree ids. Collective.
+ * firstCell[rank]. Points with ids under `firstNew` keep their pedigree ids. `plane`: of triangles.
+ * Collective.
  */
 void SampleOnce(const vtkMeshRanks::Ranks& ranks, vtkUnstructuredGrid* input,
   const std::vector<vtkIdType>& firstCell, const vtkMeshRanks::Schema& schema, vtkIdType firstNew,
-  vtkMeshRanks::Part& part);
+  const vtkMeshBridge::Frame<2>& plane, vtkMeshRanks::Part& part);
 
 } // namespace vtkMeshOptimizeBridge
 

@@ -5,6 +5,8 @@
 #ifndef vtkMeshOptimizeRequest_h
 #define vtkMeshOptimizeRequest_h
 
+#include "vtkMeshBridgeFrame.h"
+
 #include "Base/Control.h"
 #include "Metric/EdgeLengths.h"
 #include "Run/Options.h"
@@ -42,7 +44,10 @@ struct Request
   meshopt::CurveOptions Curves;     ///< of triangles
   meshopt::SurfaceOptions Surface;  ///< of tetrahedra
   bool ToleranceIsAbsolute = false; ///< Surface.tolerance is a length, not a fraction
+  int NumberOfGhostLevels = 0;      ///< on many ranks: layers of ghost cells in the output
   vtkPolyData* Geometry = nullptr;  ///< source of the curves; nullptr: the mesh itself
+  /// The plane of the triangles, if they are a part of a mesh; nullptr: they say themselves.
+  const vtkMeshBridge::Frame<2>* Plane = nullptr;
 
   /// Whether sizes are used: in the quality, or because the boundary follows them.
   bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }

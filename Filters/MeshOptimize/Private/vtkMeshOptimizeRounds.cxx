@@ -8,6 +8,7 @@
 #include "vtkMeshRanksBand.h"
 #include "vtkMeshRanksCheck.h"
 #include "vtkMeshRanksDivide.h"
+#include "vtkMeshRanksPlane.h"
 
 #include "vtkCellData.h"
 #include "vtkNew.h"
@@ -17,10 +18,13 @@
 
 #include "WorstFirst/Constants.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -36,6 +40,8 @@ constexpr int MostRounds = 4;
 constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
 /// The part of what may still grow that a round uses; the last may use all.
 constexpr double ShareOfRound = 0.75;
+/// A rank with more than this times the mean does not get back its cells.
+constexpr double MostOfMean = 1.2;
 /// The part of the progress that the pieces take.
 constexpr double PiecesDone = 0.7;
 
@@ -98,7 +104,8 @@ Rounds::Rounds(const Ranks& ranks, const Request& request, Outcome& outcome)
 {
 }
 
-void Rounds::Read(vtkUnstructuredGrid* input)
+void Rounds::Read(
+  vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension)
 {
   InputArrays arrays;
   this->All.Agree(FindInputArrays(this->Wanted.Filter, input, arrays));
@@ -127,31 +134,61 @@ void Rounds::Read(vtkUnstructuredGrid* input)
     this->Cells = Schema::Of(input->GetCellData(), "MeshQuality");
   }
   this->FirstCell = this->All.Gather(count);
-  this->CellsAtFirst = std::accumulate(
-    this->FirstCell.begin(), this->FirstCell.end(), vtkIdType(0));
+  this->CellsAtFirst = this->All.Sum(static_cast<vtkIdType>(simplices.size()));
   std::exclusive_scan(
     this->FirstCell.begin(), this->FirstCell.end(), this->FirstCell.begin(), vtkIdType(0));
-  std::vector<vtkIdType> points, cells(count);
-  std::iota(cells.begin(), cells.end(), vtkIdType(0));
-  this->Mine = ReadPiece(input, cells, 4, this->Points, this->Cells, arrays.FixedPoints,
-    this->FirstCell[this->All.GetRank()], points);
+  std::vector<vtkIdType> points;
+  if (dimension == 2)
+  {
+    this->FindPlane(input, simplices);
+  }
+  this->Mine = ReadPiece(input, simplices, dimension + 1, this->Points, this->Cells,
+    arrays.FixedPoints, this->FirstCell[this->All.GetRank()], points);
   vtkDataArray* pointIds = input->GetPointData()->GetGlobalIds();
   vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
   this->Ids.HasPointIds = this->All.IsAny(pointIds && count > 0);
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
-  Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, cells), this->Ids, this->Mine);
+  Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), this->Ids, this->Mine);
   this->FirstNewPoint = this->Ids.NextPoint;
   this->Divide();
+  this->Mine.Home.assign(this->Mine.CellIds.size(), this->All.GetRank());
   const Shared shared = FindShared(this->All, this->Mine);
   for (vtkIdType p = 0; p < this->Mine.GetNumberOfPoints(); ++p)
   {
     this->Mine.Flags[p] |= shared.Has(p) ? Waiting : 0;
   }
   this->PointsAtFirst = Measure(this->All, this->Mine, shared, 0.0).Points;
-  this->Growth = meshopt::growthOf(this->Wanted.Options, static_cast<long>(this->CellsAtFirst), 3);
+  this->Growth = meshopt::growthOf(
+    this->Wanted.Options, static_cast<long>(this->CellsAtFirst), dimension);
   this->Shrink = static_cast<long>(
     meshopt::worstfirst::ShrinkBudget * static_cast<double>(this->CellsAtFirst));
 }
+
+/**
+ * All triangles lie in one plane, and have one upper side, whatever the piece of a rank is like.
+ */
+void Rounds::FindPlane(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& triangles)
+{
+  const vtkMeshBridge::GridView view(input);
+  vtkMeshBridge::Box box;
+  const vtkMeshBridge::Plane plane = vtkMeshRanks::FindPlane(this->All, view, triangles, box);
+  std::string error = vtkMeshBridge::CheckExtent(box);
+  if (error.empty() && !plane.HasAll())
+  {
+    std::ostringstream text;
+    text << "The triangles are not in one plane: a point is " << plane.Farthest
+         << " away from it (extent of the mesh " << plane.Extent
+         << "). Triangles are optimized in a plane only; a volume needs tetrahedra.";
+    error = text.str();
+  }
+  this->All.Agree(error);
+  this->Plane = plane.Frame;
+  const meshopt::Vec<3> normal = this->Plane.Axes[0].cross(this->Plane.Axes[1]);
+  this->Normal = { { normal[0], normal[1], normal[2] } };
+  this->Wanted.Plane = &this->Plane;
+}
+
+Signature Rounds::Sign() const { return vtkMeshRanks::Sign(this->All, this->Mine, this->Normal); }
 
 void Rounds::Divide()
 {
@@ -161,11 +198,11 @@ void Rounds::Divide()
   {
     return;
   }
-  const Signature before = Sign(this->All, this->Mine);
+  const Signature before = this->Sign();
   std::vector<char> isMoved;
   Move(this->All, vtkMeshRanks::Divide(this->Mine, this->All.GetCount()), this->Points, this->Cells,
     this->Mine, isMoved);
-  const std::string problem = Compare(before, Sign(this->All, this->Mine), true);
+  const std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(
     problem.empty() ? "" : "After the mesh was divided among the ranks " + problem + ".");
 }
@@ -239,6 +276,36 @@ bool Rounds::MustStop(const Outcome& run)
   return this->Stopped != StopReason::NotRun;
 }
 
+/**
+ * Takes back what ranks have made of their pieces where cells that lie on each other have led two
+ * ranks to the same facet. `run` is then one without any change, which gives the qualities.
+ */
+void Rounds::UndoConflicts(const Part& before, Outcome& run)
+{
+  bool isUndone = false;
+  for (bool goesOn = true; goesOn;)
+  {
+    const bool undoes = HasOverusedFacet(this->All, this->Mine) && !isUndone;
+    goesOn = this->All.IsAny(undoes);
+    if (goesOn)
+    {
+      Part part = undoes ? before : MakePart(before.Corners, this->Points, this->Cells);
+      const Request wanted = this->Wanted;
+      meshopt::Options& options = this->Wanted.Options;
+      options.moveNodes = options.reconnect = options.insertNodes = options.removeNodes = false;
+      Outcome idle;
+      this->Optimize(part, 0.0, 0.0, idle);
+      this->Wanted = wanted;
+      if (undoes)
+      {
+        run = std::move(idle);
+        this->Mine = std::move(part);
+        isUndone = true;
+      }
+    }
+  }
+}
+
 void Rounds::OptimizePieces()
 {
   // What is at a border cannot get much better now: its share is left for the rounds.
@@ -250,9 +317,15 @@ void Rounds::OptimizePieces()
       [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
   }
   Outcome run;
+  this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
+  const Part before = this->IsTangled ? this->Mine : Part(); // shares the arrays
   this->Last = PiecesDone;
   this->Optimize(
     this->Mine, inside / static_cast<double>(std::max<vtkIdType>(this->CellsAtFirst, 1)), 1.0, run);
+  if (this->IsTangled)
+  {
+    this->UndoConflicts(before, run);
+  }
   this->Result.NumberOfSimplices = this->All.Sum(run.NumberOfSimplices);
   this->Result.NumberOfCellsBefore = this->All.Sum(run.NumberOfCellsBefore);
   this->Result.NumberOfReorientedCells = this->All.Sum(run.NumberOfReorientedCells);
@@ -302,13 +375,13 @@ void Rounds::OptimizeBorders()
 
 void Rounds::Round(int round)
 {
-  const Signature before = Sign(this->All, this->Mine);
+  const Signature before = this->Sign();
   Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isMoved;
   Move(this->All, FindBands(this->All, this->Mine, shared, Layers[round]), this->Points,
     this->Cells, this->Mine, isMoved);
   shared = FindShared(this->All, this->Mine);
-  std::string problem = Compare(before, Sign(this->All, this->Mine), true);
+  std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(problem.empty() ? "" : "After cells have moved between ranks " + problem + ".");
   for (vtkIdType p = 0; p < this->Mine.GetNumberOfPoints(); ++p)
   {
@@ -320,19 +393,101 @@ void Rounds::Round(int round)
   std::vector<Part> parts = Split(
     this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
   Outcome run;
+  const Part band = this->IsTangled ? parts[1] : Part(); // shares the arrays
   const double mine = static_cast<double>(parts[1].GetNumberOfCells());
   const double bands = static_cast<double>(this->All.Sum(parts[1].GetNumberOfCells()));
   this->Result.NumberOfCellsInBands += static_cast<vtkIdType>(bands);
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
   this->All.Agree(Join(parts, this->Mine));
-  problem = Compare(before, Sign(this->All, this->Mine), false);
+  for (bool goesOn = this->IsTangled, isUndone = false; goesOn;)
+  {
+    const bool undoes = HasOverusedFacet(this->All, this->Mine) && !isUndone;
+    goesOn = this->All.IsAny(undoes);
+    if (undoes)
+    {
+      parts[1] = band;
+      run = Outcome();
+      isUndone = true;
+    }
+    this->All.Agree(undoes ? Join(parts, this->Mine) : "");
+  }
+  problem = Compare(before, this->Sign(), false, this->IsTangled);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);
   this->Record("borders", run);
   this->WaitWhereStuck();
   this->MustStop(run);
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+
+/**
+ * The target of each cell that is not at home and may go there; -1: it stays.
+ */
+std::vector<int> FindHomes(const Ranks& ranks, const Part& part, vtkIdType cells)
+{
+  std::vector<vtkIdType> counts(ranks.GetCount(), 0);
+  for (const int home : part.Home)
+  {
+    ++counts[home];
+  }
+  std::vector<Bytes> out(ranks.GetCount());
+  for (int r = 0; r < ranks.GetCount(); ++r)
+  {
+    Put(out[r], counts[r]);
+  }
+  vtkIdType here = 0; // if all came home
+  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+  {
+    here += Reader(bytes).Take<vtkIdType>();
+  }
+  const std::vector<vtkIdType> loads = ranks.Gather(here);
+  const double most = MostOfMean * static_cast<double>(cells) / ranks.GetCount();
+  std::vector<int> target(part.Home.size(), -1);
+  for (std::size_t c = 0; c < target.size(); ++c)
+  {
+    const int home = part.Home[c];
+    const bool isFull = static_cast<double>(loads[home]) > most;
+    target[c] = home == ranks.GetRank() || isFull ? -1 : home;
+  }
+  return target;
+}
+
+} // namespace
+
+void Rounds::SendHome()
+{
+  Part before;
+  bool isSent = false;
+  const std::string fault = this->All.Together(
+    [&]()
+    {
+      const std::vector<int> target = FindHomes(this->All, this->Mine, this->Result.NumberOfCells);
+      const bool goes = std::any_of(target.begin(), target.end(), [](int t) { return t >= 0; });
+      if (this->All.IsAny(goes))
+      {
+        before = this->Mine; // shares the arrays
+        isSent = true;
+        const Signature whole = this->Sign();
+        std::vector<char> isMoved;
+        Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
+        const std::string problem = Compare(whole, this->Sign(), true);
+        this->All.Agree(problem.empty() ? "" : "After cells have gone home " + problem + ".");
+      }
+      return std::string();
+    });
+  if (!fault.empty())
+  {
+    if (isSent)
+    {
+      this->Mine = std::move(before);
+    }
+    this->Result.Fault = this->Result.Fault.empty() ? fault : this->Result.Fault;
+  }
 }
 
 } // namespace vtkMeshOptimizeBridge

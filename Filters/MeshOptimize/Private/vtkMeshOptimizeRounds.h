@@ -7,8 +7,10 @@
 
 #include "vtkMeshOptimizeRequest.h"
 #include "vtkMeshRanksBound.h"
+#include "vtkMeshRanksCheck.h"
 #include "vtkMeshRanksIds.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -30,9 +32,10 @@ public:
 
   /**
    * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if all
-   * of it is on one rank.
+   * of it is on one rank. `simplices`: the cells that are the mesh; all others are copies of those
+   * of other ranks, and are dropped. `dimension` is that of the cells of all ranks.
    */
-  void Read(vtkUnstructuredGrid* input);
+  void Read(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension);
 
   /**
    * Optimizes the piece of each rank with its border kept.
@@ -47,13 +50,22 @@ public:
   void OptimizeBorders();
 
   /**
+   * Cells go back to the rank that had them, or their parents, at first; except to ranks that would
+   * have more than 1.2 of the mean. If that fails, they stay, and outcome.Fault says why.
+   */
+  void SendHome();
+
+  /**
    * Completes data and figures, and makes the output.
    */
   void Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output);
 
 private:
+  void FindPlane(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& triangles);
+  vtkMeshRanks::Signature Sign() const;
   void Divide();
   void Optimize(vtkMeshRanks::Part& part, double weight, double share, Outcome& outcome);
+  void UndoConflicts(const vtkMeshRanks::Part& before, Outcome& run);
   void NumberNew(vtkMeshRanks::Part& part);
   void Round(int round);
   double GetGoal() const;
@@ -71,13 +83,18 @@ private:
   vtkMeshRanks::Schema Points, Cells;
   vtkMeshRanks::Numbering Ids;
   vtkIdType FirstNewPoint = 0;
-  std::vector<vtkIdType> FirstCell; ///< of each rank's input, over all ranks
+  vtkMeshBridge::Frame<2> Plane;                        ///< of triangles
+  std::array<double, 3> Normal = { { 0.0, 0.0, 1.0 } }; ///< of that plane
+  std::vector<vtkIdType> FirstCell;                     ///< of each rank's input, over all ranks
   vtkMeshRanks::Part Mine;
   vtkIdType CellsAtFirst = 0, PointsAtFirst = 0; ///< of all ranks
   long Growth = 0, Shrink = 0;    ///< how many cells all ranks may gain and lose, from CellsAtFirst
   double First = 0.0, Last = 1.0; ///< the part of the progress that runs now
   meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
   vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state
+  /// Cells of the input are flat or inverted, or numbered so: runs may turn cells, and what two of
+  /// them make side by side may not fit together.
+  bool IsTangled = false;
   bool IsShort = false; ///< the last run on some rank needed more cells than it may add
 };
 

@@ -8,6 +8,7 @@
 #include "vtkMeshOptimizeRanksSampling.h"
 #include "vtkMeshRanksBound.h"
 #include "vtkMeshRanksCheck.h"
+#include "vtkMeshRanksGhosts.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -15,6 +16,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -45,6 +47,15 @@ void AddIds(vtkDataArray* like, const std::vector<vtkIdType>& ids, vtkDataSetAtt
   array->DeepCopy(values); // exact, unlike SetTuple1()
   array->SetName(like && like->GetName() ? like->GetName() : "GlobalIds");
   data->SetGlobalIds(array);
+}
+
+void AddFlags(const std::vector<unsigned char>& flags, vtkDataSetAttributes* data)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(vtkDataSetAttributes::GhostArrayName());
+  array->SetNumberOfValues(static_cast<vtkIdType>(flags.size()));
+  std::copy(flags.begin(), flags.end(), array->GetPointer(0));
+  data->AddArray(array);
 }
 
 } // namespace
@@ -113,8 +124,8 @@ void Rounds::Record(const char* stage, const Outcome& run)
   const double target = this->Wanted.Options.targetQuality;
   const Shared shared = FindShared(this->All, this->Mine);
   const Figures now = Measure(this->All, this->Mine, shared, target);
-  this->Surface = MeasureSurface(
-    this->All, this->Mine, shared, this->ReadRegions(), this->Wanted.Options.measure, target);
+  this->Surface = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
+    this->Wanted.Options.measure, target, this->Plane);
   vtkIdType capped = 0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
@@ -150,7 +161,14 @@ StopReason Rounds::FindReason() const
 
 void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
 {
-  SampleOnce(this->All, input, this->FirstCell, this->Points, this->FirstNewPoint, this->Mine);
+  SampleOnce(
+    this->All, input, this->FirstCell, this->Points, this->FirstNewPoint, this->Plane, this->Mine);
+  GhostFlags ghosts;
+  const int layers = this->Wanted.NumberOfGhostLevels;
+  if (layers > 0)
+  {
+    ghosts = AddGhosts(this->All, layers, this->Points, this->Cells, this->Mine);
+  }
   const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
   meshopt::Report& report = this->Result.Report;
   report.stopReason = this->FindReason();
@@ -169,6 +187,11 @@ void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
   quality->SetNumberOfValues(this->Mine.GetNumberOfCells());
   std::copy(this->Mine.Quality.begin(), this->Mine.Quality.end(), quality->GetPointer(0));
   output->GetCellData()->AddArray(quality);
+  if (layers > 0)
+  {
+    AddFlags(ghosts.Points, output->GetPointData());
+    AddFlags(ghosts.Cells, output->GetCellData());
+  }
   output->GetFieldData()->DeepCopy(input->GetFieldData());
   AddFigures(this->Result, output);
   vtkNew<vtkIdTypeArray> bands;

@@ -181,6 +181,23 @@ Model<D> StartModel(vtkUnstructuredGrid* input, const InputArrays& arrays,
   return model;
 }
 
+std::string SetFrame(const Request&, vtkUnstructuredGrid* grid, const vtkMeshBridge::Cells& cells,
+  vtkMeshBridge::Frame<3>& frame)
+{
+  return vtkMeshBridge::FindFrame(grid, cells, frame);
+}
+
+std::string SetFrame(const Request& request, vtkUnstructuredGrid* grid,
+  const vtkMeshBridge::Cells& cells, vtkMeshBridge::Frame<2>& frame)
+{
+  if (request.Plane) // all triangles have been found to lie in it
+  {
+    frame = *request.Plane;
+    return {};
+  }
+  return vtkMeshBridge::FindFrame(grid, cells, frame);
+}
+
 /**
  * Completes a model that has been started, and makes what its boundary slides along.
  */
@@ -192,7 +209,7 @@ std::string MakeModel(const Request& request, Model<D>& model, typename SurfaceO
   {
     FindRiding(model);
   }
-  std::string error = vtkMeshBridge::FindFrame(model.Grid, model.Cells, model.Frame);
+  std::string error = SetFrame(request, model.Grid, model.Cells, model.Frame);
   error = error.empty() ? BuildMesh(model) : error;
   error = error.empty() ? SetMetric(request, model) : error;
   error = error.empty() ? CheckCount(request, model) : error;

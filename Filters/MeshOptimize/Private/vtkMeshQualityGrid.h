@@ -48,6 +48,8 @@ public:
   }
   meshopt::Vec<3> GetPoint(vtkIdType p) const { return this->View.GetPoint(p); }
 
+  const vtkMeshBridge::GridView& GetView() const { return this->View; }
+
   bool HasTetrahedra() const { return this->NumberOfTetrahedra > 0; }
   bool HasTriangles() const { return this->NumberOfTriangles > 0; }
 
@@ -56,7 +58,18 @@ public:
    * Triangles with a corner that does not exist or is not finite do not matter.
    */
   bool IsFlat() const { return this->Flat; }
+  /// Of a piece of a mesh: the same for the whole.
+  void SetPlane(bool isFlat, const vtkMeshBridge::Frame<2>& frame)
+  {
+    this->Flat = isFlat;
+    this->Frame = frame;
+  }
   const vtkMeshBridge::Frame<2>& GetFrame() const { return this->Frame; } ///< of that plane
+
+  /**
+   * The triangles with finite corners: those that are ghosts, or the others.
+   */
+  std::vector<vtkIdType> ListTriangles(bool areGhosts) const;
 
   /**
    * Index of the cell's region in GetRegions(); 0 if there is no region array.
@@ -85,7 +98,6 @@ public:
 private:
   void CountKinds();
   void FindPlane();
-  std::vector<vtkIdType> ListTriangles(bool areGhosts) const;
   std::vector<bool> FindUsedPoints() const;
   std::string CheckExtent() const;
   void ReadRegions(vtkDataArray* array);

@@ -7,10 +7,13 @@
 
 #include "vtkMeshQualityGrid.h"
 
+#include "Bound/SurfaceBound.h"
 #include "Quality/Measure.h"
 #include "Quality/QualityStatistics.h"
 
 #include <map>
+#include <tuple>
+#include <vector>
 
 namespace vtkMeshQualityBridge
 {
@@ -77,10 +80,38 @@ struct Figures
 Figures MeasureGrid(const Grid& grid, const Options& options, std::int64_t part, double* quality);
 
 /**
- * Adds to `figures` the certified bound of the grid's surface and the number of cells that it caps.
+ * The kept facets of a grid's simplices of dimension D.
  */
-void MeasureSurface(
-  const Grid& grid, const Options& options, const double* quality, Figures& figures);
+template <int D>
+struct SurfaceOf
+{
+  std::vector<vtkIdType> Points; ///< of the grid, as the sides number them
+  std::vector<meshopt::Vec<D>> Places;
+  std::vector<meshopt::KeptSide<D>> Sides; ///< in the order of their cells
+  std::vector<vtkIdType> Opposite;         ///< for each side the corner that its cell has besides
+};
+
+/**
+ * The surface and the facets between regions, with all that their bound needs; empty where nothing
+ * is known of the bound. Only one of the parts is used.
+ */
+struct Surface
+{
+  std::tuple<SurfaceOf<2>, SurfaceOf<3>> Parts;
+  std::vector<long long> Regions; ///< the values of `region` in the sides; empty without an array
+  vtkMeshBridge::Frame<2> Frame;
+
+  template <int D>
+  meshopt::Vec<D> PlaceOf(const double* x) const;
+};
+
+Surface FindSurface(const Grid& grid, const Options& options, const double* quality);
+
+/**
+ * Adds to `figures` the certified bound of a surface and the number of cells that it caps. Sides
+ * without a cell belong to other ranks: they only help with the angles.
+ */
+void MeasureSurface(const Surface& surface, const Options& options, Figures& figures);
 
 } // namespace vtkMeshQualityBridge
 

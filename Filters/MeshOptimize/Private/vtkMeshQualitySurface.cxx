@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Finds the kept facets of a grid (its surface, and facets between regions, on both sides) without
- * building the adjacency of all cells, and has their bound computed.
+ * building the adjacency of all cells; and has their bound computed.
  *
  * Each facet gets a pseudo-random 64-bit key, the same from both of its cells. Each cell combines
  * it by exclusive or with a number at the facet's lowest point: facets with two cells cancel out.
@@ -12,7 +12,6 @@
 #include "vtkMeshQualityMeasure.h"
 
 #include "Base/Scramble.h"
-#include "Bound/SurfaceBound.h"
 
 #include "vtkSMPTools.h"
 
@@ -215,69 +214,80 @@ private:
   std::vector<std::atomic<Key>> Numbers;
 };
 
-meshopt::Vec<3> PlaceOf(const Grid& grid, vtkIdType p, std::integral_constant<int, 3>)
-{
-  return grid.GetPoint(p);
-}
-meshopt::Vec<2> PlaceOf(const Grid& grid, vtkIdType p, std::integral_constant<int, 2>)
-{
-  return grid.GetFrame().ToCore(grid.GetPoint(p).data());
-}
-
 /**
- * Points of the surface, renumbered, and in the dimension of the core.
+ * The sides of a grid, with their points renumbered.
  */
 template <int D>
-class SurfacePoints
+class SideCollector
 {
 public:
-  explicit SurfacePoints(const Grid& grid)
+  SideCollector(const Grid& grid, const Surface& surface, SurfaceOf<D>& result)
     : Mesh(grid)
+    , Whole(surface)
+    , Result(result)
     , Numbers(grid.GetNumberOfPoints(), meshopt::None)
   {
   }
+
+  void Collect(const double* quality)
+  {
+    for (const Candidate& facet : SurfaceFinder<D>(this->Mesh).Find())
+    {
+      if (this->Mesh.IsGhost(facet.Cell))
+      {
+        continue;
+      }
+      vtkIdType ids[D + 1];
+      this->Mesh.GetCorners(facet.Cell, D + 1, ids);
+      KeptSide<D> side;
+      for (int k = 0; k < D; ++k)
+      {
+        side.nodes[k] = this->Number(ids[meshopt::Local<D>::facets[facet.Facet][k]]);
+      }
+      side.cell = static_cast<Index>(facet.Cell);
+      side.region = static_cast<Index>(this->Mesh.GetRegion(facet.Cell));
+      // On which side of a flat or inverted cell the mesh lies is not known.
+      side.oriented = quality[facet.Cell] > 0.0;
+      this->Result.Sides.push_back(side);
+      this->Result.Opposite.push_back(ids[facet.Facet]);
+    }
+  }
+
+private:
   Index Number(vtkIdType p)
   {
     if (this->Numbers[p] == meshopt::None)
     {
-      this->Numbers[p] = static_cast<Index>(this->Places.size());
-      this->Places.push_back(PlaceOf(this->Mesh, p, std::integral_constant<int, D>()));
+      this->Numbers[p] = static_cast<Index>(this->Result.Places.size());
+      this->Result.Points.push_back(p);
+      this->Result.Places.push_back(this->Whole.template PlaceOf<D>(this->Mesh.GetPoint(p).data()));
     }
     return this->Numbers[p];
   }
 
-  std::vector<Vec<D>> Places;
-
-private:
   const Grid& Mesh;
+  const Surface& Whole;
+  SurfaceOf<D>& Result;
   std::vector<Index> Numbers;
 };
 
 template <int D>
-void MeasureSurfaceOf(
-  const Grid& grid, const Options& options, const double* quality, Figures& figures)
+void Collect(const Grid& grid, const double* quality, Surface& surface)
 {
-  const std::vector<Candidate> facets = SurfaceFinder<D>(grid).Find();
-  SurfacePoints<D> points(grid);
-  // Region by region, since each has a bound of its own.
-  std::vector<std::vector<KeptSide<D>>> sides(std::max<std::size_t>(1, grid.GetRegions().size()));
-  for (const Candidate& facet : facets)
+  SideCollector<D>(grid, surface, std::get<SurfaceOf<D>>(surface.Parts)).Collect(quality);
+}
+
+/**
+ * Region by region, since each has a bound of its own.
+ */
+template <int D>
+void MeasurePart(const SurfaceOf<D>& part, const std::vector<long long>& regions,
+  const Options& options, Figures& figures)
+{
+  std::vector<std::vector<KeptSide<D>>> sides(std::max<std::size_t>(1, regions.size()));
+  for (const KeptSide<D>& side : part.Sides)
   {
-    if (grid.IsGhost(facet.Cell))
-    {
-      continue;
-    }
-    vtkIdType ids[D + 1];
-    grid.GetCorners(facet.Cell, D + 1, ids);
-    KeptSide<D> side;
-    for (int k = 0; k < D; ++k)
-    {
-      side.nodes[k] = points.Number(ids[meshopt::Local<D>::facets[facet.Facet][k]]);
-    }
-    side.cell = static_cast<Index>(facet.Cell);
-    // On which side of a flat or inverted cell the mesh lies is not known.
-    side.oriented = quality[facet.Cell] > 0.0;
-    sides[grid.GetRegion(facet.Cell)].push_back(side);
+    sides[side.region].push_back(side);
   }
   meshopt::SurfaceBoundOptions boundOptions;
   boundOptions.measure = options.Measure;
@@ -285,14 +295,15 @@ void MeasureSurfaceOf(
   for (std::size_t r = 0; r < sides.size(); ++r)
   {
     const auto result = meshopt::surfaceBound<D>(
-      points.Places.data(), std::move(sides[r]), boundOptions);
+      part.Places.data(), std::move(sides[r]), boundOptions);
     Index lastCapped = meshopt::None; // the sides of one cell are consecutive
     std::int64_t capped = 0;
     for (std::size_t s = 0; s < result.sides.size(); ++s)
     {
-      if (result.sideCaps[s] < options.TargetQuality && result.sides[s].cell != lastCapped)
+      const Index cell = result.sides[s].cell;
+      if (result.sideCaps[s] < options.TargetQuality && cell != lastCapped && cell != meshopt::None)
       {
-        lastCapped = result.sides[s].cell;
+        lastCapped = cell;
         ++capped;
       }
     }
@@ -300,19 +311,36 @@ void MeasureSurfaceOf(
     sums.Bound = result.bound;
     sums.CappedCells = capped;
     figures.Total.Merge(sums);
-    if (grid.HasRegions() && !grid.GetRegions().empty())
+    if (!regions.empty())
     {
-      figures.Regions[grid.GetRegions()[r]].Merge(sums);
+      figures.Regions[regions[r]].Merge(sums);
     }
   }
 }
 
 } // namespace
 
-// ------------------------------------------------------------------------------
-void MeasureSurface(
-  const Grid& grid, const Options& options, const double* quality, Figures& figures)
+//------------------------------------------------------------------------------
+template <>
+meshopt::Vec<3> Surface::PlaceOf<3>(const double* x) const
 {
+  return { x[0], x[1], x[2] };
+}
+
+template <>
+meshopt::Vec<2> Surface::PlaceOf<2>(const double* x) const
+{
+  return this->Frame.ToCore(x);
+}
+
+Surface FindSurface(const Grid& grid, const Options& options, const double* quality)
+{
+  Surface surface;
+  surface.Frame = grid.GetFrame();
+  if (grid.HasRegions())
+  {
+    surface.Regions = grid.GetRegions();
+  }
   // With a varying metric nothing is certain, and neither is it for triangles that are not in a
   // plane.
   const bool known = !grid.HasMetric() && (grid.HasTetrahedra() || grid.IsFlat()) &&
@@ -320,15 +348,29 @@ void MeasureSurface(
     grid.GetNumberOfCells() < std::numeric_limits<Index>::max();
   if (!options.ComputeBound || !known)
   {
-    return;
+    return surface;
   }
   if (grid.HasTetrahedra())
   {
-    MeasureSurfaceOf<3>(grid, options, quality, figures);
+    Collect<3>(grid, quality, surface);
   }
   else
   {
-    MeasureSurfaceOf<2>(grid, options, quality, figures);
+    Collect<2>(grid, quality, surface);
+  }
+  return surface;
+}
+
+void MeasureSurface(const Surface& surface, const Options& options, Figures& figures)
+{
+  const auto& [plane, solid] = surface.Parts;
+  if (!plane.Sides.empty())
+  {
+    MeasurePart<2>(plane, surface.Regions, options, figures);
+  }
+  if (!solid.Sides.empty())
+  {
+    MeasurePart<3>(solid, surface.Regions, options, figures);
   }
 }
 

@@ -15,14 +15,14 @@ namespace
 {
 
 using meshopt::Index;
-using Vector = meshopt::Vec<3>;
 
 /**
  * One side of a kept facet, as the ranks tell each other of it.
  */
 struct Side
 {
-  std::array<vtkIdType, 3> Ids; ///< with a node on this side appended, a positive simplex
+  std::array<vtkIdType, 3>
+    Ids; ///< D of them; with a node on this side appended, a positive simplex
   std::array<double, 9> Places;
   long long Region;
   bool IsOriented;
@@ -36,9 +36,9 @@ long long RegionOf(const std::vector<long long>& regions, vtkIdType c)
 
 Side MakeSide(const Part& part, const CellFacet& facet, const std::vector<long long>& regions)
 {
-  Side side;
+  Side side{};
   const std::array<vtkIdType, 3> nodes = OrientedNodes(part, facet.Cell, facet.Local);
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < part.Corners - 1; ++i)
   {
     side.Ids[i] = part.PointIds[nodes[i]];
     std::copy_n(part.GetPoint(nodes[i]), 3, &side.Places[3 * i]);
@@ -101,8 +101,8 @@ std::vector<Side> FindSides(
 }
 
 /**
- * Adds sides of other ranks at edges that this rank has, too: an angle between two facets is wrong
- * if one between them is missing.
+ * Adds sides of other ranks at edges (of triangles: nodes) that this rank has, too: an angle
+ * between two facets is wrong if one between them is missing.
  */
 void AddSidesOfOthers(
   const Ranks& ranks, const Part& part, const Shared& shared, std::vector<Side>& sides)
@@ -111,16 +111,16 @@ void AddSidesOfOthers(
   for (const Side& side : sides)
   {
     std::map<int, int> common;
-    for (const vtkIdType id : side.Ids)
+    for (int i = 0; i < part.Corners - 1; ++i)
     {
-      for (const int r : shared.RanksOf[IndexOf(part, id)])
+      for (const int r : shared.RanksOf[IndexOf(part, side.Ids[i])])
       {
         ++common[r];
       }
     }
     for (const auto& [rank, nodes] : common)
     {
-      if (nodes >= 2)
+      if (nodes >= part.Corners - 2)
       {
         Put(out[rank], side);
       }
@@ -139,29 +139,29 @@ void AddSidesOfOthers(
 /**
  * The bound of these sides, and the points that the ids in it stand for.
  */
-meshopt::SurfaceBound<3> BoundOf(const std::vector<Side>& sides, meshopt::Measure measure,
-  double target, std::vector<vtkIdType>& ids)
+template <int D>
+meshopt::SurfaceBound<D> BoundOf(const std::vector<Side>& sides, meshopt::Measure measure,
+  double target, const vtkMeshBridge::Frame<D>& frame, std::vector<vtkIdType>& ids)
 {
   std::vector<long long> regions;
   for (const Side& side : sides)
   {
-    ids.insert(ids.end(), side.Ids.begin(), side.Ids.end());
+    ids.insert(ids.end(), side.Ids.begin(), side.Ids.begin() + D);
     regions.push_back(side.Region);
   }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  std::vector<Vector> points(ids.size());
-  std::vector<meshopt::KeptSide<3>> kept;
+  std::vector<meshopt::Vec<D>> points(ids.size());
+  std::vector<meshopt::KeptSide<D>> kept;
   for (const Side& side : sides)
   {
-    meshopt::KeptSide<3> one;
-    for (int i = 0; i < 3; ++i)
+    meshopt::KeptSide<D> one;
+    for (int i = 0; i < D; ++i)
     {
       const auto at = std::lower_bound(ids.begin(), ids.end(), side.Ids[i]) - ids.begin();
-      const double* x = &side.Places[3 * i];
-      points[at] = Vector(x[0], x[1], x[2]);
+      points[at] = frame.ToCore(&side.Places[3 * i]);
       one.nodes[i] = static_cast<Index>(at);
     }
     one.region = static_cast<Index>(
@@ -173,14 +173,14 @@ meshopt::SurfaceBound<3> BoundOf(const std::vector<Side>& sides, meshopt::Measur
   meshopt::SurfaceBoundOptions options;
   options.measure = measure;
   options.enough = options.listEdgesBelow = target;
-  return meshopt::surfaceBound<3>(points.data(), std::move(kept), options);
+  return meshopt::surfaceBound<D>(points.data(), std::move(kept), options);
 }
 
 /// The fraction of its cap at which a cell counts as capped: that of Bound/Caps.h.
 constexpr double Reached = 0.998;
 
 /**
- * The two lowest qualities around an edge.
+ * The two lowest qualities around an edge, or around a node of triangles.
  */
 struct Ring
 {
@@ -189,14 +189,32 @@ struct Ring
   vtkIdType Cell = -1;
 };
 
+/**
+ * Calls `visit` with the ends of each edge of a tetrahedron; for a triangle with each node twice.
+ */
+template <class Visit>
+void VisitRims(const Part& part, vtkIdType c, const Visit& visit)
+{
+  const vtkIdType* p = part.GetCell(c);
+  for (int i = 0; i < part.Corners; ++i)
+  {
+    for (int k = part.Corners == 4 ? i + 1 : i; k < (part.Corners == 4 ? 4 : i + 1); ++k)
+    {
+      visit(std::min(p[i], p[k]), std::max(p[i], p[k]));
+    }
+  }
+}
+
+template <int D>
 void MarkCappedByEdges(const Part& part, const Shared& shared,
-  const meshopt::SurfaceBound<3>& surface, const std::vector<vtkIdType>& ids,
+  const meshopt::SurfaceBound<D>& surface, const std::vector<vtkIdType>& ids,
   std::vector<char>& isCapped)
 {
   std::map<std::array<vtkIdType, 2>, Ring> rings; // by indices in the part, ascending as ids do
   for (const meshopt::EdgeBound& edge : surface.edges)
   {
-    const vtkIdType a = IndexOf(part, ids[edge.a]), b = IndexOf(part, ids[edge.b]);
+    const vtkIdType a = IndexOf(part, ids[edge.a]);
+    const vtkIdType b = D == 3 ? IndexOf(part, ids[edge.b]) : a;
     if (a >= 0 && b >= 0 && !(shared.Has(a) && shared.Has(b)))
     {
       Ring& ring = rings.try_emplace({ std::min(a, b), std::max(a, b) }, Ring{ 1.0 }).first->second;
@@ -205,22 +223,19 @@ void MarkCappedByEdges(const Part& part, const Shared& shared,
   }
   for (vtkIdType c = 0; c < part.GetNumberOfCells() && !rings.empty(); ++c)
   {
-    const vtkIdType* p = part.GetCell(c);
-    for (int k = 0; k < 6; ++k)
-    {
-      constexpr int ends[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
-      const auto found = rings.find(
-        { std::min(p[ends[k][0]], p[ends[k][1]]), std::max(p[ends[k][0]], p[ends[k][1]]) });
-      if (found == rings.end())
+    VisitRims(part, c,
+      [&](vtkIdType a, vtkIdType b)
       {
-        continue;
-      }
-      Ring& ring = found->second;
-      const double q = part.Quality[c];
-      ring.Second = std::min(ring.Second, std::max(q, ring.Least));
-      ring.Cell = q < ring.Least ? c : ring.Cell;
-      ring.Least = std::min(ring.Least, q);
-    }
+        const auto found = rings.find({ a, b });
+        if (found != rings.end())
+        {
+          Ring& ring = found->second;
+          const double q = part.Quality[c];
+          ring.Second = std::min(ring.Second, std::max(q, ring.Least));
+          ring.Cell = q < ring.Least ? c : ring.Cell;
+          ring.Least = std::min(ring.Least, q);
+        }
+      });
   }
   for (const auto& [nodes, ring] : rings)
   {
@@ -231,16 +246,13 @@ void MarkCappedByEdges(const Part& part, const Shared& shared,
   }
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-SurfaceFigures MeasureSurface(const Ranks& ranks, const Part& part, const Shared& shared,
-  const std::vector<long long>& regions, meshopt::Measure measure, double target)
+template <int D>
+SurfaceFigures MeasureSides(const Ranks& ranks, const Part& part, const Shared& shared,
+  const std::vector<Side>& sides, meshopt::Measure measure, double target,
+  const vtkMeshBridge::Frame<D>& frame)
 {
-  std::vector<Side> sides = FindSides(ranks, part, shared, regions);
-  AddSidesOfOthers(ranks, part, shared, sides);
   std::vector<vtkIdType> ids;
-  const meshopt::SurfaceBound<3> surface = BoundOf(sides, measure, target, ids);
+  const meshopt::SurfaceBound<D> surface = BoundOf<D>(sides, measure, target, frame, ids);
   SurfaceFigures figures;
   figures.IsCapped.assign(part.CellIds.size(), 0);
   for (std::size_t k = 0; k < sides.size(); ++k)
@@ -251,12 +263,26 @@ SurfaceFigures MeasureSurface(const Ranks& ranks, const Part& part, const Shared
       figures.IsCapped[c] = 1;
     }
   }
-  MarkCappedByEdges(part, shared, surface, ids, figures.IsCapped);
+  MarkCappedByEdges<D>(part, shared, surface, ids, figures.IsCapped);
   for (const double bound : ranks.Gather(surface.bound))
   {
     figures.Bound = std::min(figures.Bound, bound);
   }
   return figures;
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+SurfaceFigures MeasureSurface(const Ranks& ranks, const Part& part, const Shared& shared,
+  const std::vector<long long>& regions, meshopt::Measure measure, double target,
+  const vtkMeshBridge::Frame<2>& plane)
+{
+  std::vector<Side> sides = FindSides(ranks, part, shared, regions);
+  AddSidesOfOthers(ranks, part, shared, sides);
+  return part.Corners == 4
+    ? MeasureSides<3>(ranks, part, shared, sides, measure, target, vtkMeshBridge::Frame<3>())
+    : MeasureSides<2>(ranks, part, shared, sides, measure, target, plane);
 }
 
 } // namespace vtkMeshRanks

@@ -6,6 +6,7 @@
 #ifndef vtkMeshRanksBound_h
 #define vtkMeshRanksBound_h
 
+#include "vtkMeshBridgeFrame.h"
 #include "vtkMeshRanksFacets.h"
 
 #include "Quality/Measure.h"
@@ -24,10 +25,11 @@ struct SurfaceFigures
 /**
  * Looks at the surface and, if `regions` has a value for each cell, at facets between regions.
  * Edges of facets on several ranks are looked at with all their facets. Of edges whose cells lie on
- * several ranks no cell is known to be capped. Collective.
+ * several ranks no cell is known to be capped. `plane`: of triangles. Collective.
  */
 SurfaceFigures MeasureSurface(const Ranks& ranks, const Part& part, const Shared& shared,
-  const std::vector<long long>& regions, meshopt::Measure measure, double target);
+  const std::vector<long long>& regions, meshopt::Measure measure, double target,
+  const vtkMeshBridge::Frame<2>& plane);
 
 } // namespace vtkMeshRanks
 

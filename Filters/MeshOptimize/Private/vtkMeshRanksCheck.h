@@ -8,6 +8,7 @@
 
 #include "vtkMeshRanksFacets.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -28,25 +29,44 @@ Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, doub
 /**
  * What tells two divisions of one mesh from two meshes.
  *
- * Surface is the sum over all cells of their facets' hashes (of ids and bits of coordinates), with
- * the sign of the facet's orientation. A facet that two cells have, on the same rank or not, comes
- * twice with different signs, so only the true surface is left: a facet that is missing, moved,
- * doubled, or not the same on both sides changes the sum.
+ * Surface combines by exclusive or, over all cells, the hashes of their facets (of ids and bits of
+ * coordinates). A facet that two cells have, on the same rank or not, comes twice and cancels out,
+ * so only the true surface is left: a facet that is missing, moved, or not the same on both sides
+ * changes the result. The order in which a cell lists its points does not: cells that are numbered
+ * the wrong way round may be turned by any run.
  */
 struct Signature
 {
   vtkIdType Cells = 0;
-  double Volume = 0.0; ///< for triangles the area
+  std::uint64_t Ids = 0; ///< the sum of the hashes of the cells' ids
+  double Volume = 0.0;   ///< for triangles the area
   std::uint64_t Surface = 0;
 };
 
-Signature Sign(const Ranks& ranks, const Part& part);
+/**
+ * `normal`: of the plane of triangles, whose areas have signs.
+ */
+Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
 
 /**
- * An error if `after` is not of the same mesh as `before`; `cells` says whether the number of cells
- * must be the same, too. Volumes may differ by rounding.
+ * Whether a cell of this part is flat, or numbered as if it were inverted.
  */
-std::string Compare(const Signature& before, const Signature& after, bool cells);
+bool HasNotPositive(const Part& part, const std::array<double, 3>& normal);
+
+/**
+ * Whether this part has a facet of more than two cells, of all ranks together, with all nodes on
+ * the Skin. Valid meshes never get one. But where cells lie on each other, two runs side by side
+ * may both make the same facet of nodes that they share. Collective.
+ */
+bool HasOverusedFacet(const Ranks& ranks, const Part& part);
+
+/**
+ * An error if `after` is not of the same mesh as `before`; `cells` says whether the cells must be
+ * the same, too, by number and ids. Volumes may differ by rounding;
+ * with `isTangled` they are not compared, since cells may be turned.
+ */
+std::string Compare(
+  const Signature& before, const Signature& after, bool cells, bool isTangled = false);
 
 } // namespace vtkMeshRanks
 

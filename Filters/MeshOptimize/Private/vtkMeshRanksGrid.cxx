@@ -7,6 +7,7 @@
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -23,6 +24,7 @@ namespace
 // No user's array has these names.
 constexpr const char* IdName = "vtkMeshRanks.Id";
 constexpr const char* OriginName = "vtkMeshRanks.Origin";
+constexpr const char* HomeName = "vtkMeshRanks.Home";
 
 void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes* data)
 {
@@ -71,7 +73,9 @@ void ReadCells(vtkUnstructuredGrid* grid, Part& part)
   auto quality = vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray("MeshQuality"));
   auto origin = vtkIdTypeArray::SafeDownCast(grid->GetCellData()->GetArray(OriginName));
   part.Quality.assign(quality->GetPointer(0), quality->GetPointer(0) + n);
+  auto home = vtkIntArray::SafeDownCast(grid->GetCellData()->GetArray(HomeName));
   part.Origin.assign(origin->GetPointer(0), origin->GetPointer(0) + n);
+  part.Home.assign(home->GetPointer(0), home->GetPointer(0) + n);
   part.Cells.reserve(n * part.Corners);
   for (vtkIdType c = 0; c < n; ++c)
   {
@@ -127,6 +131,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
     part.Origin.push_back(firstOrigin + c);
   }
   part.Quality.assign(simplices.size(), 0.0);
+  part.Home.assign(simplices.size(), 0);
   part.Hint.assign(part.PointIds.size(), -1);
   const auto choose = [](vtkDataSetAttributes* data, const Schema& schema,
                         const std::vector<vtkIdType>& chosen, Arrays& arrays)
@@ -179,6 +184,11 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   origin->SetNumberOfValues(part.GetNumberOfCells());
   std::copy(part.Origin.begin(), part.Origin.end(), origin->GetPointer(0));
   grid->GetCellData()->AddArray(origin);
+  vtkNew<vtkIntArray> home;
+  home->SetName(HomeName);
+  home->SetNumberOfValues(part.GetNumberOfCells());
+  std::copy(part.Home.begin(), part.Home.end(), home->GetPointer(0));
+  grid->GetCellData()->AddArray(home);
   return grid;
 }
 
@@ -226,6 +236,7 @@ void RemoveOwn(vtkUnstructuredGrid* grid)
   grid->GetPointData()->RemoveArray(IdName);
   grid->GetCellData()->RemoveArray(IdName);
   grid->GetCellData()->RemoveArray(OriginName);
+  grid->GetCellData()->RemoveArray(HomeName);
 }
 
 void NumberNew(vtkIdType firstPoint, vtkIdType firstCell, Part& part)

@@ -62,6 +62,7 @@ Part Extract(const Part& part, const std::vector<vtkIdType>& points,
   result.Cells = Chosen(part.Cells, cells, part.Corners);
   result.Quality = Chosen(part.Quality, cells);
   result.Origin = Chosen(part.Origin, cells);
+  result.Home = Chosen(part.Home, cells);
   result.Hint = Chosen(part.Hint, points);
   for (vtkIdType& p : result.Cells)
   {
@@ -299,6 +300,7 @@ Bytes Pack(const Part& part)
   PutAll(bytes, part.Cells);
   PutAll(bytes, part.Quality);
   PutAll(bytes, part.Origin);
+  PutAll(bytes, part.Home);
   PutAll(bytes, part.Hint);
   for (const Arrays* arrays : { &part.PointArrays, &part.CellArrays })
   {
@@ -325,6 +327,7 @@ Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema&
   part.Cells = reader.TakeAll<vtkIdType>();
   part.Quality = reader.TakeAll<double>();
   part.Origin = reader.TakeAll<vtkIdType>();
+  part.Home = reader.TakeAll<int>();
   part.Hint = reader.TakeAll<vtkIdType>();
   for (Arrays* arrays : { &part.PointArrays, &part.CellArrays })
   {

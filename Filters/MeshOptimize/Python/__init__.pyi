@@ -101,6 +101,7 @@ def optimize(
     corner_array: str | None = None,
     patch_array: str | None = None,
     optimize_borders: bool = False,
+    number_of_ghost_levels: int = 0,
 ) -> tuple[_Mesh, OptimizeReport]: ...
 
 def quality(
