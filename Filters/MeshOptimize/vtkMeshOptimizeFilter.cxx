@@ -490,6 +490,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
       {
         task.Output->Initialize();
       }
+      ports.History->Initialize();
       return {};
     }
     if (!isHere && output->GetNumberOfCells() > 0)

@@ -182,6 +182,8 @@ def test_crack():
         mesh.x, mesh.node = (np.concatenate([a, a[lips]]) for a in (mesh.x, mesh.node))
         mesh.ids = ids
         f = run(mesh.piece(axis, 2 if axis == 2 and ranks == 2 else None))
+        if not ids and ranks > 3 and any("cannot be told apart" in text for told in gather(told=f.told)["told"] for text in told):
+            continue  # the border of a thin piece is jagged, and may run along the crack: said, and nothing is closed
         compare(f"crack {axis} {ids}", f, corners(mesh.whole()))
         if ids:
             points = np.concatenate(gather(p=vtk_to_numpy(f.GetOutput().GetPointData().GetGlobalIds()))["p"])
@@ -405,6 +407,7 @@ def test_blocks():
     f = run(compose(False, bad if rank == 0 else None))
     check(f.GetErrorCode() == 0 and len(f.told) == (rank == 0), f"blocks: {f.told}")
     check((f.GetOutputDataObject(0).GetBlock(1) is not None) == (rank == ranks - 1), "blocks: a leaf is left")
+    check("borders" not in history(f)["Stage"], "blocks: history of what was done before")
 
 
 def test_stops():
