@@ -22,24 +22,30 @@ struct Button
   const char* Text;
   const char* Function;
   const char* Tip;
+  // ParaView 5.11 crashes where it does the place of a spreadsheet in a layout again, and at some
+  // steps back from several new views. Such a press ends what can be undone.
+  bool CanBeUndone;
 };
 
 const Button Buttons[] = {
   { "Worst elements", "show_worst_elements",
-    "The worst elements of the chosen mesh: solid in the translucent mesh, and as a table" },
-  { "Histogram", "show_histogram", "How many elements of the chosen mesh have which quality" },
+    "The worst elements of the chosen mesh: solid in the translucent mesh, and as a table", false },
+  { "Histogram", "show_histogram", "How many elements of the chosen mesh have which quality",
+    true },
   { "Before and after", "compare_before_and_after",
-    "The mesh before and after the chosen Mesh Optimize filter, side by side" },
+    "The mesh before and after the chosen Mesh Optimize filter, side by side", false },
   { "History", "show_history",
-    "The worst and the mean quality after each pass of the chosen Mesh Optimize filter" },
+    "The worst and the mean quality after each pass of the chosen Mesh Optimize filter", true },
 };
 
-// While one is there, what happens is one step of ParaView's undo and redo. ParaView's core and its
-// stack of steps are known by their names only: their headers would need pqCore's -dev packages.
+// While one is there, what happens is one step of ParaView's undo and redo; or nothing is left to
+// undo at the end. ParaView's core and its stack of steps are known by their names only: their
+// headers would need pqCore's -dev packages.
 class UndoSet
 {
 public:
-  explicit UndoSet(const char* label)
+  explicit UndoSet(const Button& button)
+    : CanBeUndone(button.CanBeUndone)
   {
     using Instance = QObject* (*)(); // pqApplicationCore::instance()
     const auto instance = reinterpret_cast<Instance>(
@@ -50,7 +56,7 @@ public:
       if (child->inherits("pqUndoStack"))
       {
         this->Stack = child;
-        QMetaObject::invokeMethod(child, "beginUndoSet", Q_ARG(QString, QString(label)));
+        QMetaObject::invokeMethod(child, "beginUndoSet", Q_ARG(QString, QString(button.Text)));
       }
     }
   }
@@ -59,12 +65,17 @@ public:
     if (this->Stack)
     {
       QMetaObject::invokeMethod(this->Stack, "endUndoSet");
+      if (!this->CanBeUndone)
+      {
+        QMetaObject::invokeMethod(this->Stack, "clear");
+      }
     }
   }
   UndoSet(const UndoSet&) = delete;
   UndoSet& operator=(const UndoSet&) = delete;
 
 private:
+  bool CanBeUndone;
   QObject* Stack = nullptr;
 };
 
@@ -122,7 +133,7 @@ extern "C" Q_DECL_EXPORT bool MeshOptimizeToolbarAdd(const char* pythonFolder)
     QObject::connect(action, &QAction::triggered, bar,
       [button, folder]()
       {
-        const UndoSet set(button.Text);
+        const UndoSet set(button);
         Call(button.Function, folder);
       });
   }

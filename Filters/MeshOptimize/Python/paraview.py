@@ -98,11 +98,7 @@ def _finish(source, *views):
 
 
 def _arrange(name, view, table=None):
-    """Puts the view into a layout of its own, the table under it.
-
-    Comes when all is shown: undo begins at the end, and ParaView 5.11 crashes where it takes a spreadsheet, which has just
-    changed, from its layout.
-    """
+    """Puts the view into a layout of its own, the table under it."""
     layout = simple.CreateLayout(name)
     simple.AssignViewToLayout(view, layout, 0)
     if table:
