@@ -56,6 +56,7 @@ std::vector<vtkIdType> ReadIds(vtkDataArray* array, const std::vector<vtkIdType>
   }
   const std::vector<long long> all = vtkMeshBridge::ReadIntegers(array);
   std::vector<vtkIdType> ids;
+  ids.reserve(chosen.size());
   for (const vtkIdType i : chosen)
   {
     ids.push_back(static_cast<vtkIdType>(all[i]));

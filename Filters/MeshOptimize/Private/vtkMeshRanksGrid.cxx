@@ -221,7 +221,7 @@ Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)
     }
     part.Flags[p] = id >= 0 ? before.Flags[at] : 0;
     part.Hint[p] = id >= 0 ? before.Hint[at] : -1;
-    if (isAgain && (id < 0 || std::memcmp(x, before.GetPoint(at), 3 * sizeof(double)) != 0))
+    if (isAgain && (id < 0 || !IsSamePlace(x, before.GetPoint(at))))
     {
       part.Hint[p] = near[p];
     }

@@ -7,7 +7,6 @@
 #include "vtkNew.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace vtkMeshRanks
 {
@@ -94,7 +93,7 @@ std::string JoinPoints(
       result.Flags.push_back(0);
       result.Hint.push_back(part.Hint[o.Index]);
     }
-    else if (std::memcmp(&result.Coordinates[result.Coordinates.size() - 3], x, 3 * sizeof(double)))
+    else if (!IsSamePlace(&result.Coordinates[result.Coordinates.size() - 3], x))
     {
       return "Point " + std::to_string(o.Id) + " is at two places.";
     }

@@ -11,7 +11,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <array>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,17 @@ class vtkUnstructuredGrid;
 
 namespace vtkMeshRanks
 {
+
+/**
+ * Whether two places have the same bits: 0 and -0 have not, and a NaN may.
+ */
+inline bool IsSamePlace(const double* x, const double* y)
+{
+  std::array<std::uint64_t, 3> a, b;
+  std::memcpy(a.data(), x, sizeof(a));
+  std::memcpy(b.data(), y, sizeof(b));
+  return a == b;
+}
 
 /**
  * Bits of Part::Flags.
