@@ -4,7 +4,6 @@
 #include "vtkMeshQualityRanks.h"
 
 #include "vtkMeshBridgeValues.h"
-#include "vtkMeshRanksPlane.h"
 
 #include "Base/Scramble.h"
 
@@ -14,6 +13,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <cstring>
 #include <cstring>
 #include <set>
 #include <unordered_map>
@@ -26,115 +27,11 @@ using namespace vtkMeshRanks;
 using meshopt::Index;
 using meshopt::KeptSide;
 using meshopt::Vec;
-using vtkMeshBridge::PlaneFacts;
 
 namespace
 {
 
 using Key = std::uint64_t;
-
-/**
- * A block as all ranks together know it.
- */
-struct PlaneBlock
-{
-  bool HasTetrahedra = false;
-  PlaneFacts Facts;
-  double Farthest = 0.0;
-};
-
-using PlaneBlocks = std::map<unsigned int, PlaneBlock>;
-
-/**
- * Merges what the ranks know, in their order.
- */
-PlaneBlocks MergeAll(const Ranks& ranks, const PlaneBlocks& mine)
-{
-  Bytes bytes;
-  for (const auto& [block, one] : mine)
-  {
-    Put(bytes, block);
-    Put(bytes, one.HasTetrahedra);
-    Put(bytes, one.Farthest);
-    PutFacts(bytes, one.Facts);
-  }
-  PlaneBlocks all;
-  for (const Bytes& theirs : ranks.Gather(bytes))
-  {
-    for (Reader reader(theirs); !reader.IsAtEnd();)
-    {
-      PlaneBlock& one = all[reader.Take<unsigned int>()];
-      one.HasTetrahedra |= reader.Take<bool>();
-      one.Farthest = std::max(one.Farthest, reader.Take<double>());
-      one.Facts.Merge(TakeFacts(reader));
-    }
-  }
-  return all;
-}
-
-} // namespace
-
-//------------------------------------------------------------------------------
-std::map<unsigned int, Planarity> FindPlanes(const Ranks& ranks, const std::vector<Block>& blocks)
-{
-  PlaneBlocks mine;
-  bool isWanted = false;
-  for (const Block& block : blocks)
-  {
-    const Grid grid(block.Mesh);
-    PlaneBlock& one = mine[block.FlatIndex];
-    one.HasTetrahedra = grid.HasTetrahedra();
-    one.Facts = vtkMeshBridge::FindPlaneFacts(grid.GetView(), grid.ListTriangles(false));
-    isWanted = isWanted || !one.Facts.IsEmpty();
-  }
-  std::map<unsigned int, Planarity> result;
-  if (!ranks.IsAny(isWanted)) // no triangles at all
-  {
-    return result;
-  }
-  PlaneBlocks all = MergeAll(ranks, mine);
-  for (const Block& block : blocks)
-  {
-    const Grid grid(block.Mesh);
-    PlaneFacts& facts = mine[block.FlatIndex].Facts;
-    facts.Largest = all[block.FlatIndex].Facts.Largest;
-    vtkMeshBridge::AddAreas(grid.GetView(), grid.ListTriangles(false), facts);
-  }
-  all = MergeAll(ranks, mine);
-  std::map<unsigned int, vtkMeshBridge::Plane> planes;
-  for (const auto& [block, one] : all)
-  {
-    if (!one.HasTetrahedra && !one.Facts.IsEmpty())
-    {
-      planes[block] = vtkMeshBridge::MakePlane(one.Facts);
-    }
-  }
-  for (const Block& block : blocks)
-  {
-    const auto plane = planes.find(block.FlatIndex);
-    if (plane != planes.end())
-    {
-      const Grid grid(block.Mesh);
-      vtkMeshBridge::Plane measured = plane->second; // all ranks go on from the same one
-      for (const bool areGhosts : { false, true })
-      {
-        vtkMeshBridge::FindFarthest(grid.GetView(), grid.ListTriangles(areGhosts), measured);
-      }
-      mine[block.FlatIndex].Farthest = measured.Farthest;
-    }
-  }
-  all = MergeAll(ranks, mine);
-  for (auto& [block, plane] : planes)
-  {
-    plane.Farthest = all[block].Farthest;
-    result[block] = { plane.HasAll(), plane.Frame };
-  }
-  return result;
-}
-
-//------------------------------------------------------------------------------
-namespace
-{
 
 /**
  * What one rank tells of a facet of its piece's surface.
