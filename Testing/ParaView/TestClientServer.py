@@ -6,7 +6,7 @@ import subprocess
 
 from paraview import simple
 
-from paraview_case import check
+from paraview_case import check, connect
 
 with socket.socket() as probe:  # a free port
     probe.bind(("127.0.0.1", 0))  # by number: a bare system may not know "localhost"
@@ -15,13 +15,7 @@ environment = {k: v for k, v in os.environ.items() if k != "PV_PLUGIN_PATH"}
 server = subprocess.Popen(["pvserver", f"--server-port={port}", "--disable-xdisplay-test"], env=environment,
                           stdout=subprocess.PIPE, text=True)
 try:
-    for line in server.stdout:
-        if line.startswith("Accepting"):
-            break
-    check(simple.Connect("127.0.0.1", port) is not None, "no connection")
-    plugin = os.environ["MESHOPTIMIZE_PLUGIN"]
-    simple.LoadPlugin(plugin, remote=True, ns=simple.__dict__)
-    simple.LoadPlugin(plugin, remote=False, ns=simple.__dict__)
+    connect(server, port)
     mesh = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4]))
     optimized = simple.MeshOptimize(Input=mesh, TargetQuality=0.9)
     optimized.UpdatePipeline()

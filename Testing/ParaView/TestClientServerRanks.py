@@ -10,7 +10,7 @@ import sys
 import threading
 
 from paraview import servermanager, simple
-from paraview_case import DATA, check
+from paraview_case import DATA, check, connect
 
 ranks = int(sys.argv[1])
 with socket.socket() as probe:  # a free port
@@ -26,13 +26,7 @@ watchdog = threading.Timer(240, lambda: (server.terminate(), print("FAILED: the 
 watchdog.daemon = True
 watchdog.start()
 try:
-    for line in server.stdout:
-        if line.startswith("Accepting"):
-            break
-    check(simple.Connect("127.0.0.1", port) is not None, "no connection")
-    plugin = os.environ["MESHOPTIMIZE_PLUGIN"]
-    simple.LoadPlugin(plugin, remote=True, ns=simple.__dict__)
-    simple.LoadPlugin(plugin, remote=False, ns=simple.__dict__)
+    connect(server, port)
     mesh = simple.XMLUnstructuredGridReader(FileName=[DATA + "/crack40.vtu"])
     optimized = simple.MeshOptimize(Input=mesh, OptimizeBorders=1)
     optimized.UpdatePipeline()

@@ -23,6 +23,17 @@ def load_plugin():
     check(hasattr(simple, "MeshOptimize"), "the plugin is not loaded")
 
 
+def connect(server, port):
+    """Waits for a pvserver that has just been started, connects to it, and loads the plugin on both sides."""
+    for line in server.stdout:
+        if line.startswith("Accepting"):
+            break
+    check(simple.Connect("127.0.0.1", port) is not None, "no connection")
+    plugin = os.environ["MESHOPTIMIZE_PLUGIN"]
+    simple.LoadPlugin(plugin, remote=True, ns=simple.__dict__)
+    simple.LoadPlugin(plugin, remote=False, ns=simple.__dict__)
+
+
 def random_mesh(points=300, seed=1996):
     """Delaunay tetrahedra of seeded points in the unit cube, slivers included; volumes positive."""
     sequence = vtkMinimalStandardRandomSequence()

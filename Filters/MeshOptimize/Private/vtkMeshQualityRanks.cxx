@@ -14,8 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
-#include <cstring>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -61,10 +59,7 @@ Key HashOfPlace(const Vec<3>& x)
   Key hash = 0;
   for (int i = 0; i < 3; ++i)
   {
-    const double value = x[i] + 0.0; // -0 is 0
-    Key bits = 0;
-    std::memcpy(&bits, &value, sizeof(bits));
-    hash = meshopt::scramble(hash ^ bits);
+    hash = meshopt::addToHash(hash, x[i] + 0.0); // -0 is 0
   }
   return hash;
 }

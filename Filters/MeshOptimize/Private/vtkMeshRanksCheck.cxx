@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <unordered_map>
 #include <utility>
 
@@ -20,9 +19,7 @@ std::uint64_t HashOfPoint(const Part& part, vtkIdType p)
   std::uint64_t hash = meshopt::scramble(static_cast<std::uint64_t>(part.PointIds[p]));
   for (int i = 0; i < 3; ++i)
   {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &part.GetPoint(p)[i], sizeof(bits));
-    hash = meshopt::scramble(hash ^ bits);
+    hash = meshopt::addToHash(hash, part.GetPoint(p)[i]);
   }
   return hash;
 }

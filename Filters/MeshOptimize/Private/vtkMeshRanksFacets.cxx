@@ -4,7 +4,6 @@
 #include "Base/Scramble.h"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 
 namespace vtkMeshRanks
@@ -20,9 +19,7 @@ std::uint64_t HashOfPlace(const double* x)
   std::uint64_t hash = 0;
   for (int i = 0; i < 3; ++i)
   {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &x[i], sizeof(bits));
-    hash = meshopt::scramble(hash ^ bits);
+    hash = meshopt::addToHash(hash, x[i]);
   }
   return hash;
 }

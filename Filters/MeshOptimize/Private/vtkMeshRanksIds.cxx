@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -64,12 +63,9 @@ std::uint64_t HashOf(const std::array<Place, 3>& places)
   std::uint64_t hash = 0;
   for (const Place& place : places)
   {
-    for (double x : place)
+    for (const double x : place)
     {
-      std::uint64_t bits = 0;
-      x += 0.0; // -0 is 0
-      std::memcpy(&bits, &x, sizeof(bits));
-      hash = meshopt::scramble(hash ^ bits);
+      hash = meshopt::addToHash(hash, x + 0.0); // -0 is 0
     }
   }
   return hash;
