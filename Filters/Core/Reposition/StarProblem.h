@@ -127,8 +127,9 @@ public:
   double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = 20)
   {
     Ascent ascent{ *this, x };
-    ascend(ascent, this->evaluate(x), this->firstTau(x), enough, gain, maximumSteps);
-    return this->evaluate(x);
+    const double worst = ascend(
+      ascent, this->evaluate(x), this->firstTau(x), enough, gain, maximumSteps);
+    return ascent.isAtX ? worst : this->evaluate(x);
   }
 
 private:
@@ -142,6 +143,7 @@ private:
     StarProblem& star;
     Vec<D>& x;
     Vec<D> step = Vec<D>::Zero(), next = Vec<D>::Zero();
+    bool isAtX = true; ///< values() belong to x, not to a step that was not taken
 
     void linearize(double worst) { this->star.linearize(this->x, worst); }
     double predict(double tau)
@@ -151,9 +153,14 @@ private:
     double tryStep(double /*required*/)
     {
       this->next = this->x + this->step;
+      this->isAtX = false;
       return this->star.evaluate(this->next);
     }
-    void accept() { this->x = this->next; }
+    void accept()
+    {
+      this->x = this->next;
+      this->isAtX = true;
+    }
   };
 
   struct RingPoint

@@ -85,7 +85,7 @@ inline constexpr long Creeping = 5;
 /// CreepingPart, at least CreepingTries), fewer than 1 in CreepingLift lift a cell above the
 /// target. Healthy meshes: 1 in 2 or more. It then requires CoarseGain, and ends after so many
 /// rounds, by effort.
-inline constexpr long CreepingPart = 2, CreepingTries = 100, CreepingLift = 10;
+inline constexpr long CreepingPart = 2, CreepingTries = 100, CreepingLift = 5;
 inline constexpr int CreepingRounds[] = { 0, 8, 20 };
 /// A run that creeps gives up the many if they are more than the fraction ManyStuck of the cells,
 /// and a pass leaves more than HopelesslyMany of them; a quick run past the first stage in any

@@ -22,6 +22,7 @@ template <int D, class Shape>
 void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
 {
   this->kept_ = 0;
+  this->spent_ = 0;
   this->creeps_ = false;
   this->tried_.fill(0);
   this->done_.fill(0);
@@ -124,6 +125,7 @@ template <int D, class Shape>
 void Schedule<D, Shape>::gather()
 {
   long left = 0;
+  std::array<long, NumberOfOperations> tried{}, done{}; // in this drain
   for (int k = 0; k < this->chunks_.size(); ++k)
   {
     Worker& w = this->chunks_.worker(k);
@@ -136,13 +138,29 @@ void Schedule<D, Shape>::gather()
     {
       this->surface_[i] += std::exchange(judge.surfaceChanges[i], 0);
     }
+    this->spent_ += w.evaluations;
     this->run_.report.evaluations += std::exchange(w.evaluations, 0);
     this->looks_ += this->guard_ ? 0 : judge.tried[static_cast<int>(Operation::LookAhead)];
     for (int op = 0; op < NumberOfOperations; ++op)
     {
-      this->tried_[op] += std::exchange(judge.tried[op], 0);
-      this->done_[op] += std::exchange(judge.done[op], 0);
+      tried[op] += std::exchange(judge.tried[op], 0);
+      done[op] += std::exchange(judge.done[op], 0);
     }
+  }
+  for (int op = 0; op < NumberOfOperations; ++op)
+  {
+    this->tried_[op] += tried[op];
+    this->done_[op] += done[op];
+  }
+  const auto note = [&](CostModel::Kind kind, Operation operation)
+  {
+    const auto op = static_cast<int>(operation);
+    this->costs_.noteTries(kind, tried[op], done[op] * Patience >= tried[op]);
+  };
+  if (this->guard_)
+  {
+    note(CostModel::Insertion, Operation::NodeInsertion);
+    note(CostModel::Look, Operation::LookAhead);
   }
   this->growth_ = left + (this->guard_ ? this->reserve_ : 0);
 }
@@ -163,9 +181,12 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
   const long helped = others ? w.kept : judge.done[op];
   const bool isFirst = !(task.target > Stages[0]) && !w.creeps;
   const bool patiently = others || task.below <= this->fewCells();
-  const long patient = inserts ? std::max(PatientTries, w.given / (isFirst ? 1 : PatientPart))
-    : patiently                ? PatientTries
-                               : PatientLooks;
+  const long usual = inserts ? std::max(PatientTries, w.given / (isFirst ? 1 : PatientPart))
+    : patiently              ? PatientTries
+                             : PatientLooks;
+  const long patient = this->isThrifty(task.target, task.below)
+    ? this->costs_.patience(inserts ? CostModel::Insertion : CostModel::Look, usual)
+    : usual;
   w.isPatient = w.isPatient && w.tries < w.limit && looks < w.looks &&
     (tries < patient || helped * Patience >= tries);
   return w.isPatient ? level : std::min<int>(level, Level::Removal);

@@ -13,6 +13,7 @@
 #include "Run/Run.h"
 #include "Surface/SurfaceFaults.h"
 #include "WorstFirst/Constants.h"
+#include "WorstFirst/CostModel.h"
 #include "WorstFirst/Parts.h"
 #include "WorstFirst/Weights.h"
 
@@ -115,6 +116,15 @@ private:
       ((isQuick && bad > ManyStuckQuick * cells) ||
         (badBefore > 0 && bad > HopelesslyMany * badBefore && bad > ManyStuck * cells));
   }
+  /// Whether the cost model rules: where so many cells are bad that they cannot all be worth their
+  /// tries. In a metric, and where the surface takes part, fewer are stuck for good.
+  bool isThrifty(double target, long below) const
+  {
+    return this->guard_ && this->model_.plain && !this->slides() && !this->isPast(target) &&
+      below > this->fewCells();
+  }
+  void keepWorst(std::vector<Index>& bad) const;
+  void notePrice(const Task& task);
   /// How hard a try is, to compare with an earlier failure. Tries without guard are the hardest.
   int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }
   bool goesOn(double target);
@@ -148,9 +158,11 @@ private:
   long reserve_;                      ///< part of the growth reserved for polish()
   bool isShort_ = false;              ///< a change was left out for lack of growth budget
   long kept_ = 0;                     ///< accepted changes of the pass
+  std::int64_t spent_ = 0;            ///< evaluations of the pass
   bool creeps_ = false;               ///< the pass: see watch()
   bool leavesMany_ = false;           ///< see givesUpMany()
-  long looks_ = 0;                    ///< look-aheads of polish() up to now
+  CostModel costs_;
+  long looks_ = 0; ///< look-aheads of polish() up to now
   std::array<long, NumberOfOperations> tried_{}, done_{};
   std::array<long, 2> surface_{}; ///< the same for changes of the surface
   double stageDone_ = 0.0;
@@ -170,6 +182,7 @@ Schedule<D, Shape>::Schedule(Run<D>& run)
   , growth_(run.growth)
   , allowed_(run.growth)
   , reserve_(run.growth / ReservedPart)
+  , costs_(run.options.effort)
   , passBegin_(run.clock.seconds())
 {
   const long shrink = run.options.mostShrink >= 0
