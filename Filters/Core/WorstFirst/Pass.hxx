@@ -206,7 +206,8 @@ void Schedule<D, Shape>::watch(Worker& w, const Task& task)
   const long window = std::max(CreepingTries, w.given / CreepingPart);
   if (w.tries % window == 0 && task.below > this->fewCells() && this->model_.plain)
   {
-    w.creeps = w.creeps || w.lifted * CreepingLift < window;
+    const long lift = this->slides() ? CreepingLiftOfSliding : CreepingLift;
+    w.creeps = w.creeps || w.lifted * lift < window;
     w.lifted = 0;
   }
   if (w.creeps || w.tries > Creeping * w.given)
