@@ -70,9 +70,10 @@ def main():
                   f"{f.GetStopReasonAsString()} |", flush=True)
             limit = max(tolerance or 0.0, 1e-14)
             faults += f.GetWorstQualityAfter() < f.GetWorstQualityBefore() or f.GetSurfaceDistance() > limit * diagonal
-            if arguments.judge and tolerance is not None:
-                after = folder / f"{pathlib.Path(path).stem}-{tolerance:g}.vtu"
+            after = folder / f"{pathlib.Path(path).stem}-{'kept' if tolerance is None else f'{tolerance:g}'}.vtu"
+            if arguments.output or arguments.judge:
                 write(f.GetOutput(), after)
+            if arguments.judge and tolerance is not None:
                 judged = subprocess.run([arguments.judge, after, "--before", path, "--tolerance", str(max(tolerance, 1e-12))],
                                         capture_output=True, text=True, check=False)
                 if judged.returncode:

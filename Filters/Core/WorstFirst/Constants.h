@@ -36,11 +36,11 @@ inline constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 /// Where the worst cell is below this part of the certified bound, so many are polished together
 /// also up to the target.
 inline constexpr double NearBound = 0.97;
-inline constexpr std::size_t MostBelowBound = 40;
+inline constexpr std::size_t MostBelowBound = 80;
 /// What that must gain to be repeated, relative to the worst quality; and how often polishing and
 /// repair follow each other if it does, by effort.
-inline constexpr double WideGain = 0.05;
-inline constexpr int PolishCycles[] = { 2, 4, 4 };
+inline constexpr double WideGain = 0.02;
+inline constexpr int PolishCycles[] = { 2, 8, 8 };
 /// Up to the target, so many look-aheads are spent on polishing in a run: 1 for so many cells, but
 /// at least FewestLooks. Each takes as long as a pass over thousands of cells.
 inline constexpr Index CellsPerLook = 150;
@@ -88,7 +88,7 @@ inline constexpr long Creeping = 5;
 /// ends at .21 instead of .30, and turbine at .48 instead of .51.
 inline constexpr long CreepingPart = 2, CreepingTries = 100;
 inline constexpr long CreepingLift = 5, CreepingLiftOfSliding = 10;
-inline constexpr int CreepingRounds[] = { 0, 8, 20 };
+inline constexpr int CreepingRounds[] = { 0, 8, 8 };
 /// A run that creeps gives up the many if they are more than the fraction ManyStuck of the cells,
 /// and a pass leaves more than HopelesslyMany of them; a quick run past the first stage in any
 /// case, if they are more than ManyStuckQuick.

@@ -72,12 +72,11 @@ public:
     }
   }
 
-  /// A round of polishing has spent so much and ended with this worst quality. `rise`: what counts
-  /// as clearly higher, relative to the quality.
-  void notePolish(std::int64_t evaluations, double worst, double rise)
+  /// A round of polishing has spent so much and ended with this worst quality.
+  void notePolish(std::int64_t evaluations, double worst)
   {
     this->spent_ += evaluations;
-    if (worst > this->lastWorst_ + rise * std::fabs(this->lastWorst_))
+    if (worst > this->lastWorst_ + ClearRise * std::fabs(this->lastWorst_))
     {
       this->lastWorst_ = worst;
       this->spent_ = 0;
@@ -96,7 +95,8 @@ private:
   static constexpr double MostPerLifted[] = { 2e4, 5e4, 5e4 };
   /// Evaluations for each cell of the mesh until the worst must have risen, by effort; and at least
   /// so many in all, since in a small mesh one look-ahead takes 1e5.
-  static constexpr double MostPerRise[] = { 300.0, 500.0, 2000.0 };
+  static constexpr double MostPerRise[] = { 300.0, 500.0, 500.0 };
+  static constexpr double ClearRise = 0.05; ///< relative to the worst quality
   static constexpr double FewestPerRise = 3e5;
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries
   static constexpr int Step = 2; ///< each pass in vain divides the tries by 2^Step

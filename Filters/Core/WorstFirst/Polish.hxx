@@ -27,11 +27,13 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
     const double now = this->worst();
     again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
       now > before * (1.0 + WideGain) && this->isFarBelowBound();
-    this->reserve_ = isLast && !again ? 0 : this->reserve_;
+    // Where the target is out of reach, the best effort does first just what the usual one does: it
+    // never ends below it.
+    const bool isFinal = isLast || (!(target < this->options_.targetQuality) && now < target);
+    this->reserve_ = isFinal && !again ? 0 : this->reserve_;
     const bool many = !this->slides() &&
       this->run_.report.history.back().belowTarget > this->fewCells();
-    // The best effort polishes finely in any case, at the end of the run.
-    const bool finely = many && isLast && this->options_.effort != Effort::Best;
+    const bool finely = many && isFinal;
     if (more && !again && finely && this->isFarBelowBound())
     {
       more = this->polish(target, true);
@@ -92,7 +94,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     const bool isWide = !past && wanted > PolishedCells;
     const std::int64_t evaluations = this->run_.report.evaluations;
     more = this->stage(std::nextafter(worst.back().first, 1.0));
-    this->costs_.notePolish(this->run_.report.evaluations - evaluations, this->worst(), WideGain);
+    this->costs_.notePolish(this->run_.report.evaluations - evaluations, this->worst());
     if (!this->isPast(target) && this->model_.plain && !this->slides() &&
       !this->costs_.mayPolish(this->mesh().countCells()))
     {

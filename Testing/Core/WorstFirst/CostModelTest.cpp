@@ -76,25 +76,24 @@ TEST(CostModel, AFewTriesProveNothing)
 TEST(CostModel, PolishingEndsUnlessTheWorstRises)
 {
   constexpr long cells = 10000;
-  constexpr double rise = 0.05;
   CostModel costs(Effort::Default);
-  costs.notePolish(1, 0.1, rise); // the first worst is a rise over nothing
-  costs.notePolish(4000000, 0.102, rise);
+  costs.notePolish(1, 0.1); // the first worst is a rise over nothing
+  costs.notePolish(4000000, 0.102);
   EXPECT_TRUE(costs.mayPolish(cells));
-  costs.notePolish(2000000, 0.104, rise);
+  costs.notePolish(2000000, 0.104);
   EXPECT_FALSE(costs.mayPolish(cells));
   EXPECT_TRUE(costs.mayPolish(10 * cells)); // by the cells of the mesh
-  costs.notePolish(1, 0.106, rise);         // 0.1 + 5 % is passed: it starts again
+  costs.notePolish(1, 0.106);               // 0.1 + 5 % is passed: it starts again
   EXPECT_TRUE(costs.mayPolish(cells));
 }
 
 TEST(CostModel, ASmallMeshMayBePolishedForALookAheadOrTwo)
 {
   CostModel costs(Effort::Quick);
-  costs.notePolish(1, 0.1, 0.05);
-  costs.notePolish(299999, 0.1, 0.05);
+  costs.notePolish(1, 0.1);
+  costs.notePolish(299999, 0.1);
   EXPECT_TRUE(costs.mayPolish(10));
-  costs.notePolish(2, 0.1, 0.05);
+  costs.notePolish(2, 0.1);
   EXPECT_FALSE(costs.mayPolish(10));
 }
 }

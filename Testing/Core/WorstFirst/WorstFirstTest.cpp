@@ -28,6 +28,41 @@ TYPED_TEST(WorstFirst, ReachesTheTarget)
   }
 }
 
+/// Where the target is out of reach, the best effort begins with all that the usual one does.
+TYPED_TEST(WorstFirst, BestBeginsAsDefaultWhereTheTargetIsOutOfReach)
+{
+  constexpr int D = TypeParam::dimension;
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    MeshInput<D> in = testMesh<D>(0.3, seed);
+    for (Vec<D>& x : in.points)
+    {
+      x[0] *= 0.1; // the surface now has needles: they cap the cells there
+    }
+    std::vector<PassRecord> histories[2];
+    double worst[2];
+    for (int k : { 0, 1 })
+    {
+      SimplexMesh<D> mesh = buildMesh(in);
+      Options options = target(0.6);
+      options.effort = k == 0 ? Effort::Default : Effort::Best;
+      const Report report = run<D>(mesh, options);
+      histories[k] = report.history;
+      worst[k] = report.worstAfter;
+    }
+    EXPECT_LT(worst[0], 0.6) << "the target is not out of reach: nothing is tested";
+    EXPECT_GE(worst[1], worst[0]) << "seed " << seed;
+    ASSERT_GE(histories[1].size(), histories[0].size()) << "seed " << seed;
+    // The last row: what comes next in the best effort may be added to it.
+    for (std::size_t row = 0; row + 1 < histories[0].size(); ++row)
+    {
+      EXPECT_EQ(histories[1][row].stage, histories[0][row].stage) << "seed " << seed;
+      EXPECT_EQ(histories[1][row].worst, histories[0][row].worst) << "seed " << seed;
+      EXPECT_EQ(histories[1][row].cells, histories[0][row].cells) << "seed " << seed;
+    }
+  }
+}
+
 TYPED_TEST(WorstFirst, GoodMeshIsLeftAlone)
 {
   constexpr int D = TypeParam::dimension;
