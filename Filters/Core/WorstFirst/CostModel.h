@@ -61,6 +61,17 @@ public:
   {
     return std::max(std::min(usual, Fewest[kind]), usual >> this->impatience_[kind]);
   }
+  /// Other cells are bad at another target: what failed on those of the last one may help them.
+  void startStage(double target)
+  {
+    if (target != std::exchange(this->target_, target))
+    {
+      for (int& impatience : this->impatience_)
+      {
+        impatience = std::min(impatience, FirstImpatience);
+      }
+    }
+  }
   /// In a pass so many tries of an operation have `helped` or not.
   void noteTries(Kind kind, long tries, bool helped)
   {
@@ -100,10 +111,13 @@ private:
   static constexpr double FewestPerRise = 3e5;
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries
   static constexpr int Step = 2; ///< each pass in vain divides the tries by 2^Step
+  /// At most, in the first pass of a stage: with 2 turbine has half as many cells again under .45.
+  static constexpr int FirstImpatience = 1;
 
   int effort_;
   std::map<std::pair<int, double>, double> prices_; ///< by level and target
   std::array<int, NumberOfKinds> impatience_{};
+  double target_ = 0.0; ///< of the stage
   std::int64_t spent_ = 0;
   double lastWorst_ = -1.0; ///< below all qualities
 };

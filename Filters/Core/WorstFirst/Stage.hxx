@@ -29,6 +29,10 @@ bool Schedule<D, Shape>::stage(double target)
   const int last = this->guard_ ? this->passesThatRise() : 0;
   long below = 0;
   bool raised = false;
+  if (this->guard_)
+  {
+    this->costs_.startStage(target);
+  }
   for (int pass = 0; pass < MaximumPasses; ++pass)
   {
     const int level = this->levelOf(pass);

@@ -66,6 +66,18 @@ TEST(CostModel, PatienceFallsWithEachPassInVainAndComesBackWithSuccess)
   EXPECT_EQ(costs.patience(CostModel::Insertion, 400), 400);
 }
 
+TEST(CostModel, PatienceComesBackByHalfAtAnotherTarget)
+{
+  CostModel costs(Effort::Default);
+  costs.startStage(0.3);
+  costs.noteTries(CostModel::Insertion, 400, false);
+  costs.startStage(0.3); // the same one goes on
+  EXPECT_EQ(costs.patience(CostModel::Insertion, 400), 100);
+  costs.startStage(0.45);
+  EXPECT_EQ(costs.patience(CostModel::Insertion, 400), 200);
+  EXPECT_EQ(costs.patience(CostModel::Look, 40), 40); // nothing is lost where nothing failed
+}
+
 TEST(CostModel, AFewTriesProveNothing)
 {
   CostModel costs(Effort::Default);
