@@ -67,7 +67,13 @@ def _targets(parser, sources, out, force):
         targets = [out / source.name for source in sources]
     if len(set(targets)) < len(targets):
         parser.error("two inputs have the same name")
-    there = [str(target) for target in targets if target.exists()]
+    for source, target in zip(sources, targets):
+        try:
+            _files.check_blocks(_files.blocks_in(source), target)
+        except ValueError as error:
+            parser.error(str(error))
+    files = [path for target in targets for path in (target, _files.folder_of_parts(target)) if path]
+    there = [str(path) for path in files if path.exists()]
     if there and not force:
         parser.error(f"{', '.join(there)}: already there; --force overwrites")
     return targets
@@ -155,9 +161,10 @@ def _bars(histogram):
 
 def _worst(cells):
     values = next((cells[name] for name in QUALITY_ARRAYS if name in cells), [])
-    rows = zip(cells.get("OriginalCellIds", []), values, cells.get("Center", []))
-    return "\n".join(f"  cell {cell:8d}  quality {value:9.4f}  at ({x:.6g}, {y:.6g}, {z:.6g})"
-                     for cell, value, (x, y, z) in rows)
+    blocks = [f"  block {block:4d}" for block in cells["Block"]] if "Block" in cells else [""] * len(values)
+    rows = zip(blocks, cells.get("OriginalCellIds", []), values, cells.get("Center", []))
+    return "\n".join(f"{block}  cell {cell:8d}  quality {value:9.4f}  at ({x:.6g}, {y:.6g}, {z:.6g})"
+                     for block, cell, value, (x, y, z) in rows)
 
 
 def mesh_quality(arguments=None, program="mesh-quality"):

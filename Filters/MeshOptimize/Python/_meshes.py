@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The kinds of mesh that the calls take. Each becomes a vtkUnstructuredGrid, and a result its own kind again.
+"""The kinds of mesh that the calls take. Each becomes a vtkUnstructuredGrid (several grids: composite data of
+VTK), and a result its own kind again.
 
 An adapter has `grid`, which shares no state with the mesh that the filter could change; `options`, which hold unless
 the caller gives others; and `back(output)`.
@@ -8,21 +9,20 @@ import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import vtkDataObjectTree, vtkUnstructuredGrid
 
-from ._grids import CELL_OF_CORNERS, simplices, vtk_points
+from ._grids import CELL_OF_CORNERS, shallow_copy, simplices, vtk_points
 from ._meshio import MeshioMesh
 
 
 class GridMesh:
-    """A vtkUnstructuredGrid or a class derived from it, such as PyVista's, that can be made without arguments."""
+    """A vtkUnstructuredGrid, composite data, or a class derived from them that can be made without arguments."""
 
     options = {}
 
     def __init__(self, mesh):
         self._kind = type(mesh)
-        self.grid = vtkUnstructuredGrid()
-        self.grid.ShallowCopy(mesh)
+        self.grid = shallow_copy(mesh)
 
     def back(self, output):
         result = self._kind()
@@ -54,15 +54,13 @@ class ArrayMesh:
 
 def adapter(mesh):
     """The adapter of a mesh; TypeError for what is none."""
-    if isinstance(mesh, vtkUnstructuredGrid):
+    if isinstance(mesh, (vtkUnstructuredGrid, vtkDataObjectTree)):
         return GridMesh(mesh)
     meshio = sys.modules.get("meshio")  # who has a mesh of it has imported it
     if meshio and isinstance(mesh, meshio.Mesh):
         return MeshioMesh(mesh)
     if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
         return ArrayMesh(*mesh)
-    if isinstance(mesh, vtkCompositeDataSet):
-        raise TypeError(f"a mesh is one grid, and a {type(mesh).__name__} is several: call optimize() for each, or "
-                        "vtkMeshOptimizeFilter, which takes all blocks as they are")
-    raise TypeError("a mesh is a vtkUnstructuredGrid, a meshio.Mesh or a pair of arrays (points, cells), and this is a "
+    raise TypeError("a mesh is a vtkUnstructuredGrid or blocks of them (vtkMultiBlockDataSet, vtkPartitionedDataSet, "
+                    "vtkPartitionedDataSetCollection), a meshio.Mesh or a pair of arrays (points, cells), and this is a "
                     f"{type(mesh).__name__}")
