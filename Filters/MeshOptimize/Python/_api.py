@@ -86,7 +86,7 @@ def optimize(mesh, *, progress_bar=False, progress=None, **options):
     TypeError
         An option that does not exist, or a mesh of another kind.
     ValueError
-        A value that is not allowed, or arrays of another shape.
+        A value that is not allowed, arrays of another shape, or cells of points that are not there.
     MeshOptimizeError
         The mesh or an array cannot be used; the text is the filter's.
 

@@ -31,6 +31,9 @@ _PARTS = {".pvtu": (vtkUnstructuredGrid, "vtkXMLPUnstructuredGrid"),
           ".vtpc": (vtkPartitionedDataSetCollection, "vtkXMLPartitionedDataSetCollection")}
 SUFFIXES = (*VTK_FORMATS, *_PARTS, *MESHIO_FORMATS)
 
+_SURFACES = (".stl", ".vtp", ".ply", ".obj", ".off")
+_TO_BE_FILLED = "a surface, which has to be filled first: Tetrahedralize (TetGen) in ParaView, or vtkTetGenFilter"
+
 # What VTK says after the error that counts
 _FOLLOWS = ("Algorithm vtk", "No update piece number")
 
@@ -45,8 +48,10 @@ _KEYWORDS = {
 }
 
 
-def suffix_of(path):
+def suffix_of(path, to_read=False):
     suffix = pathlib.Path(path).suffix.lower()
+    if to_read and suffix in _SURFACES:
+        raise ValueError(f"{path}: {_TO_BE_FILLED}")
     if suffix not in SUFFIXES:
         raise ValueError(f"{path}: the format {suffix or 'without a suffix'} is none of {', '.join(SUFFIXES)}")
     return suffix
@@ -116,7 +121,7 @@ def _warn_of_lost(path, format_name):
 
 def _read_vtk(path, reader):
     errors, _ = collect(reader, "ErrorEvent", "WarningEvent")
-    reader.SetFileName(os.fspath(path))
+    reader.SetFileName(os.fsencode(path))
     # What reads XML within the reader cannot be observed: its messages are caught where VTK writes them.
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
@@ -131,6 +136,8 @@ def _read_vtk(path, reader):
     if errors or "ERROR:" in said:  # a part that cannot be read is no error of the file that names it
         texts = [text_of(text) for text in re.split(r"(?=ERROR: In )", said)]
         texts = " ".join([*(text for text in texts if not text.startswith(_FOLLOWS)), *errors[:1]]).strip()
+        if "dataset type: polydata" in texts:
+            raise MeshOptimizeError(f"{path}: {_TO_BE_FILLED}")
         hint = ("; if it has raw appended data: this VTK may not read them, write it with SetDataModeToBinary()"
                 if "not well-formed" in texts else "")
         raise MeshOptimizeError(f"{path}: {texts}{hint}")
@@ -207,7 +214,7 @@ def read(path):
 
     Raises
     ------
-    FileNotFoundError
+    FileNotFoundError, IsADirectoryError
     ValueError
         A suffix of no known format.
     MeshOptimizeError
@@ -218,7 +225,9 @@ def read(path):
     UserWarning
         What of the file is left out.
     """
-    suffix = suffix_of(path)
+    suffix = suffix_of(path, to_read=True)
+    if os.path.isdir(path):
+        raise IsADirectoryError(f"{path} is a folder")
     if not os.path.isfile(path):
         raise FileNotFoundError(f"{path} is not there")
     if suffix in VTK_FORMATS:
@@ -294,12 +303,13 @@ def _write_vtk(mesh, part, writer, path):
     grid = _groups.grid_of(mesh) if _groups.is_meshio(mesh) else adapter(mesh).grid
     errors, _ = collect(writer, "ErrorEvent", "WarningEvent")
     writer.SetInputDataObject(grid)
-    writer.SetFileName(os.fspath(part))
+    writer.SetFileName(os.fsencode(part))
     if isinstance(writer, vtkUnstructuredGridWriter):
         writer.SetFileTypeToBinary()
     else:  # Debian's VTK cannot read raw appended data, the writer's default
         writer.SetDataModeToBinary()
     if writer.Write() != 1 or errors:
+        errors = [text for text in errors if not text.startswith(_FOLLOWS)]
         raise MeshOptimizeError(f"{path}: {' '.join(errors) or 'it cannot be written'}")
 
 
