@@ -148,7 +148,7 @@ public:
   ///@{
   /**
    * Whether to find the surface and compute its bound. Default on. If off, Bound is the value of
-   * the regular element and CappedCells is 0; this saves about two thirds of the time.
+   * the regular element and CappedCells is 0; this saves about nine tenths of the time.
    */
   vtkSetMacro(ComputeBound, bool);
   vtkGetMacro(ComputeBound, bool);

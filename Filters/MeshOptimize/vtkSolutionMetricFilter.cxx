@@ -10,6 +10,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
@@ -144,6 +145,23 @@ void Warn(vtkSolutionMetricFilter* filter, const bridge::Outcome& outcome)
   }
 }
 
+// Not asked of the other processes whether they have cells: blocks of composite data come one by
+// one, and not as many on each process.
+void WarnOfPieces(vtkSolutionMetricFilter* filter, vtkInformation* outInfo)
+{
+  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
+  if (outInfo->Has(pieces) && outInfo->Get(pieces) > 1)
+  {
+    vtkWarningWithObjectMacro(filter, << "This process works by itself, as one of "
+                                      << outInfo->Get(pieces)
+                                      << ". If others have cells of the mesh, too, the metric near "
+                                         "the borders of the pieces is not that of the whole, and "
+                                         "each piece gets the wanted number of elements. Bring the "
+                                         "mesh together first (in ParaView: the filter Aggregate "
+                                         "Dataset).");
+  }
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -182,5 +200,9 @@ int vtkSolutionMetricFilter::RequestData(
   this->PredictedNumberOfElements = outcome.PredictedCount;
   this->TotalError = outcome.TotalError;
   Warn(this, outcome);
+  if (error.empty() && input->GetNumberOfCells() > 0)
+  {
+    WarnOfPieces(this, outputVector->GetInformationObject(0));
+  }
   return 1;
 }

@@ -10,43 +10,8 @@ from vtkmodules.vtkCommonCore import vtkCommand
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkMultiBlockDataSet, vtkUnstructuredGrid
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # pvbatch does not
-from ranks_case import (FACETS, Mesh, add, alone, check, corners, facets, folder, gather, make_grid, rank, ranks, run,
-                        run_tests, volume)
-
-
-def figures_of(f):
-    return [getattr(f, "Get" + n)() for n in ("WorstQualityBefore", "WorstQualityAfter", "MeanQualityBefore",
-            "MeanQualityAfter", "QualityBound", "NumberOfCappedCells", "StopReason", "NumberOfOperations",
-            "NumberOfEvaluations")]
-
-
-def compare(name, f, before, serial=None):
-    """Surface bit for bit, no facet of three cells, volume, figures; worst like serial's. Returns all cells."""
-    tets = np.concatenate(gather(tets=corners(f.GetOutput()))["tets"])
-    check(f.told == [], f"{name}: {f.told}")
-    if rank > 0:
-        gather(figures=figures_of(f))
-        return tets
-    (old, count), (new, now) = facets(before), facets(tets)
-    check(now.max() <= count.max(), f"{name}: a facet has {now.max()} cells")
-    check(np.array_equal(old[count == 1], new[now == 1]), f"{name}: another surface")
-    check(abs(volume(tets) / volume(before) - 1) < 1e-12, f"{name}: another volume")
-    check(len({tuple(row) for row in gather(figures=figures_of(f))["figures"]}) == 1, f"{name}: figures differ by rank")
-    isLate = f.GetStopReason() == vtkMeshOptimizeFilter.TimeLimitReached
-    check(isLate or f.GetNumberOfEvaluations() > f.GetNumberOfOperations(), f"{name}: {f.GetNumberOfEvaluations()} evaluations")
-    if serial:
-        check(f.GetWorstQualityAfter() >= 0.98 * serial.GetWorstQualityAfter(),
-              f"{name}: worst {f.GetWorstQualityAfter()}, alone {serial.GetWorstQualityAfter()}")
-        for n, most in (("WorstQualityBefore", 1e-12), ("MeanQualityBefore", 1e-12), ("QualityBound", 1e-6)):
-            a, b = getattr(f, "Get" + n)(), getattr(serial, "Get" + n)()
-            check(abs(a - b) < most, f"{name}: {n} {a}, alone {b}")
-    return tets
-
-
-def history(f):
-    table = f.GetOutputDataObject(1)
-    return {table.GetColumnName(i): [table.GetValue(r, i).ToString() for r in range(table.GetNumberOfRows())]
-            for i in range(table.GetNumberOfColumns())}
+from ranks_case import (FACETS, Mesh, add, alone, check, compare, corners, facets, figures_of, folder, gather, history,
+                        make_grid, rank, ranks, run, run_tests, volume)
 
 
 def test_whole():

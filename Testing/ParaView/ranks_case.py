@@ -92,6 +92,18 @@ def make_grid(x, cells):
     return grid
 
 
+def tell(f):
+    """A list that will have the warnings and errors of the filter."""
+    told = []
+
+    def note(caller, event, text):
+        told.append(text)
+    note.CallDataType = VTK_STRING
+    f.AddObserver(vtkCommand.ErrorEvent, note)
+    f.AddObserver(vtkCommand.WarningEvent, note)
+    return told
+
+
 def alone(mesh, before=lambda f: None):
     """The filter on the whole mesh on the first rank; None on the others."""
     return run(mesh.whole(), False, before) if rank == 0 else None
@@ -105,13 +117,7 @@ def run(grid, everywhere=True, before=lambda f: None, asked=0, **options):
     for name, value in options.items():
         getattr(f, "Set" + name)(value)
     f.SetInputData(grid)
-    f.told = []
-
-    def tell(caller, event, text):
-        f.told.append(text)
-    tell.CallDataType = VTK_STRING
-    f.AddObserver(vtkCommand.ErrorEvent, tell)
-    f.AddObserver(vtkCommand.WarningEvent, tell)
+    f.told = tell(f)
     before(f)
     f.UpdatePiece(rank, ranks, asked) if everywhere else f.Update()
     return f
@@ -148,6 +154,41 @@ def facets(tets, of=None):
 
 def volume(tets):
     return np.linalg.det(tets[:, 1:] - tets[:, :1]).sum() / 6
+
+
+def figures_of(f):
+    return [getattr(f, "Get" + n)() for n in ("WorstQualityBefore", "WorstQualityAfter", "MeanQualityBefore",
+            "MeanQualityAfter", "QualityBound", "NumberOfCappedCells", "StopReason", "NumberOfOperations",
+            "NumberOfEvaluations")]
+
+
+def compare(name, f, before, serial=None):
+    """Surface bit for bit, no facet of three cells, volume, figures; worst like serial's. Returns all cells."""
+    tets = np.concatenate(gather(tets=corners(f.GetOutput()))["tets"])
+    check(f.told == [], f"{name}: {f.told}")
+    if rank > 0:
+        gather(figures=figures_of(f))
+        return tets
+    (old, count), (new, now) = facets(before), facets(tets)
+    check(now.max() <= count.max(), f"{name}: a facet has {now.max()} cells")
+    check(np.array_equal(old[count == 1], new[now == 1]), f"{name}: another surface")
+    check(abs(volume(tets) / volume(before) - 1) < 1e-12, f"{name}: another volume")
+    check(len({tuple(row) for row in gather(figures=figures_of(f))["figures"]}) == 1, f"{name}: figures differ by rank")
+    isLate = f.GetStopReason() == vtkMeshOptimizeFilter.TimeLimitReached
+    check(isLate or f.GetNumberOfEvaluations() > f.GetNumberOfOperations(), f"{name}: {f.GetNumberOfEvaluations()} evaluations")
+    if serial:
+        check(f.GetWorstQualityAfter() >= 0.98 * serial.GetWorstQualityAfter(),
+              f"{name}: worst {f.GetWorstQualityAfter()}, alone {serial.GetWorstQualityAfter()}")
+        for n, most in (("WorstQualityBefore", 1e-12), ("MeanQualityBefore", 1e-12), ("QualityBound", 1e-6)):
+            a, b = getattr(f, "Get" + n)(), getattr(serial, "Get" + n)()
+            check(abs(a - b) < most, f"{name}: {n} {a}, alone {b}")
+    return tets
+
+
+def history(f):
+    table = f.GetOutputDataObject(1)
+    return {table.GetColumnName(i): [table.GetValue(r, i).ToString() for r in range(table.GetNumberOfRows())]
+            for i in range(table.GetNumberOfColumns())}
 
 
 def fail(*what):

@@ -14,6 +14,7 @@ import tempfile
 import time
 
 import meshoptimize
+import numpy as np
 
 PELLET = pathlib.Path(os.environ["MESHOPTIMIZE_DATA"]) / "crack40.vtu"
 FOLDER = sys.argv[1] if len(sys.argv) > 1 else None
@@ -64,6 +65,10 @@ def test_wrong_use(folder):
     for arguments, word in (((PELLET, out, "--effort", "much"), "quick"),
                             ((PELLET, out, "--target-quality", "2"), "0 to 1"),
                             ((PELLET, out, "--nothing", "2"), "--nothing"), ((PELLET,), "OUT"),
+                            ((PELLET, out, "--target-qualty", ".3"), "'--target-quality'"),
+                            ((PELLET, out, "--picture", "picture.jpg"), ".png"),
+                            ((PELLET, out, "--picture", folder / "no" / "picture.png"), "no"),
+                            ((folder / "in.stl", out), "filled"), ((PELLET, folder / "out.stl"), "the format .stl"),
                             ((PELLET, folder / "out.xyz"), ".msh"), ((folder / "in.xyz", out), ".msh"),
                             ((PELLET, folder / "no" / "out.vtu"), "no")):
         result = run("optimize", *arguments, status=2)
@@ -88,6 +93,42 @@ def test_quality(folder):
     assert "minimum_dihedral_angle" in run("quality", PELLET, "--quality-measure", "angle", status=2).stderr
 
 
+def one_tetrahedron(path):
+    meshoptimize.write((np.eye(4, 3), np.array([[3, 0, 1, 2]])), path)
+    return path
+
+
+def test_files_of_beginners(folder):
+    """One line that names the file and what is wrong with it; no other file is written."""
+    path = one_tetrahedron(folder / "one.vtk")
+    surface, cut, is_folder = folder / "surface.vtk", folder / "cut.vtu", folder / "folder.vtu"
+    surface.write_bytes(path.read_bytes().replace(b"UNSTRUCTURED_GRID", b"POLYDATA"))
+    cut.write_bytes(PELLET.read_bytes()[:3000])
+    is_folder.mkdir()
+    for file, word in ((surface, "has to be filled"), (cut, "no element found"), (is_folder, "is a folder")):
+        for name, out in (("optimize", [folder / "out.vtu"]), ("quality", [])):
+            text = run(name, file, *out, status=1).stderr
+            (line,) = [line for line in text.splitlines() if "%" not in line]
+            assert str(file) in line and word in line, text
+    assert not (folder / "out.vtu").exists()
+
+
+def test_names_and_pipes(folder):
+    """File names that are no text, or none of the terminal's, and a reader that ends before the output does."""
+    odd = os.fsdecode(bytes(one_tetrahedron(folder / "one.vtu").parent) + b"/m\xe4sh.vtu")
+    os.rename(folder / "one.vtu", odd)
+    run("optimize", odd, folder / "ünicode.vtu", "--quiet")
+    for path in (odd, folder / "ünicode.vtu"):
+        assert "worst quality" in run("quality", path, environment={"PYTHONIOENCODING": "ascii"}).stdout
+    for options in (["--json"], ["--histogram"]):
+        with subprocess.Popen([*command("quality"), odd, *options, "--number-of-bins", "99999"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as process:
+            process.stdout.read(1)
+            process.stdout.close()
+            text = process.stderr.read().decode()
+        assert process.returncode == 1 and not text, text
+
+
 def test_warnings(folder):
     result = run("optimize", PELLET, folder / "out.vtu", "--desired-size", "1", "--target-quality", ".1")
     assert "warning: " in result.stderr and "Beta is 0" in result.stderr
@@ -108,6 +149,9 @@ def test_ctrl_c(folder):
 def test_picture(folder):
     """On a display of its own, if there is none and Xvfb is there; else a message, and the mesh is written."""
     picture, environment = folder / "picture.png", {"DISPLAY": ""}
+    picture.touch()
+    assert "--force" in run("optimize", PELLET, folder / "out.vtu", "--picture", picture, status=2).stderr
+    picture.unlink()
     has_x = bool(shutil.which("Xvfb"))
     result = run("optimize", PELLET, folder / "out.vtu", "--target-quality", ".3", "--picture", picture,
                  status=0 if has_x else 1, environment=environment)
@@ -124,7 +168,6 @@ def test_picture(folder):
 
 def look(path, width):
     """The bad elements are seen: how many pixels of the picture are red, and how many colours it has."""
-    import numpy as np
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOImage import vtkPNGReader
 

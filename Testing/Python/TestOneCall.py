@@ -85,7 +85,35 @@ def test_arrays():
     for wrong in ((np.zeros(3), cells), (points, np.zeros((2, 5), int)), (points, cells.astype(float))):
         raised(ValueError, lambda: meshoptimize.optimize(wrong), "shape")
     raised(TypeError, lambda: meshoptimize.optimize(vtkPolyData()), "vtkPolyData", "vtkUnstructuredGrid")
-    raised(meshoptimize.MeshOptimizeError, lambda: meshoptimize.optimize((points, cells + 1)), "point")
+
+
+def test_arrays_of_beginners():
+    """What works: any order, precision and kind of sequence. What does not: one sentence that says what to do."""
+    points, cells = SQUARE
+    frozen = points.copy(), cells.copy()
+    for array in frozen:
+        array.flags.writeable = False
+    wanted = meshoptimize.optimize(SQUARE)[1].worst_after
+    for given in (frozen, (points.tolist(), cells.tolist()), [points, cells.astype(np.uint64)],
+                  (np.asfortranarray(points), np.asfortranarray(cells)), (points.astype(">f8"), cells.astype(">i4")),
+                  (np.repeat(points, 2, axis=0)[::2], np.repeat(cells, 2, axis=0)[::2])):
+        assert meshoptimize.optimize(given)[1].worst_after == wanted, given
+    for call in (meshoptimize.optimize, meshoptimize.quality):
+        for wrong, words in (((points, cells + 1), ("1 to 5", "counted from 1?")), ((points, cells - 1), ("-1 to 3",)),
+                             ((points, cells + 2**40), ("1099511627776",)), ((points, [[0, 1, 2], [0, 1]]), ("length",)),
+                             ((points, np.column_stack([np.full(4, 3), cells]).ravel()), ("shape (16,)", "leave out")),
+                             ((points, np.array([[4, 0, 1, 2, 3]])), ("shape (1, 5)", "[:, 1:]")),
+                             ((points.astype(str), cells), ("points must be numbers",)), ((points.T, cells), ("(2, 5)",))):
+            text = raised(ValueError, lambda: call(wrong), *words)
+            assert "\n" not in text, text
+        broken = np.where(points == 0.02, np.nan, points), cells
+        if call is meshoptimize.optimize:
+            raised(meshoptimize.MeshOptimizeError, lambda: call(broken), "Point 4", "not finite")
+        else:
+            assert call(broken).not_measurable == 4
+        raised(TypeError, lambda: call("in.vtu"), "meshoptimize.read('in.vtu')")
+        raised(TypeError, lambda: call(points), "ndarray")
+    raised(ValueError, lambda: meshoptimize.write((points, cells + 1), "/nowhere/none.vtu"), "counted from 1?")
 
 
 def test_quality():

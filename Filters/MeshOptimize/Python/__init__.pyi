@@ -9,7 +9,7 @@ from numpy import ndarray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm, vtkUnstructuredGridAlgorithm
 
-_Mesh = TypeVar("_Mesh")  # vtkUnstructuredGrid or derived from it, meshio.Mesh, (points, cells): the same comes back
+_Mesh = TypeVar("_Mesh")  # vtkUnstructuredGrid, blocks of them, meshio.Mesh, (points, cells): the same comes back
 _Path = str | os.PathLike[str]
 
 class MeshOptimizeError(RuntimeError): ...

@@ -6,11 +6,10 @@ import textwrap
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import (VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE, VTK_TETRA, VTK_TRIANGLE,
-                                           vtkUnstructuredGrid)
+from vtkmodules.vtkCommonDataModel import VTK_QUADRATIC_TETRA, VTK_QUADRATIC_TRIANGLE, VTK_TETRA, VTK_TRIANGLE
 
 from . import _progress
-from ._grids import kinds_of
+from ._grids import grids_of, kinds_of, shallow_copy
 from ._meshes import adapter
 from ._properties import make, properties
 from ._reports import columns, report_of_quality, report_of_run
@@ -18,8 +17,13 @@ from ._run import run
 from .vtkFiltersMeshOptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
 
 
-def _elements_only(grid):
+def _elements_only(data):
     """Flags triangles as hidden, so that they do not count, where there are tetrahedra: those are what is optimized."""
+    for grid in grids_of(data):
+        _tetrahedra_only(grid)
+
+
+def _tetrahedra_only(grid):
     kinds = kinds_of(grid)
     beside = np.isin(kinds, (VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE))
     if beside.any() and np.isin(kinds, (VTK_TETRA, VTK_QUADRATIC_TETRA)).any():
@@ -33,8 +37,7 @@ def _elements_only(grid):
 
 def _histogram(mesh, options):
     """Measured as the run measures: with those of its options that measuring has."""
-    grid = vtkUnstructuredGrid()
-    grid.ShallowCopy(mesh)
+    grid = shallow_copy(mesh)
     _elements_only(grid)
     shared = {key: value for key, value in options.items() if key in properties(vtkMeshQualityMinMax)
               and key not in ("region_array", "target_quality")}
@@ -59,9 +62,10 @@ def optimize(mesh, *, progress_bar=False, progress=None, **options):
 
     Parameters
     ----------
-    mesh : vtkUnstructuredGrid, meshio.Mesh or a pair of arrays (points, cells)
-        Also a class derived from vtkUnstructuredGrid that can be made without arguments, such as PyVista's. Points are
-        of shape (n, 3) or (n, 2), in any unit; cells are integers of shape (m, 4) for tetrahedra or (m, 3) for
+    mesh : vtkUnstructuredGrid, blocks of them, meshio.Mesh or a pair of arrays (points, cells)
+        Blocks are a vtkMultiBlockDataSet, vtkPartitionedDataSet or vtkPartitionedDataSetCollection; faces that two
+        blocks share stay. Also a class derived from these that can be made without arguments, such as PyVista's.
+        Points are of shape (n, 3) or (n, 2), in any unit; cells are integers of shape (m, 4) for tetrahedra or (m, 3) for
         triangles. Triangles lie in one plane. The mesh is not changed.
     progress_bar : bool, default False
         Show a bar: tqdm's or rich's where one is installed, else a plain one.
@@ -82,7 +86,7 @@ def optimize(mesh, *, progress_bar=False, progress=None, **options):
     TypeError
         An option that does not exist, or a mesh of another kind.
     ValueError
-        A value that is not allowed, or arrays of another shape.
+        A value that is not allowed, arrays of another shape, or cells of points that are not there.
     MeshOptimizeError
         The mesh or an array cannot be used; the text is the filter's.
 
@@ -122,7 +126,7 @@ def optimize(mesh, *, progress_bar=False, progress=None, **options):
     adapted, algorithm = _prepare(vtkMeshOptimizeFilter, mesh, options)
     with _progress.bar() if progress_bar else contextlib.nullcontext() as bar:
         interrupted = run(algorithm, _both(progress, bar))
-    output = algorithm.GetOutput()
+    output = algorithm.GetOutputDataObject(0)
     report = report_of_run(algorithm, interrupted, adapted.grid, output,
                            _histogram(adapted.grid, options), _histogram(output, options))
     return adapted.back(output), report
@@ -138,7 +142,7 @@ def quality(mesh, **options):
 
     Parameters
     ----------
-    mesh : vtkUnstructuredGrid, meshio.Mesh or a pair of arrays (points, cells)
+    mesh : vtkUnstructuredGrid, blocks of them, meshio.Mesh or a pair of arrays (points, cells)
         As for `optimize`.
     **options
         See below.

@@ -2,7 +2,9 @@
 """The commands mesh-optimize and mesh-quality. Exit status: 0 done, 1 a file failed, 2 wrong use, 130 Ctrl-C."""
 import argparse
 import contextlib
+import functools
 import json
+import os
 import pathlib
 import sys
 import warnings
@@ -12,13 +14,39 @@ import numpy as np
 from . import _files, _progress
 from ._api import optimize, quality
 from ._meshes import adapter
-from ._properties import make, properties
+from ._properties import make, nearest, properties
 from ._reports import QUALITY_ARRAYS
 from ._run import MeshOptimizeError
 from .vtkFiltersMeshOptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
 
 FORMATS = f"Formats: {', '.join(_files.SUFFIXES)}. Groups and sets of Gmsh, Medit, Abaqus and Nastran files are kept, "\
           "and groups of tetrahedra are regions. Those formats need meshio."
+
+
+class _Parser(argparse.ArgumentParser):
+    """Names the nearest option to one that does not exist."""
+
+    def parse_args(self, arguments=None):
+        given, strange = self.parse_known_args(arguments)
+        if strange:
+            self.error(f"there is no option {strange[0]}" + nearest(strange[0].split("=")[0], self._option_string_actions))
+        return given
+
+
+def _to_a_pipe(command):
+    """A reader of the output that ends early, such as head, is no error; nor is a file name that cannot be printed."""
+    @functools.wraps(command)
+    def wrapped(*arguments):
+        if hasattr(sys.stdout, "reconfigure"):
+            sys.stdout.reconfigure(errors="backslashreplace")
+        try:
+            status = command(*arguments)
+            sys.stdout.flush()
+            return status
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python writes the rest when it ends
+            return 1
+    return wrapped
 
 
 def _add_properties(parser, cls):
@@ -46,19 +74,28 @@ def _options(parser, arguments, cls):
     return options
 
 
-def _check_formats(parser, paths):
+def _check_formats(parser, paths, to_read):
     for path in paths:
         try:
-            _files.suffix_of(path)
+            _files.suffix_of(path, to_read)
         except ValueError as error:
             parser.error(str(error))
 
 
-def _targets(parser, sources, out, force):
+def _check_picture(parser, given):
+    if given.picture and len(given.sources) > 1:
+        parser.error("--picture is for one input")
+    if given.picture and given.picture.suffix.lower() != ".png":
+        parser.error(f"{given.picture}: a picture is a .png file")
+    if given.picture and not given.picture.parent.is_dir():
+        parser.error(f"the folder {given.picture.parent} is not there")
+
+
+def _targets(parser, sources, out, picture, force):
     """A file to write for each input. Wrong use ends the program with status 2."""
     if len(sources) == 1 and not out.is_dir():
         targets = [out]
-        _check_formats(parser, targets)
+        _check_formats(parser, targets, False)
         if not out.parent.is_dir():
             parser.error(f"the folder {out.parent} is not there")
     elif out.exists() and not out.is_dir() or not out.exists() and out.suffix:
@@ -67,7 +104,13 @@ def _targets(parser, sources, out, force):
         targets = [out / source.name for source in sources]
     if len(set(targets)) < len(targets):
         parser.error("two inputs have the same name")
-    there = [str(target) for target in targets if target.exists()]
+    for source, target in zip(sources, targets):
+        try:
+            _files.check_blocks(_files.blocks_in(source), target)
+        except ValueError as error:
+            parser.error(str(error))
+    files = [path for target in targets for path in (target, _files.folder_of_parts(target))]
+    there = [str(path) for path in (*files, picture) if path and path.exists()]
     if there and not force:
         parser.error(f"{', '.join(there)}: already there; --force overwrites")
     return targets
@@ -90,6 +133,8 @@ def _for_each(program, sources, action):
             try:
                 if action(index, source):
                     return 130
+            except BrokenPipeError:
+                raise
             except (MeshOptimizeError, OSError, ValueError) as error:
                 where = "" if str(source) in str(error) else f"{source}: "
                 print(f"{program}: {where}{error}", file=sys.stderr)
@@ -112,9 +157,10 @@ def _progress_of(quiet):
     return {"progress_bar": True} if sys.stderr.isatty() else {"progress": _progress.plain_bar()[0]}
 
 
+@_to_a_pipe
 def mesh_optimize(arguments=None, program="mesh-optimize"):
     """Raises the worst element quality of mesh files. Returns the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         program, usage="%(prog)s [options] IN [IN ...] OUT", epilog=FORMATS,
         description="Raise the worst element quality of meshes of tetrahedra or triangles.")
     parser.add_argument("sources", metavar="IN", nargs="+", type=pathlib.Path, help="mesh files")
@@ -124,11 +170,10 @@ def mesh_optimize(arguments=None, program="mesh-optimize"):
     parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw before and after; of one input")
     _add_properties(parser, vtkMeshOptimizeFilter)
     given = parser.parse_args(arguments)
-    _check_formats(parser, given.sources)
+    _check_formats(parser, given.sources, True)
     options = _options(parser, given, vtkMeshOptimizeFilter)
-    if given.picture and len(given.sources) > 1:
-        parser.error("--picture is for one input")
-    targets = _targets(parser, given.sources, given.out, given.force)
+    _check_picture(parser, given)
+    targets = _targets(parser, given.sources, given.out, given.picture, given.force)
 
     def action(index, source):
         mesh = _files.read(source)
@@ -155,14 +200,16 @@ def _bars(histogram):
 
 def _worst(cells):
     values = next((cells[name] for name in QUALITY_ARRAYS if name in cells), [])
-    rows = zip(cells.get("OriginalCellIds", []), values, cells.get("Center", []))
-    return "\n".join(f"  cell {cell:8d}  quality {value:9.4f}  at ({x:.6g}, {y:.6g}, {z:.6g})"
-                     for cell, value, (x, y, z) in rows)
+    blocks = [f"  block {block:4d}" for block in cells["Block"]] if "Block" in cells else [""] * len(values)
+    rows = zip(blocks, cells.get("OriginalCellIds", []), values, cells.get("Center", []))
+    return "\n".join(f"{block}  cell {cell:8d}  quality {value:9.4f}  at ({x:.6g}, {y:.6g}, {z:.6g})"
+                     for block, cell, value, (x, y, z) in rows)
 
 
+@_to_a_pipe
 def mesh_quality(arguments=None, program="mesh-quality"):
     """Measures mesh files. Returns the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         program, usage="%(prog)s [options] IN [IN ...]", epilog=FORMATS,
         description="Measure the quality of meshes of tetrahedra or triangles.")
     parser.add_argument("sources", metavar="IN", nargs="+", type=pathlib.Path, help="mesh files")
@@ -171,10 +218,9 @@ def mesh_quality(arguments=None, program="mesh-quality"):
     parser.add_argument("--picture", metavar="FILE.png", type=pathlib.Path, help="draw the mesh; of one input")
     _add_properties(parser, vtkMeshQualityMinMax)
     given = parser.parse_args(arguments)
-    _check_formats(parser, given.sources)
+    _check_formats(parser, given.sources, True)
     options = _options(parser, given, vtkMeshQualityMinMax)
-    if given.picture and len(given.sources) > 1:
-        parser.error("--picture is for one input")
+    _check_picture(parser, given)
     results = []
 
     def action(index, source):

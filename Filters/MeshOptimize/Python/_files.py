@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mesh files: VTK's by VTK, the others by meshio. README.md beside this file says what survives in which format."""
 import contextlib
+import importlib
 import io
 import os
 import pathlib
@@ -9,6 +10,8 @@ import tempfile
 import warnings
 
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkCommonDataModel import (vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+                                           vtkPartitionedDataSetCollection, vtkUnstructuredGrid)
 from vtkmodules.vtkIOLegacy import vtkUnstructuredGridReader, vtkUnstructuredGridWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
@@ -20,15 +23,19 @@ VTK_FORMATS = {".vtu": (vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWrit
                ".vtk": (vtkUnstructuredGridReader, vtkUnstructuredGridWriter)}
 MESHIO_FORMATS = {".msh": "gmsh", ".mesh": "medit", ".meshb": "medit", ".inp": "abaqus", ".bdf": "nastran",
                   ".nas": "nastran", ".fem": "nastran"}
-SUFFIXES = (*VTK_FORMATS, *MESHIO_FORMATS)
 
-# Meshes in several parts. The calls and commands take one grid; ParaView, with the plugin, takes them as they are.
-_SCRIPT = 'from paraview.simple import *; SaveData("OUT{0}", proxy=MeshOptimize(Input=OpenDataFile("{1}")), DataMode="Binary")'
-_OF_PARTS = {
-    ".pvtu": "pieces, which ParaView optimizes on several ranks: mpirun -np 4 pvbatch ranks.py {1} OUT{0}, with ranks.py of "
-             "ParaViewPlugin/Examples",
-    **dict.fromkeys((".vtm", ".vtmb", ".vtpd", ".vtpc"), f"blocks, which ParaView optimizes. In pvpython: {_SCRIPT}"),
-}
+# Files that name others, which have the parts: what they hold, and VTK's classes for them without Reader or Writer
+_PARTS = {".pvtu": (vtkUnstructuredGrid, "vtkXMLPUnstructuredGrid"),
+          ".vtm": (vtkMultiBlockDataSet, "vtkXMLMultiBlockData"), ".vtmb": (vtkMultiBlockDataSet, "vtkXMLMultiBlockData"),
+          ".vtpd": (vtkPartitionedDataSet, "vtkXMLPartitionedDataSet"),
+          ".vtpc": (vtkPartitionedDataSetCollection, "vtkXMLPartitionedDataSetCollection")}
+SUFFIXES = (*VTK_FORMATS, *_PARTS, *MESHIO_FORMATS)
+
+_SURFACES = (".stl", ".vtp", ".ply", ".obj", ".off")
+_TO_BE_FILLED = "a surface, which has to be filled first: Tetrahedralize (TetGen) in ParaView, or vtkTetGenFilter"
+
+# What VTK says after the error that counts
+_FOLLOWS = ("Algorithm vtk", "No update piece number")
 
 # Keywords at the beginning of a line that meshio passes over in silence, and those that it reads.
 _KEYWORDS = {
@@ -41,13 +48,42 @@ _KEYWORDS = {
 }
 
 
-def suffix_of(path):
+def suffix_of(path, to_read=False):
     suffix = pathlib.Path(path).suffix.lower()
-    if suffix in _OF_PARTS:
-        raise ValueError(f"{path}: a file of {_OF_PARTS[suffix].format(suffix, path)}")
+    if to_read and suffix in _SURFACES:
+        raise ValueError(f"{path}: {_TO_BE_FILLED}")
     if suffix not in SUFFIXES:
         raise ValueError(f"{path}: the format {suffix or 'without a suffix'} is none of {', '.join(SUFFIXES)}")
     return suffix
+
+
+def blocks_in(path):
+    """The class of composite data that a file of this suffix holds; None for one grid."""
+    held = _PARTS.get(suffix_of(path), (vtkUnstructuredGrid,))[0]
+    return None if held is vtkUnstructuredGrid else held
+
+
+def check_blocks(kind, path):
+    """ValueError if composite data of this class (None: one grid) have no place in a file of this suffix."""
+    held = blocks_in(path)
+    if kind and not (held and issubclass(kind, held)):
+        fitting = [suffix for suffix, (other, _) in _PARTS.items() if issubclass(kind, other)]
+        raise ValueError(f"{path}: blocks ({kind.__name__}) are written to {', '.join(fitting)} only")
+    if held and not kind:
+        raise ValueError(f"{path}: this format is for blocks, and the mesh is one grid")
+
+
+def folder_of_parts(path):
+    """The folder in which VTK puts the parts of a file of blocks; None for other files."""
+    return pathlib.Path(path).with_suffix("") if blocks_in(path) else None
+
+
+def _vtk_class(name):
+    """A class of VTK that reads or writes XML. Which module has it depends on the version."""
+    for module in ("vtkIOXML", "vtkIOParallelXML"):
+        with contextlib.suppress(ImportError, AttributeError):
+            return getattr(importlib.import_module("vtkmodules." + module), name)
+    raise MeshOptimizeError(f"this VTK has no {name}")
 
 
 def _import_meshio(path):
@@ -85,7 +121,7 @@ def _warn_of_lost(path, format_name):
 
 def _read_vtk(path, reader):
     errors, _ = collect(reader, "ErrorEvent", "WarningEvent")
-    reader.SetFileName(os.fspath(path))
+    reader.SetFileName(os.fsencode(path))
     # What reads XML within the reader cannot be observed: its messages are caught where VTK writes them.
     window, before = vtkStringOutputWindow(), vtkOutputWindow.GetInstance()
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
@@ -96,12 +132,37 @@ def _read_vtk(path, reader):
     finally:
         vtkOutputWindow.SetInstance(before)
         vtkLogger.SetStderrVerbosity(verbosity)
-    if errors:
-        texts = f"{text_of(window.GetOutput())} {errors[0]}".strip()
+    said = window.GetOutput() or ""
+    if errors or "ERROR:" in said:  # a part that cannot be read is no error of the file that names it
+        texts = [text_of(text) for text in re.split(r"(?=ERROR: In )", said)]
+        texts = " ".join([*(text for text in texts if not text.startswith(_FOLLOWS)), *errors[:1]]).strip()
+        if "dataset type: polydata" in texts:
+            raise MeshOptimizeError(f"{path}: {_TO_BE_FILLED}")
         hint = ("; if it has raw appended data: this VTK may not read them, write it with SetDataModeToBinary()"
                 if "not well-formed" in texts else "")
         raise MeshOptimizeError(f"{path}: {texts}{hint}")
-    return reader.GetOutput()
+    return reader.GetOutputDataObject(0)
+
+
+def _read_parts(path):
+    """What is wrong is said of the part that it is wrong with."""
+    try:
+        return _read_vtk(path, _vtk_class(_PARTS[suffix_of(path)][1] + "Reader")())
+    except MeshOptimizeError:
+        names = re.findall(r'(?:file|Source)="([^"]+\.vtu)"', pathlib.Path(path).read_text("utf-8", "replace"))
+        for name in names:
+            _read_vtk(pathlib.Path(path).parent / name, vtkXMLUnstructuredGridReader())
+        raise
+
+
+def _read_pieces(path):
+    """One grid of all pieces, without ghosts. Their points are not joined: on the two sides of a crack they coincide, too."""
+    grid = _read_parts(path)
+    grid.RemoveGhostCells()
+    if pathlib.Path(path).read_text("utf-8", "replace").count("<Piece ") > 1:
+        warnings.warn(f"{path}: the faces between the pieces stay as they are; on several ranks they are optimized, too: "
+                      "mpirun -np 4 pvbatch ranks.py IN.pvtu OUT.pvtu (ParaViewPlugin/Examples)", stacklevel=3)
+    return grid
 
 
 @contextlib.contextmanager
@@ -145,15 +206,15 @@ def read(path):
     Parameters
     ----------
     path : str or path
-        .vtu, .vtk by VTK; .msh (Gmsh), .mesh, .meshb (Medit), .inp (Abaqus), .bdf, .nas, .fem (Nastran) by meshio.
+        .vtu, .vtk, .pvtu (pieces), .vtm, .vtmb, .vtpd, .vtpc (blocks) by VTK; .msh (Gmsh), .mesh, .meshb (Medit), .inp (Abaqus), .bdf, .nas, .fem (Nastran) by meshio.
 
     Returns
     -------
-    vtkUnstructuredGrid or meshio.Mesh
+    vtkUnstructuredGrid, meshio.Mesh, or composite data of VTK for a file of blocks
 
     Raises
     ------
-    FileNotFoundError
+    FileNotFoundError, IsADirectoryError
     ValueError
         A suffix of no known format.
     MeshOptimizeError
@@ -164,27 +225,33 @@ def read(path):
     UserWarning
         What of the file is left out.
     """
-    suffix = suffix_of(path)
+    suffix = suffix_of(path, to_read=True)
+    if os.path.isdir(path):
+        raise IsADirectoryError(f"{path} is a folder")
     if not os.path.isfile(path):
         raise FileNotFoundError(f"{path} is not there")
     if suffix in VTK_FORMATS:
         return _read_vtk(path, VTK_FORMATS[suffix][0]())
+    if suffix == ".pvtu":
+        return _read_pieces(path)
+    if suffix in _PARTS:
+        return _read_parts(path)
     return _read_meshio(path, suffix)
 
 
 def write(mesh, path):
-    """Write a mesh file, in place of one that is there; whole or not at all.
+    """Write a mesh file, in place of one that is there; whole or not at all. Parts come before the file that names them.
 
     Parameters
     ----------
-    mesh : vtkUnstructuredGrid, meshio.Mesh or a pair of arrays (points, cells)
+    mesh : vtkUnstructuredGrid, blocks of them, meshio.Mesh or a pair of arrays (points, cells)
     path : str or path
         As for `read`.
 
     Raises
     ------
     ValueError
-        A suffix of no known format.
+        A suffix of no known format, or of one that is not for blocks.
     MeshOptimizeError
         The file cannot be written, or meshio is missing.
 
@@ -207,6 +274,10 @@ def write(mesh, path):
     """
     suffix = suffix_of(path)
     path = pathlib.Path(path)
+    check_blocks(type(mesh) if isinstance(mesh, vtkCompositeDataSet) else None, path)
+    if suffix in _PARTS:
+        _write_parts(mesh, path, _vtk_class(_PARTS[suffix][1] + "Writer")())
+        return
     part = path.with_name(f".{path.stem}.part{suffix}")  # in the same folder, so that it can be renamed
     try:
         if suffix in VTK_FORMATS:
@@ -218,16 +289,27 @@ def write(mesh, path):
         part.unlink(missing_ok=True)
 
 
+def _write_parts(mesh, path, writer):
+    with tempfile.TemporaryDirectory(prefix=".", dir=path.parent) as folder:  # there, so that files can be renamed
+        _write_vtk(mesh, pathlib.Path(folder) / path.name, writer, path)
+        files = [file for file in pathlib.Path(folder).rglob("*") if file.is_file()]
+        for file in sorted(files, key=lambda file: file.name == path.name):  # the file that names the others is last
+            target = path.parent / file.relative_to(folder)
+            target.parent.mkdir(exist_ok=True)
+            os.replace(file, target)
+
+
 def _write_vtk(mesh, part, writer, path):
     grid = _groups.grid_of(mesh) if _groups.is_meshio(mesh) else adapter(mesh).grid
     errors, _ = collect(writer, "ErrorEvent", "WarningEvent")
     writer.SetInputDataObject(grid)
-    writer.SetFileName(os.fspath(part))
-    if hasattr(writer, "SetDataModeToBinary"):  # Debian's VTK cannot read raw appended data, the writer's default
-        writer.SetDataModeToBinary()
-    else:
+    writer.SetFileName(os.fsencode(part))
+    if isinstance(writer, vtkUnstructuredGridWriter):
         writer.SetFileTypeToBinary()
+    else:  # Debian's VTK cannot read raw appended data, the writer's default
+        writer.SetDataModeToBinary()
     if writer.Write() != 1 or errors:
+        errors = [text for text in errors if not text.startswith(_FOLLOWS)]
         raise MeshOptimizeError(f"{path}: {' '.join(errors) or 'it cannot be written'}")
 
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Between numpy arrays and the points and cells of a vtkUnstructuredGrid."""
+"""Between numpy arrays and the points and cells of a vtkUnstructuredGrid; grids and data of several grids."""
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE, vtkCellArray, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import (VTK_TETRA, VTK_TRIANGLE, vtkCellArray, vtkCompositeDataSet,
+                                           vtkPartitionedDataSet, vtkUnstructuredGrid)
 
 CELL_OF_CORNERS = {3: VTK_TRIANGLE, 4: VTK_TETRA}
 
@@ -40,3 +41,62 @@ def nodes_of(grid, ids, corners):
     starts = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
     nodes = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     return nodes[starts[ids][:, None] + np.arange(corners)]
+
+
+def leaves(data):
+    """The iterator of composite data at each of its leaves."""
+    iterator = data.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        yield iterator
+        iterator.GoToNextItem()
+
+
+def grids_of(data):
+    """The grids of composite data, or the one grid that `data` is."""
+    if isinstance(data, vtkUnstructuredGrid):
+        return [data]
+    found = (leaf.GetCurrentDataObject() for leaf in leaves(data))
+    return [leaf for leaf in found if isinstance(leaf, vtkUnstructuredGrid)]
+
+
+def shallow_copy(data):
+    """A grid or composite data of VTK's own class, which share their arrays with `data` and nothing else."""
+    if isinstance(data, vtkUnstructuredGrid):
+        copy = vtkUnstructuredGrid()
+        copy.ShallowCopy(data)
+        return copy
+    copy = data.NewInstance()
+    copy.CopyStructure(data)
+    copy.GetFieldData().ShallowCopy(data.GetFieldData())
+    for leaf in leaves(data):
+        own = leaf.GetCurrentDataObject().NewInstance()
+        own.ShallowCopy(leaf.GetCurrentDataObject())
+        copy.SetDataSet(leaf, own)
+    return copy
+
+
+def names_of_leaves(data):
+    """The names of the blocks that have one, by the numbers that the filters call them by."""
+    if not isinstance(data, vtkCompositeDataSet):
+        return {}
+    return dict(_names(data, 0, "")[1])
+
+
+def _names(data, number, name):
+    """The number after those of a block, and the pairs (number, name) in it. Leaves are counted with their parents."""
+    found = [(number, name)] if name else []
+    if not isinstance(data, vtkCompositeDataSet):
+        return number + 1, found
+    is_partitioned = isinstance(data, vtkPartitionedDataSet)
+    has_blocks = hasattr(data, "GetNumberOfBlocks")
+    size = (data.GetNumberOfPartitions() if is_partitioned else data.GetNumberOfBlocks() if has_blocks
+            else data.GetNumberOfPartitionedDataSets())
+    get = (data.GetPartitionAsDataObject if is_partitioned else data.GetBlock if has_blocks
+           else data.GetPartitionedDataSet)
+    number += 1
+    for k in range(size):
+        own = data.GetMetaData(k).Get(vtkCompositeDataSet.NAME()) if data.HasMetaData(k) else None
+        number, inner = _names(get(k), number, own or name)
+        found += inner
+    return number, found

@@ -9,14 +9,15 @@ import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (letters)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (drawing)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import VTK_TETRA
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer,
                                          vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
 
-from ._grids import CELL_OF_CORNERS, kinds_of, nodes_of, simplices
+from ._grids import CELL_OF_CORNERS, grids_of, kinds_of, nodes_of, simplices
 from ._run import MeshOptimizeError
 from .vtkFiltersMeshOptimize import vtkMeshQualityMinMax
 
@@ -84,6 +85,17 @@ def _actor(grid, colours, opacity, edges):
     return actor
 
 
+def _one_grid(data):
+    """All grids of composite data in one; a grid as it is."""
+    if isinstance(data, vtkUnstructuredGrid):
+        return data
+    append = vtkAppendFilter()
+    for grid in grids_of(data):
+        append.AddInputData(grid)
+    append.Update()
+    return append.GetOutput()
+
+
 def _title(text):
     actor = vtkTextActor()
     actor.SetInput(text)
@@ -126,7 +138,8 @@ def _view(title, mesh, colours):
 
 
 def draw(grids, path):
-    """Draws grids side by side into a PNG file, with one camera for all. `grids`: pairs of a title and a grid."""
+    """Draws grids side by side into a PNG file, with one camera for all. `grids`: pairs of a title and a mesh of VTK."""
+    grids = [(title, _one_grid(data)) for title, data in grids]
     colours = vtkColorTransferFunction()
     for point in COLOURS:
         colours.AddRGBPoint(*point)

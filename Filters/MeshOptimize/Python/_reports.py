@@ -70,7 +70,8 @@ class OptimizeReport(_Report):
     volume_change, edge_length_share : float
         The change of the volume relative to that before; the fraction of edges that are about as long as wanted.
     history : dict of numpy arrays
-        A row for each pass: Pass, Stage, Worst, Mean, BelowTarget, Cells, Points, and the operations tried and done.
+        A row for each pass: Pass, Stage, Worst, Mean, BelowTarget, Cells, Points, and the operations tried and done;
+        and Block where the mesh is several.
     histogram_before, histogram_after : dict of numpy arrays
         A row for each bin: BinCenter, BinLow, BinHigh, Count.
     """
@@ -129,7 +130,8 @@ class QualityReport(_Report):
     histogram : dict of numpy arrays
         A row for each bin: BinCenter, BinLow, BinHigh, Count.
     worst_cells : dict of numpy arrays
-        Worst first: OriginalCellIds, MeshQuality (MinimumDihedralAngle if that is measured), Center of shape (n, 3).
+        Worst first: OriginalCellIds, MeshQuality (MinimumDihedralAngle if that is measured), Center of shape (n, 3);
+        and Block where the mesh is several.
     """
 
     minimum: float
@@ -194,4 +196,4 @@ def report_of_quality(algorithm):
         capped_cells=algorithm.GetNumberOfCappedCells(),
         summary=columns(algorithm.GetOutputDataObject(1)), histogram=columns(algorithm.GetOutputDataObject(2)),
         worst_cells={name: vtk_to_numpy(worst.GetArray(name)).copy()
-                     for name in ("OriginalCellIds", *QUALITY_ARRAYS, "Center") if worst.GetArray(name)})
+                     for name in ("Block", "OriginalCellIds", *QUALITY_ARRAYS, "Center") if worst.GetArray(name)})

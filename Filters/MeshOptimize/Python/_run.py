@@ -6,6 +6,8 @@ import signal
 import threading
 import warnings
 
+from ._grids import names_of_leaves
+
 # "ERROR: In FILE, line N\nCLASS (0x...): TEXT\n\n", as vtkErrorMacro writes it
 _HEAD = re.compile(r"\A\s*\w+: In .*?, line \d+\s+\w+ \(\w+\): ", re.DOTALL)
 
@@ -53,6 +55,12 @@ def _on_ctrl_c(handler):
         signal.signal(signal.SIGINT, before)
 
 
+def _with_names(text, names):
+    """A message of a filter on composite data calls a block by its number: its name is added."""
+    return re.sub(r"\ABlock (\d+)(?=:)",
+                  lambda found: found[0] + (f" ({names[int(found[1])]})" if int(found[1]) in names else ""), text)
+
+
 def run(algorithm, progress=None, warn=True):
     """Updates the filter. True if Ctrl-C stopped it.
 
@@ -78,10 +86,11 @@ def run(algorithm, progress=None, warn=True):
     algorithm.AddObserver("ProgressEvent", on_progress)
     with _on_ctrl_c(on_ctrl_c):
         algorithm.Update()
+    names = names_of_leaves(algorithm.GetInputDataObject(0, 0)) if errors or texts else {}
     for text in texts if warn else ():
-        warnings.warn(text, stacklevel=3)  # the caller of optimize() or quality()
+        warnings.warn(_with_names(text, names), stacklevel=3)  # the caller of optimize() or quality()
     if raised:
         raise raised[0]
     if errors:
-        raise MeshOptimizeError("\n".join(errors))
+        raise MeshOptimizeError("\n".join(_with_names(text, names) for text in errors))
     return bool(interrupted)

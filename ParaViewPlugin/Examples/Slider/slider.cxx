@@ -1,35 +1,39 @@
-// The worst elements of a mesh in its pale body, and a slider for the target: slider IN.vtu
-#include "Scene.h"
-
+#include <vtkDataSetMapper.h>
 #include <vtkMeshOptimizeFilter.h>
-#include <vtkMeshQualityMinMax.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
+#include <vtkSliderRepresentation2D.h>
 #include <vtkSliderWidget.h>
 #include <vtkXMLUnstructuredGridReader.h>
-
+// A slider for the target, and a mesh (the surface of a body) coloured by quality: slider IN.vtu
 int main(int, char* argv[])
 {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName(argv[1]);
   vtkNew<vtkMeshOptimizeFilter> optimize;
   optimize->SetInputConnection(reader->GetOutputPort());
-  vtkNew<vtkMeshQualityMinMax> measure;
-  measure->SetInputConnection(optimize->GetOutputPort());
+  vtkNew<vtkDataSetMapper> mapper; // its colours go from red at 0 to blue at 1
+  mapper->SetInputConnection(optimize->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
   vtkNew<vtkRenderer> renderer;
-  renderer->AddActor(makePart(measure->GetOutputPort(0), 0.2)); // the mesh
-  renderer->AddActor(makePart(measure->GetOutputPort(3), 1.0)); // its worst elements
+  renderer->AddActor(actor);
   vtkNew<vtkRenderWindow> window;
   window->AddRenderer(renderer);
   window->SetSize(800, 800);
-  const auto bar = makeBar("target quality", optimize->GetTargetQuality());
+  vtkNew<vtkSliderRepresentation2D> bar;
+  bar->SetTitleText("target quality");
+  bar->SetValue(optimize->GetTargetQuality());
+  bar->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedDisplay();
+  bar->GetPoint1Coordinate()->SetValue(0.1, 0.1);
+  bar->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
+  bar->GetPoint2Coordinate()->SetValue(0.9, 0.1);
   vtkNew<vtkSliderWidget> slider;
   slider->SetInteractor(window->MakeRenderWindowInteractor());
   slider->SetRepresentation(bar);
-  auto retarget = [&]() mutable { optimize->SetTargetQuality(bar->GetValue()); };
+  auto retarget = [&]() mutable { optimize->SetTargetQuality(bar->GetValue() + 1e-6); }; // not 0
   slider->AddObserver(vtkCommand::EndInteractionEvent, &retarget, &decltype(retarget)::operator());
-  window->Render(); // so does the slider when it is let go, and the new mesh is shown
   slider->EnabledOn();
-  window->GetInteractor()->Start();
+  window->GetInteractor()->Start(); // the slider draws when it is let go, and the new mesh is shown
 }

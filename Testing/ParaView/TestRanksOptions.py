@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What each option means where borders take part: the rows of the table in Filters/RANKS.md that TestOptimizeRanks has not."""
+import os
+import sys
+
+import numpy as np
+from meshoptimize import vtkMeshOptimizeFilter, vtkSolutionMetricFilter, vtkThermoelasticFilter
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkVariantArray
+from vtkmodules.vtkCommonDataModel import VTK_VERTEX, vtkMultiBlockDataSet
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # pvbatch does not
+from ranks_case import Mesh, add, check, compare, corners, history, rank, ranks, run, run_tests, tell
+
+
+def alone(mesh, **options):
+    return run(mesh.whole(), False, **options) if rank == 0 else None
+
+
+def points_of(tets):
+    return set(map(tuple, tets.reshape(-1, 3)))
+
+
+def test_goals():
+    """Target and measure are those of the whole; with more effort more is tried, and Best goes past the target."""
+    mesh = Mesh()
+    before = corners(mesh.whole())
+    for options in ({"TargetQuality": 0.3}, *({"QualityMeasure": k, "TargetQuality": 0.3} for k in range(1, 6))):
+        f, serial = run(mesh.piece(), **options), alone(mesh, **options)
+        compare(f"goals {options}", f, before, serial)
+        check(f.GetStopReason() == vtkMeshOptimizeFilter.TargetReached, f"goals {options}: {f.GetStopReasonAsString()}")
+        check(0.3 <= f.GetWorstQualityAfter() < 0.35, f"goals {options}: {f.GetWorstQualityAfter()}")
+    evaluations, worst = [], []
+    for effort in range(3):
+        f = run(mesh.piece(), Effort=effort)
+        compare(f"effort {effort}", f, before)
+        evaluations.append(f.GetNumberOfEvaluations())
+        worst.append(f.GetWorstQualityAfter())
+    check(evaluations[0] < evaluations[1] < evaluations[2], f"effort: {evaluations} evaluations")
+    check(min(worst) >= 0.6 and worst[2] > worst[1], f"effort: {worst}")
+
+
+def test_switches():
+    """What is switched off is not tried, in the pieces and at the borders; what is left does something."""
+    mesh = Mesh()
+    before = corners(mesh.whole())
+    everything = ("NodeMotion", "EdgeRemoval", "FaceRemoval", "EdgeContraction", "NodeInsertion", "Retriangulation",
+                  "LookAhead")
+
+    def tries(f):
+        return {name: sum(map(int, history(f)[name + "Tried"])) for name in everything}
+    f = run(mesh.piece())
+    check(rank > 0 or all(tries(f)[name] for name in everything), f"with all: {tries(f)}, the test is too easy")
+    for switch, columns in (("MoveNodes", ["NodeMotion"]), ("LookAhead", ["LookAhead"]), ("InsertNodes", ["NodeInsertion"]),
+                            ("Reconnect", ["EdgeRemoval", "FaceRemoval"]), ("RemoveNodes", ["EdgeContraction"])):
+        f = run(mesh.piece(), **{switch: 0})
+        after = compare(f"without {switch}", f, before)
+        if rank > 0:
+            continue
+        tried = tries(f)
+        check(not any(tried[name] for name in columns), f"without {switch}: {tried}")
+        check(sum(tried.values()) > 100 and f.GetWorstQualityAfter() > f.GetWorstQualityBefore(), f"without {switch}: {tried}")
+        old, new = points_of(before), points_of(after)
+        if switch == "RemoveNodes":
+            check(len(new) >= len(old), f"without {switch}: {len(old)} points, then {len(new)}")
+        if switch == "InsertNodes":
+            check(len(new) <= len(old), f"without {switch}: {len(old)} points, then {len(new)}")
+    f = run(mesh.piece(), InsertNodes=0, RemoveNodes=0, MoveNodes=0)
+    after = compare("reconnection alone", f, before)
+    check(points_of(after) == points_of(before) and len(after) != len(before), "reconnection alone: points")
+    f = run(mesh.piece(), InsertNodes=0, RemoveNodes=0, Reconnect=0, LookAhead=0)
+    after = compare("motion alone", f, before)
+    check(len(after) == len(before) and points_of(after) != points_of(before), "motion alone: cells")
+
+
+def test_threads():
+    """0 threads are those of the computer, divided by its ranks: the same bits as with one."""
+    mesh = Mesh()
+    one, all_of_them = run(mesh.piece()), run(mesh.piece(), NumberOfThreads=0)
+    check(np.array_equal(corners(one.GetOutput()), corners(all_of_them.GetOutput())), "threads: other bits")
+
+
+def test_strings():
+    """Arrays of strings go with the cells that move."""
+    mesh = Mesh()
+    mesh.values["number"] = np.arange(len(mesh.cells))
+    piece = mesh.piece()
+    names, numbers = vtkStringArray(), vtk_to_numpy(piece.GetCellData().GetArray("number"))
+    names.SetName("name")
+    for number in numbers:
+        names.InsertNextValue(f"cell {number}")
+    piece.GetCellData().AddArray(names)
+    f = run(piece)
+    compare("strings", f, corners(mesh.whole()))
+    data = f.GetOutput().GetCellData()
+    wanted = [f"cell {number}" for number in vtk_to_numpy(data.GetArray("number"))]
+    found = [data.GetAbstractArray("name").GetValue(k) for k in range(len(wanted))]
+    check(found == wanted and len(found) > 100, "strings: they are other cells'")
+
+
+def test_kept():
+    """What is not built for borders: one warning that says why, and each rank optimizes its piece as with the switch off."""
+    mesh = Mesh(n=4)
+    mesh.points["size"] = np.full(len(mesh.x), 0.25)
+    mesh.points["metric"] = np.tile([16.0, 16.0, 16.0, 0.0, 0.0, 0.0], (len(mesh.x), 1))
+
+    def array(name):
+        return {"before": lambda f: getattr(f, f"Set{name}Array")(name.lower())}
+
+    def plain():
+        return mesh.piece()
+
+    def with_a_vertex():
+        grid = mesh.piece()
+        grid.InsertNextCell(VTK_VERTEX, 1, [0])
+        return grid
+
+    def with_an_array_on_one_rank():
+        grid = mesh.piece()
+        if rank == 0:
+            add(grid.GetCellData(), "here", np.zeros(grid.GetNumberOfCells()))
+        return grid
+
+    def with_variants():
+        grid, values = mesh.piece(), vtkVariantArray()
+        values.SetName("anything")
+        values.SetNumberOfValues(grid.GetNumberOfCells())
+        grid.GetCellData().AddArray(values)
+        return grid
+
+    for name, make, options, why in (
+            ("one size", plain, {"Beta": 1.0, "DesiredSize": 0.25}, "sizes or a metric"),
+            ("sizes", plain, {"Beta": 1.0, **array("Size")}, "sizes or a metric"),
+            ("metric", plain, {"Beta": 1.0, "DesiredSize": 1.0, **array("Metric")}, "sizes or a metric"),
+            ("below", plain, {"OptimizeBelow": 0.3}, "OptimizeBelow"),
+            ("paper", plain, {"Algorithm": 0}, "Paper1996"),
+            ("vertex", with_a_vertex, {}, "other cells"),
+            ("array", with_an_array_on_one_rank, {}, "different arrays"),
+            ("variants", with_variants, {}, "cannot be sent")):
+        f = run(make(), **options)
+        of_borders = [text for text in f.told if "borders between the ranks' pieces are kept" in text]
+        check(f.GetErrorCode() == 0 and len(of_borders) == (rank == 0), f"kept, {name}: {f.told}")
+        check(rank > 0 or why in of_borders[0], f"kept, {name}: {f.told}")
+        off = run(make(), False, **options)
+        count = f.GetOutput().GetNumberOfCells()
+        check(0 < count == off.GetOutput().GetNumberOfCells(), f"kept, {name}: {count} cells")
+        check(np.array_equal(vtk_to_numpy(f.GetOutput().GetPoints().GetData()),
+                             vtk_to_numpy(off.GetOutput().GetPoints().GetData())), f"kept, {name}: other points")
+
+
+def test_slide():
+    """Not built: an error on every rank and no output, whether the switch is on (told once) or off, in blocks too."""
+    mesh = Mesh(n=4)
+    empty = mesh.grid(np.zeros(len(mesh.cells), bool))
+
+    def block(grid):
+        data = vtkMultiBlockDataSet()
+        data.SetBlock(0, grid)
+        return data
+
+    for name, grid in (("pieces", mesh.piece()), ("all on one rank", mesh.whole() if rank == 0 else empty),
+                       ("blocks", block(mesh.piece()))):
+        for everywhere in (True, False):
+            f = vtkMeshOptimizeFilter()
+            f.SetOptimizeBorders(everywhere)
+            f.SetBoundaryMode(vtkMeshOptimizeFilter.Slide)
+            f.SetInputDataObject(grid)
+            told = tell(f)
+            f.UpdatePiece(rank, ranks, 0)
+            check(f.GetErrorCode() != 0, f"slide, {name}: no error")
+            check(f.GetOutputDataObject(0).GetNumberOfElements(1) == 0, f"slide, {name}: cells come out")
+            check(len(told) == (rank == 0 or not everywhere), f"slide, {name}: {told}")
+            check(all("Slide needs the whole mesh in one piece" in text for text in told), f"slide, {name}: {told}")
+
+
+def test_other_filters():
+    """Thermoelastic: an error on every rank that has cells. Solution Metric: a warning, and none where it works alone."""
+    mesh = Mesh(n=4)
+    mesh.points["square"] = (mesh.x ** 2).sum(axis=1)
+    empty = mesh.grid(np.zeros(len(mesh.cells), bool))
+    f = vtkThermoelasticFilter()
+    f.SetInputData(mesh.piece())
+    told = tell(f)
+    f.UpdatePiece(rank, ranks, 0)
+    check(f.GetErrorCode() != 0 and f.GetOutput().GetNumberOfCells() == 0, "thermoelastic: no error")
+    check(len(told) == 1 and f"spread over {ranks} processes" in told[0], f"thermoelastic: {told}")
+    for name, grid, in_pieces, warnings in (("pieces", mesh.piece(), True, 1), ("no piece", empty, True, 0),
+                                            ("alone", mesh.whole(), False, 0)):
+        f = vtkSolutionMetricFilter()
+        f.SetInputData(grid)
+        f.SetSolutionArray("square")
+        told = tell(f)
+        f.UpdatePiece(rank, ranks, 0) if in_pieces else f.Update()
+        check(f.GetErrorCode() == 0 and len(told) == warnings, f"metric, {name}: {told}")
+        check(all("Aggregate Dataset" in text for text in told), f"metric, {name}: {told}")
+
+
+run_tests(globals())
