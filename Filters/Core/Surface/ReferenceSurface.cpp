@@ -130,7 +130,7 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
       const Facet& f = this->surface.facets_[k];
       if (f.patch != this->patch)
       {
-        // Facets of other patches are in the same tree. Infinite, so that they never are the nearest.
+        // Facets of other patches are in the same tree: they never are the nearest.
         return std::numeric_limits<double>::infinity();
       }
       const Vec<3> y = nearestInTriangle(f.x, Vec<3>(this->x));
