@@ -262,10 +262,10 @@ public:
     }
   }
 
-  // Numbered in the order of first use: the core wants points of the surface only.
 private:
   Index Number(vtkIdType p)
   {
+    // In the order of first use: the core wants points of the surface only.
     if (this->Numbers[p] == meshopt::None)
     {
       this->Numbers[p] = static_cast<Index>(this->Result.Places.size());
