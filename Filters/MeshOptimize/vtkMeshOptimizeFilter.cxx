@@ -408,6 +408,7 @@ std::vector<int> ListPlaces(vtkDataObjectTree* tree)
 {
   std::vector<int> places;
   auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  // Also empty leaves: another rank may have a grid there.
   leaf->SkipEmptyNodesOff();
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
@@ -497,6 +498,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
     {
       SetLeaf(tree, block, output);
     }
+    // The rows are the same on all ranks: one table will do.
     if (controller->GetLocalProcessId() == 0)
     {
       bridge::AppendHistory(one.Report, block, ports.History);
