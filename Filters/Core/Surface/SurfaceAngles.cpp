@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Angles between planes and straight lines, with walks over cells and facets that tell how much of
+// a turn is meant.
 #include "Surface/SurfaceAngles.h"
 
 #include "Mesh/Ids.h"
