@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks that need no geometry, for meshes whose cells overlap: by brute force over the few cells
-// of a cavity, since they run only there.
+// of a cavity.
 #include "Mesh/CavityFit.h"
 #include "Mesh/EulerCharacteristic.h"
 

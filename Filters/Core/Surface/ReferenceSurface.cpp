@@ -38,8 +38,8 @@ void ReferenceSurface::add(
   const Vec<3>&a = x[first], &b = x[(first + 1) % 3], &c = x[(first + 2) % 3];
   f.origin = a;
   f.l = (b - a).norm();
-  // A facet without an edge or an area gets zero vectors: its height q is 0, a needle that proves
-  // nothing and is asked nothing.
+  // Zero vectors where there is no direction. A facet without area has the height q = 0: a needle,
+  // which proves nothing and is asked nothing.
   f.along = f.l > 0.0 ? Vec<3>((b - a) / f.l) : Vec<3>::Zero();
   const Vec<3> n = (b - a).cross(c - a);
   f.normal = n.norm() > 0.0 ? Vec<3>(n.normalized()) : Vec<3>::Zero();

@@ -132,7 +132,7 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfEvaluations", report.evaluations);
-  // Where the surface is fixed, all of this would be 0.
+  // Only a surface in space that slides has a distance, and changes volumes.
   if (outcome.HasSurfaceDistance)
   {
     AddFigure<vtkDoubleArray>(fields, "SurfaceDistance", outcome.SurfaceDistance);

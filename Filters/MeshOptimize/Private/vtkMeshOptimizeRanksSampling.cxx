@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data of points that were interpolated in several rounds, taken anew from the input, which only
-// its first owners have. So a point moved in ten rounds has been interpolated once, as on one rank.
+// its first owners have. So they have been interpolated once, as on one rank.
 #include "vtkMeshOptimizeRanksSampling.h"
 
 #include "vtkMeshBridgeImport.h"
