@@ -21,6 +21,7 @@ namespace
 
 bool IsInteger(vtkDataArray* array)
 {
+  // Characters and bits count as integers, too.
   const int type = array->GetDataType();
   return type != VTK_FLOAT && type != VTK_DOUBLE;
 }
@@ -62,6 +63,8 @@ std::string DescribeComponents(const ArrayRole& role)
 bool IsWanted(vtkAlgorithm* filter, int index)
 {
   vtkInformation* wanted = filter->GetInputArrayInformation(index);
+  // ParaView sets a name always, "None" where nothing is chosen; other callers may set an
+  // attribute.
   if (wanted->Has(vtkDataObject::FIELD_NAME()))
   {
     const char* name = wanted->Get(vtkDataObject::FIELD_NAME());

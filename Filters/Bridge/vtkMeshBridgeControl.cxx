@@ -15,6 +15,7 @@ namespace vtkMeshBridge
 
 int ResolveNumberOfThreads(int wanted)
 {
+  // In a scope with all threads: outside of it the application's backend would answer.
   int available = 1;
   vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, "STDThread", false },
     [&]() { available = vtkSMPTools::GetEstimatedNumberOfThreads(); });

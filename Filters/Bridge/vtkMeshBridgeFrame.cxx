@@ -19,6 +19,7 @@ using meshopt::Vec;
 //------------------------------------------------------------------------------
 void Frame<2>::ToGrid(const Vec<2>& u, double x[3]) const
 {
+  // No arithmetic: coordinates come out as they went in, bit for bit.
   if (this->Direct[0] >= 0)
   {
     // The numbers of the three axes add up to 3.
@@ -56,6 +57,8 @@ Box::Box()
 
 void Box::Add(const Vec<3>& x)
 {
+  // Comparisons with NaN are false, so that it does not get into the box; CheckExtent() is about
+  // range only.
   for (int i = 0; i < 3; ++i)
   {
     this->Low[i] = std::min(this->Low[i], x[i]);
@@ -70,6 +73,7 @@ double Box::GetMagnitude() const
 
 std::string CheckExtent(const Box& box)
 {
+  // Lengths are raised to the third power, and products of these must stay in range.
   constexpr double least = 1e-100, most = 1e100;
   const double extent = (box.High - box.Low).maxCoeff();
   const double magnitude = box.GetMagnitude();
@@ -150,6 +154,7 @@ int FindConstantCoordinate(const Box& box)
  */
 Frame<2> MakeDirect(const Box& box, int constant, bool positive)
 {
+  // Origin and axes along coordinates: ToCore() only picks two of them.
   Frame<2> frame;
   frame.Origin[constant] = box.Low[constant];
   const int first = (constant + 1) % 3, second = (constant + 2) % 3;
@@ -165,6 +170,7 @@ Frame<2> MakeDirect(const Box& box, int constant, bool positive)
  */
 Frame<2> MakeTilted(const Vec<3>& middle, const Vec<3>& x, const Vec<3>& normal)
 {
+  // -1: no coordinate can be taken over directly.
   Frame<2> frame;
   frame.Direct[0] = frame.Direct[1] = -1;
   frame.Origin = middle;
@@ -194,6 +200,7 @@ Plane FindPlane(const GridView& grid, const std::vector<vtkIdType>& triangles, c
 //------------------------------------------------------------------------------
 void PlaneFacts::Merge(const PlaneFacts& other)
 {
+  // The first point in the order of merging, the same on all ranks.
   if (!other.IsEmpty())
   {
     this->Point = this->IsEmpty() ? other.Point : this->Point;
@@ -202,6 +209,7 @@ void PlaneFacts::Merge(const PlaneFacts& other)
   }
   if (other.Largest.squaredNorm() > this->Largest.squaredNorm())
   {
+    // The direction of the largest triangle of all decides which others are turned.
     this->Largest = other.Largest;
   }
   this->Precision = std::max(this->Precision, other.Precision);
@@ -235,6 +243,7 @@ void AddAreas(const GridView& grid, const std::vector<vtkIdType>& triangles, Pla
   facts.Sum = facts.Turned = Vec<3>::Zero();
   for (vtkIdType triangle : triangles)
   {
+    // Triangles may be numbered either way: each counts on one side.
     const Vec<3> area = AreaVector(grid, triangle);
     (area.dot(facts.Largest) < 0.0 ? facts.Turned : facts.Sum) += area;
   }
@@ -251,11 +260,13 @@ Plane MakePlane(const PlaneFacts& facts)
   const int constant = FindConstantCoordinate(box);
   if (constant >= 0)
   {
+    // Also a normal that is 0 or not a number gives the positive order.
     plane.Frame = MakeDirect(box, constant, !(normal[constant] < 0.0));
     return plane;
   }
   if (normal.squaredNorm() == 0.0) // all points are collinear
   {
+    // Any normal will do: flat triangles have no side.
     normal = Vec<3>(box.High - box.Low).unitOrthogonal();
   }
   normal.normalize();

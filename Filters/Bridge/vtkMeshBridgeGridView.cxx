@@ -22,6 +22,7 @@ namespace
 std::array<Kind, 256> MakeKinds()
 {
   std::array<Kind, 256> kinds;
+  // Curved simplices have the kind of their corners: measured like straight ones, never optimized.
   kinds.fill(Kind::Other);
   for (int type : { VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE, VTK_BIQUADRATIC_TRIANGLE,
          VTK_LAGRANGE_TRIANGLE, VTK_BEZIER_TRIANGLE, VTK_HIGHER_ORDER_TRIANGLE })
@@ -72,6 +73,7 @@ const std::array<Kind, 256> GridView::Kinds = MakeKinds();
 GhostCells::GhostCells(vtkUnstructuredGrid* grid)
 {
   vtkUnsignedCharArray* flags = grid->GetCellGhostArray();
+  // An array of another shape is no ghost array, whatever its name says.
   if (flags && flags->GetNumberOfComponents() == 1 &&
     flags->GetNumberOfTuples() >= grid->GetNumberOfCells())
   {
@@ -102,6 +104,7 @@ GridView::GridView(vtkUnstructuredGrid* grid)
 void GridView::ReadCells(vtkUnstructuredGrid* grid)
 {
   vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  // Kept: GetCellTypesArray() may hand out an array that nobody else holds.
   if (types && types->GetNumberOfTuples() >= this->NumberOfCells)
   {
     this->Types = types->GetPointer(0);
@@ -112,6 +115,7 @@ void GridView::ReadCells(vtkUnstructuredGrid* grid)
     this->TypeCopy.resize(this->NumberOfCells);
     for (vtkIdType c = 0; c < this->NumberOfCells; ++c)
     {
+      // Fewer types than cells: the grid is faulty, but must not be read beyond its end.
       const bool isThere = !types || c < types->GetNumberOfTuples();
       this->TypeCopy[c] = static_cast<unsigned char>(
         isThere ? grid->GetCellType(c) : VTK_EMPTY_CELL);
@@ -121,6 +125,7 @@ void GridView::ReadCells(vtkUnstructuredGrid* grid)
   vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
   vtkDataArray* offsets = grid->GetCells()->GetOffsetsArray();
   const vtkIdType length = ids->GetNumberOfValues();
+  // Both of one width: then a pointer to each will do. Mixed ones are copied.
   if (IsOf<vtkTypeInt64>(ids) && IsOf<vtkTypeInt64>(offsets))
   {
     this->Wide = { PointerOf<vtkTypeInt64>(ids), PointerOf<vtkTypeInt64>(offsets), length };
@@ -141,6 +146,7 @@ void GridView::ReadCells(vtkUnstructuredGrid* grid)
 void GridView::ReadPoints(vtkUnstructuredGrid* grid)
 {
   vtkDataArray* points = grid->GetPoints()->GetData();
+  // All other types count as single precision, which is the safe side for tolerances.
   this->Precision = points->GetDataType() == VTK_DOUBLE
     ? std::numeric_limits<double>::epsilon()
     : static_cast<double>(std::numeric_limits<float>::epsilon());

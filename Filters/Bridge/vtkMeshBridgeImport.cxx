@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Geometry only; regions and what is kept belong to the filters that know of them.
 #include "vtkMeshBridgeImport.h"
 
 #include "vtkMeshBridgeGridView.h"
@@ -23,6 +24,7 @@ meshopt::MeshInput<D> ImportGeometry(
   input.cells.resize(simplices.size());
   for (std::size_t k = 0; k < simplices.size(); ++k)
   {
+    // Checked by ClassifyCells(): each has its corners, and their points exist.
     vtkIdType ids[D + 1] = {};
     view.GetCorners(simplices[k], D + 1, ids);
     for (int i = 0; i <= D; ++i)

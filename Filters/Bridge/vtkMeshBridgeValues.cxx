@@ -38,6 +38,7 @@ std::vector<long long> ReadIntegers(vtkDataArray* array)
 {
   const vtkIdType n = array->GetNumberOfTuples();
   std::vector<long long> values(static_cast<std::size_t>(n));
+  // 64-bit integers are read as such: a double has 53 bits.
   auto wide = vtkAOSDataArrayTemplate<vtkTypeInt64>::SafeDownCast(array);
   // A double represents all values of the smaller types exactly.
   const bool isSmall = array->GetDataTypeSize() < 8;
@@ -80,6 +81,7 @@ std::vector<Index> ReadRegions(vtkDataArray* array, const Cells& cells)
   }
   if (FitsIntoIndex(values))
   {
+    // The usual case: numbers stay as they are, and so they do in messages.
     return std::vector<Index>(values.begin(), values.end());
   }
   // Numbers that do not fit become their ranks: the core only compares regions.
@@ -116,6 +118,7 @@ Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame
   Tensor<3> m;
   if (array->GetNumberOfComponents() == 6)
   {
+    // VTK's order of six: XX YY ZZ XY YZ XZ.
     m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
     return frame.ToCore(m); // in 2D NaN and infinity anywhere make NaN; in 3D they stay
   }
@@ -126,6 +129,7 @@ Tensor<D> ReadTensor(vtkDataArray* array, vtkIdType point, const Frame<D>& frame
     // Not symmetric: NaN makes whoever checks the tensors name the point.
     return Tensor<D>::Constant(std::numeric_limits<double>::quiet_NaN());
   }
+  // Rounding is shared out to both sides.
   const Tensor<3> symmetric = 0.5 * (m + m.transpose());
   return frame.ToCore(symmetric);
 }

@@ -160,6 +160,7 @@ vtkTypeBool vtkMeshOptimizeFilter::ProcessRequest(
 
 int vtkMeshOptimizeFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
+  // The geometry that the boundary of a plane mesh is to follow.
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
@@ -190,11 +191,13 @@ int vtkMeshOptimizeFilter::RequestDataObject(
   const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
   if (!output || !output->IsA(type))
   {
+    // Of the very class of the input: a tree has several.
     vtkSmartPointer<vtkDataObject> fresh = input
       ? vtkSmartPointer<vtkDataObject>::Take(input->NewInstance())
       : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New());
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
   }
+  // All outputs are made here: the base class is not asked.
   if (!vtkTable::GetData(outputVector, 1))
   {
     outputVector->GetInformationObject(1)->Set(
@@ -284,6 +287,7 @@ std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
   }
   auto tree = vtkDataObjectTree::SafeDownCast(input);
   auto copy = vtkDataObjectTree::SafeDownCast(output);
+  // The same tree with leaves of its own: those of the input must not change.
   copy->CopyStructure(tree);
   copy->GetFieldData()->DeepCopy(tree->GetFieldData());
   auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(tree->NewIterator());
@@ -360,6 +364,7 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
 
 int CountPieces(vtkInformation* info)
 {
+  // Who asks for no pieces gets the whole.
   const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
   return info->Has(pieces) ? info->Get(pieces) : 1;
 }
@@ -408,6 +413,7 @@ std::vector<int> ListPlaces(vtkDataObjectTree* tree)
 {
   std::vector<int> places;
   auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  // Also empty leaves: another rank may have a grid there.
   leaf->SkipEmptyNodesOff();
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
@@ -458,6 +464,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
   request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
   request.NumberOfGhostLevels = std::max(
     filter->GetNumberOfGhostLevels(), ports.NumberOfGhostLevels);
+  // On several ranks no surface slides: see CheckPieces().
   bridge::StartHistory(ports.History, tree != nullptr, false);
   bridge::Outcome all;
   for (const int block : blocks)
@@ -497,6 +504,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
     {
       SetLeaf(tree, block, output);
     }
+    // The rows are the same on all ranks: one table will do.
     if (controller->GetLocalProcessId() == 0)
     {
       bridge::AppendHistory(one.Report, block, ports.History);

@@ -130,6 +130,7 @@ int vtkMeshQualityMinMax::RequestDataObject(
   const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
   if (!output || !output->IsA(type))
   {
+    // NewInstance(): of the very class of the input, which composite data need.
     vtkSmartPointer<vtkDataObject> made = input
       ? vtk::TakeSmartPointer(input->NewInstance())
       : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New());
@@ -159,6 +160,7 @@ struct vtkMeshQualityMinMax::Run
   // Rank and block in one number; in ties the rank comes first.
   std::int64_t PartOf(unsigned int block) const
   {
+    // 32 bits for the block: a flat index is an unsigned int.
     return (static_cast<std::int64_t>(this->Rank) << 32) + block;
   }
 
@@ -196,6 +198,7 @@ void vtkMeshQualityMinMax::Run::Pass(vtkDataObject* input, vtkDataObject* output
     this->PassBlock(input, output, 0);
     return;
   }
+  // Same tree, own leaves: arrays are added to them, and the input must stay as it was.
   to->CopyStructure(from);
   to->GetFieldData()->PassData(from->GetFieldData());
   vtkSmartPointer<vtkCompositeDataIterator> it = vtk::TakeSmartPointer(from->NewIterator());
@@ -217,6 +220,7 @@ void vtkMeshQualityMinMax::Run::PassBlock(
   {
     this->Blocks.push_back({ this->PartOf(block), block, grid, {} });
   }
+  // Other data sets have cells, too, which count as not measured.
   else if (auto* set = vtkDataSet::SafeDownCast(output))
   {
     this->Figures.Total.OtherCells += set->GetNumberOfCells();
@@ -244,6 +248,7 @@ std::string vtkMeshQualityMinMax::Run::FindArrays()
     {
       error = vtkMeshOptimizeBridge::FindInputArrays(this->Self, block.Mesh, block.Arrays);
     }
+    // Sizes of any block will do: others may have none.
     hasSizes = hasSizes || block.Arrays.Size;
     hasCells = hasCells || block.Mesh->GetNumberOfCells() > 0;
   }
@@ -258,6 +263,7 @@ std::string vtkMeshQualityMinMax::Run::FindArrays()
 std::string vtkMeshQualityMinMax::Run::MeasureBlock(const quality::Block& block)
 {
   quality::Grid grid(block.Mesh);
+  // A piece alone might seem to lie in another plane, or in none.
   if (!this->IsAlone())
   {
     const auto plane = this->Planes.find(block.FlatIndex);
@@ -375,6 +381,7 @@ void vtkMeshQualityMinMax::Run::CountInBins(meshopt::QualityHistogram& histogram
 //------------------------------------------------------------------------------
 void vtkMeshQualityMinMax::StoreFigures(const Run& run)
 {
+  // Figures are NaN where nothing was measured: 0 would be a quality.
   const quality::Sums& total = run.Figures.Total;
   const meshopt::QualityStatistics& q = total.Quality;
   // No cell was measured.
@@ -388,6 +395,7 @@ void vtkMeshQualityMinMax::StoreFigures(const Run& run)
   this->NumberOfNotMeasurableCells = q.invalid;
   this->NumberOfOtherCells = total.OtherCells;
   this->NumberOfCappedCells = total.CappedCells;
+  // No cell is better than the regular one.
   this->QualityBound = std::min(total.Bound, quality::GreatestQuality(run.Options, run.Figures));
   const std::vector<meshopt::WorstElement> worst = run.Figures.Worst.sorted();
   this->WorstCellId = worst.empty() ? -1 : worst[0].id;
@@ -402,12 +410,14 @@ void vtkMeshQualityMinMax::FillOutputs(Run& run, vtkInformationVector* outputVec
     run.Options, run.Figures, this->NumberOfBins);
   run.CountInBins(histogram);
   quality::Reduce(this->Controller, histogram);
+  // One table for all ranks, on the first.
   if (run.Rank == 0)
   {
     quality::FillSummary(run.Options, run.Figures, vtkTable::GetData(outputVector, 1));
     quality::FillHistogram(histogram, vtkTable::GetData(outputVector, 2));
   }
   std::vector<meshopt::WorstElement> worst = run.Figures.Worst.sorted();
+  // The figures needed one, even if none is wanted as output.
   worst.resize(std::min(worst.size(), static_cast<std::size_t>(this->NumberOfWorstCells)));
   quality::FillWorstCells(run.Options, worst, run.Blocks, run.Rank, run.IsComposite,
     vtkUnstructuredGrid::GetData(outputVector, 3));
@@ -445,6 +455,7 @@ int vtkMeshQualityMinMax::RequestData(
     this->Controller, !error.empty(), run.Options.NumberOfWorstCells, run.Figures);
   if (!usable)
   {
+    // Nothing of a part of the data is told: it would look like all.
     run.Figures = quality::Figures(1);
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
     {

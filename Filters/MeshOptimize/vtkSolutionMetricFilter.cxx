@@ -94,6 +94,7 @@ namespace
 
 bridge::Request MakeRequest(vtkSolutionMetricFilter* filter)
 {
+  // Both criteria have the same limits.
   meshopt::SizeLimits limits;
   limits.minimumSize = filter->GetMinimumSize();
   limits.maximumSize = filter->GetMaximumSize();
@@ -177,6 +178,7 @@ int vtkSolutionMetricFilter::RequestData(
     output->Initialize();
     return 1;
   }
+  // The output shares mesh and arrays with the input; new arrays are added to it alone.
   output->ShallowCopy(input);
   bridge::Outcome outcome;
   std::string error;

@@ -158,6 +158,7 @@ std::string vtkTetGenFilter::MakeJob(
     }
     job.InteriorPoints.insert(job.InteriorPoints.end(), x, x + 3);
   }
+  // TetGen would divide the surface at a point on it.
   if (wanted > 0)
   {
     job.InteriorPoints = bridge::PointsOffSurface(surface, job.InteriorPoints);
@@ -185,6 +186,7 @@ namespace
 std::string FindRegionOutside(const std::string& text, const std::vector<double>& regions)
 {
   const std::size_t place = text.rfind("-th region point");
+  // From the end: it is the last thing that TetGen has said.
   const std::size_t begin = text.rfind("The ", place);
   int number = 0;
   if (place == std::string::npos || begin == std::string::npos ||
@@ -220,6 +222,7 @@ std::string LastLine(const std::string& text)
 std::string vtkTetGenFilter::ExplainFailure(const bridge::Surface& surface, bridge::Job job,
   const std::string& text, const std::string& reason)
 {
+  // Before the second run: this failure is known by TetGen's own words.
   const std::string outside = FindRegionOutside(text, job.Regions);
   if (!outside.empty())
   {
@@ -244,6 +247,7 @@ std::string vtkTetGenFilter::ExplainFailure(const bridge::Surface& surface, brid
     return bridge::DescribeIntersections(surface, pairs);
   }
   const std::string last = LastLine(text);
+  // Its last line mostly says more than the signal that ended it.
   return "TetGen failed on this surface: " + reason +
     (last.empty() ? "." : "; the last it said: \"" + last + "\".");
 }
@@ -296,6 +300,7 @@ std::string vtkTetGenFilter::Tetrahedralize(
   bridge::Job job;
   bridge::Mesh mesh;
   std::string error = this->CheckOptions();
+  // An earlier error stands; later steps need what it has refused.
   error = error.empty() ? bridge::ReadSurface(input, surface) : error;
   error = error.empty() ? bridge::CheckSurface(surface) : error;
   error = error.empty() ? this->MakeJob(surface, interior, job) : error;

@@ -73,6 +73,7 @@ void vtkThermoelasticFilter::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+// Names may be missing: nullptr and "" both mean that nothing is chosen.
 void vtkThermoelasticFilter::ChooseArray(int index, bool onCells, const char* name)
 {
   this->SetInputArrayToProcess(index, 0, 0,
@@ -148,6 +149,7 @@ const char* vtkThermoelasticFilter::GetStopReasonAsString()
 int vtkThermoelasticFilter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  // One grid, not a composite: the executive calls the filter for each block.
   return 1;
 }
 
@@ -163,6 +165,7 @@ namespace
 
 bridge::Request MakeRequest(vtkThermoelasticFilter* filter)
 {
+  // A struct of plain values: below it nothing asks the filter, except which arrays are chosen.
   bridge::Request request;
   request.Filter = filter;
   request.TemperatureMode = filter->GetTemperatureMode();
@@ -199,6 +202,7 @@ std::string CheckDistribution(vtkMultiProcessController* controller, bool hasCel
   const int mine = hasCells ? 1 : 0;
   int all = 0;
   controller->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);
+  // Only ranks with cells have an error: the others have nothing to solve, and nothing to say.
   return all <= 1 || !hasCells ? std::string()
                                : "The mesh is spread over " + std::to_string(all) +
       " processes, but the equations are solved on one. Bring it together first (in ParaView: the "
@@ -251,6 +255,7 @@ int vtkThermoelasticFilter::RequestData(
   bridge::Outcome& outcome = results.Outcome;
   const int threads = vtkMeshBridge::ResolveNumberOfThreads(this->NumberOfThreads);
   request.Control = vtkMeshBridge::MakeControl(this, threads, 0.0, 1.0);
+  // Before anything that could fail on one process only.
   std::string error = CheckDistribution(this->Controller, input->GetNumberOfCells() > 0);
   try
   {
@@ -270,6 +275,7 @@ int vtkThermoelasticFilter::RequestData(
     vtkErrorMacro(<< error);
     output->Initialize();
     history->Initialize();
+    // Results of an earlier run must not stay beside an error.
     outcome = bridge::Outcome();
   }
   this->StoreResults(results);
@@ -278,6 +284,7 @@ int vtkThermoelasticFilter::RequestData(
   {
     this->StopReason = NothingToDo;
   }
+  // A warning, not an error: what has been found so far is in the output.
   if (this->StopReason == IterationLimit || this->StopReason == Breakdown)
   {
     vtkWarningMacro(<< "The solver has not converged: after " << this->NumberOfSolverIterations

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Closed forms for one angle, and the fillings of an angle by several cells.
 #include "Bound/AngleBound.h"
 
 #include "Bound/ApexBound.h"
@@ -62,11 +63,15 @@ template <class Cap>
 double filled(double angle, double best, double slack, double regular, Cap&& cap)
 {
   double most = 0.0;
+  // Of n cells one has at most, and one at least, the n-th part of the angle: on either side of the
+  // best angle, that is one with no greater cap than the n-th part has.
   for (int n = 1;; ++n)
   {
     const double low = (angle - slack) / n, high = (angle + slack) / n;
+    // No cell has an angle of 180 degrees or more.
     if (high < pi)
     {
+      // An interval that contains the best angle proves nothing.
       most = std::max(most, high < best ? cap(high) : low > best ? cap(low) : regular);
     }
     if (high < best)
@@ -99,6 +104,7 @@ double dihedralCap(Measure measure, double phi)
       cap = std::sin(phi);
       break;
     case Measure::WarpedSine:
+      // As the measure has it: sines of obtuse angles count three quarters.
       cap = (phi > 0.5 * pi ? 0.75 : 1.0) * std::sin(phi);
       break;
     case Measure::MinimumDihedralAngle:

@@ -31,6 +31,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
     // A cap above the limit holds nothing back, and would only make the table larger.
     if (surface.sideCaps[k] < limit)
     {
+      // From either side of a facet the same: the cap depends on its shape only.
       this->facets_[sortedIds(surface.sides[k].nodes)] = surface.sideCaps[k];
       if (surface.sideCaps[k] < Tiny)
       {
@@ -45,6 +46,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
   }
   for (const EdgeBound& e : surface.edges)
   {
+    // In 2D what has a cap is a node, without a second end: see isCappedByEdge().
     if (e.cap < limit && e.b != None)
     {
       // An edge may have several wedges: the lowest of their caps counts.

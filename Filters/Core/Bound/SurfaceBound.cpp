@@ -82,6 +82,7 @@ struct Angle
     : value(std::atan2(y, x))
     , error(16.0 * std::numeric_limits<double>::epsilon() * blur)
   {
+    // 0 becomes a full turn. Both are as uncertain: see known().
     this->value += this->value > 0.0 ? 0.0 : 2.0 * pi;
   }
   /// False if it may be 0 as well as 2 pi, or if nothing is known.
@@ -318,6 +319,7 @@ void BoundBuilder<D>::capWedge(const Rim& from, const Rim& to, const Angle& thet
   const double facets = std::min(
     this->result_.sideCaps[from.side], this->result_.sideCaps[to.side]);
   const double below = std::min(facets, std::max(this->result_.bound, list));
+  // Strictly lower, beyond rounding.
   const double cap = this->wedgeCap(from, to, theta, below * (1.0 - 1e-9));
   if (cap < below * (1.0 - 1e-9))
   {
@@ -394,6 +396,7 @@ double BoundBuilder<3>::wedgeCap(
     return 1.0;
   }
   const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 1e-3, slack, width);
+  // A coarse cap near the bound could hide that this edge sets it.
   if (!exact && 0.9 * cap < this->result_.bound &&
     edgeForbids(this->result_.bound, theta, first, last, spanned, slack))
   {

@@ -38,6 +38,7 @@ public:
         }
       }
     }
+    // A facet that goes and comes again is on both lists.
     this->seen_.clear();
     for (std::size_t n = 0; n < p.cells.size(); ++n)
     {
@@ -51,6 +52,7 @@ public:
         }
       }
     }
+    // An edge on no known curve ends it before distances are computed, which cost more.
     return std::all_of(p.kept.comeEdges.begin(), p.kept.comeEdges.end(),
              [&](const std::array<Index, 2>& e)
              { return this->addSpan(surface.span(mesh, e[0], e[1])); }) &&
@@ -123,6 +125,7 @@ private:
         isKept = mesh.isEdgeKept(c, e);
       }
     }
+    // It ends: around an edge of the surface there is another facet of it.
     while (!mesh.isKept(current, exit))
     {
       const Index h = mesh.adjacent(current, exit);
@@ -148,6 +151,8 @@ private:
       const Vec<3>& a = mesh.point(f[0]);
       return (mesh.point(f[1]) - a).cross(mesh.point(f[2]) - a);
     }
+    // Of lines in the plane the angle is that of their directions, and the same reflection of both
+    // leaves it as it is.
     const Vec<D> d = mesh.point(f[1]) - mesh.point(f[0]);
     return Vec<D>(d.reverse());
   }
@@ -186,6 +191,7 @@ private:
       std::transform(f.begin(), f.end(), piece.x.begin(), [&](Index q) { return mesh.point(q); });
       piece.patch = patch;
       piece.region = region;
+      // In a set as a whole, if all its nodes are.
       piece.sets = surface.sets(mesh, f[0]);
       for (int k = 1; k < D && piece.sets != 0; ++k)
       {

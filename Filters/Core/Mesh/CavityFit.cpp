@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks that need no geometry, for meshes whose cells overlap: by brute force over the few cells
+// of a cavity.
 #include "Mesh/CavityFit.h"
 #include "Mesh/EulerCharacteristic.h"
 
@@ -44,6 +46,8 @@ template <int D>
 std::vector<std::size_t> parts(
   const Facets<D>& facets, std::size_t numberOfCells, const std::vector<Index>& face)
 {
+  // Every cell is a part of its own at first. O(n) for each join: n is the number of cells of a
+  // cavity.
   std::vector<std::size_t> part(numberOfCells);
   std::iota(part.begin(), part.end(), std::size_t(0));
   for (std::size_t k = 1; k < facets.size(); ++k)
@@ -116,6 +120,7 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     return std::any_of(facets.begin(), facets.end(),
       [&](const Facet<D>& g) { return std::is_permutation(g.begin(), g.end(), f.begin()); });
   };
+  // What the cavity has in common with the rest of the mesh, and what must not change.
   Facets<D> outer;
   std::vector<Simplex<D>> old;
   for (Index c : cavity)
@@ -136,6 +141,7 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
   for (std::size_t k = 0; k < facets.size();)
   {
+    // Equal facets are treated as one, with the number of cells that have them.
     const auto [first, last] = std::equal_range(facets.begin(), facets.end(), facets[k], less);
     const auto [a, b] = std::equal_range(outer.begin(), outer.end(), facets[k], less);
     const auto n = last - first;
@@ -152,6 +158,7 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     }
     k += static_cast<std::size_t>(n);
   }
+  // The empty face is in all facets: cells connected in any way.
   const std::vector<std::size_t> whole = parts<D>(facets, cells.size(), {});
   return within.size() == outer.size() &&
     std::adjacent_find(whole.begin(), whole.end(), std::not_equal_to<>()) == whole.end() &&
@@ -170,6 +177,7 @@ bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   // `face`: the first n ids are a face of a new cell
   const auto isNewAndTaken = [&](const Index* face, int n)
   {
+    // An old face of the cavity may come back. A face with a new point cannot have been there.
     const auto has = [&](Index c)
     { return std::all_of(face, face + n, [&](Index p) { return mesh.localIndex(c, p) >= 0; }); };
     if (std::any_of(cavity.begin(), cavity.end(), has) ||
@@ -180,6 +188,7 @@ bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     // Use the present star if it will do; otherwise that of the last point, the apex that many new
     // cells share. The star of a pinched point is incomplete, so it will not do.
     const Index* whole = std::find(face, face + n, centre);
+    // From the last point to the first, until one has a star to be trusted.
     for (int k = n; whole == face + n && k-- > 0;)
     {
       whole = isPinched(face[k]) ? whole : face + k;

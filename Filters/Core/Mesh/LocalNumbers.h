@@ -56,6 +56,8 @@ private:
   Slot& find(Index p)
   {
     const std::size_t mask = this->slots_.size() - 1;
+    // Fibonacci hashing: ids of neighbours are near each other, and the upper bits of the product
+    // spread them.
     std::size_t k = (std::uint32_t(p) * 2654435761u >> 9) & mask;
     while (this->slots_[k].time == this->time_ && this->slots_[k].point != p)
     {
@@ -66,6 +68,7 @@ private:
 
   void grow()
   {
+    // Entries of an earlier time are not taken over.
     std::vector<Slot> old(2 * this->slots_.size());
     old.swap(this->slots_);
     for (const Slot& s : old)

@@ -38,6 +38,7 @@ struct Audit
       if (p < 0 || p >= this->mesh.numberOfPointSlots() || !this->mesh.isPointAlive(p))
       {
         this->fault(name + " uses the dead point " + std::to_string(p));
+        // What follows would read the point.
         return;
       }
     }
@@ -58,6 +59,7 @@ struct Audit
     Facet<D> f = this->mesh.facet(c, i);
     if (this->mesh.isKept(c, i))
     {
+      // A kept facet holds its points: a free one could move it.
       for (Index p : f)
       {
         if (this->mesh.isFree(p) || !this->mesh.isBoundary(p))
@@ -77,6 +79,7 @@ struct Audit
     // Nothing is trusted here, not even that the handle leads to a slot.
     const Index o = Mesh::cellOf(h);
     const int j = Mesh::facetOf(h);
+    // A triangle has facets 0 to 2, but handles have room for 0 to 3.
     if (o < 0 || o >= this->mesh.numberOfCellSlots() || !this->mesh.isAlive(o) || j > D)
     {
       this->fault(name + " leads to a dead cell");

@@ -9,6 +9,7 @@ namespace meshopt
 template <int D>
 void MeshEditor<D>::makeRoomForPlaces()
 {
+  // Most meshes slide nowhere: no memory for them.
   if (this->mesh_->places_.empty())
   {
     assert(this->owner_ == None); // others would read while this one grows
@@ -50,6 +51,7 @@ void MeshEditor<D>::keepEdge(Index c, Index a, Index b)
 {
   assert(D == 3 && this->depth_ == 0);
   std::vector<Index> cells;
+  // A plane has no edges besides facets.
   if constexpr (D == 3)
   {
     this->mesh_->ring(c, a, b, true, cells);

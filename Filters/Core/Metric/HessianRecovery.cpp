@@ -170,6 +170,7 @@ void LumpedMassRecovery<D>::addCell(Index c, std::vector<double>& mass)
 template <int D>
 void LumpedMassRecovery<D>::integrate()
 {
+  // Of the lumped matrix: its diagonal is the mass of each node.
   std::vector<double> mass(this->unknown_.size(), 0.0);
   for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
   {
@@ -198,6 +199,7 @@ void LumpedMassRecovery<D>::integrate()
 template <int D>
 std::string LumpedMassRecovery<D>::findUnreached() const
 {
+  // From all interior points at once, over edges of the mesh.
   const PointGraph graph = PointGraph::of(this->mesh_);
   std::vector<std::uint8_t> reached(this->unknown_.size(), 0);
   std::vector<Index> front;
@@ -240,6 +242,7 @@ std::string LumpedMassRecovery<D>::findUnreached() const
 template <int D>
 void LumpedMassRecovery<D>::extrapolate()
 {
+  // Values at interior points are known, those at the boundary are not.
   const Index n = this->numberOfUnknowns_;
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, this->rows_.cols());

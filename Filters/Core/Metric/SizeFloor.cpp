@@ -36,6 +36,7 @@ SizeFloor<D>::SizeFloor(std::vector<Edge> edges, double least)
   }
   const double n = static_cast<double>(this->edges_.size());
   this->width_ = sum > 0.0 ? 0.5 * sum / n : 1.0;
+  // So memory stays proportional to the number of edges.
   while (this->countBins(low, high) > MostBins * (n + 1.0)) // if edges differ much in length
   {
     this->width_ *= 2.0;
@@ -90,6 +91,7 @@ double SizeFloor<D>::at(const Vec<D>& x) const
   for (std::size_t k = 0; found != this->bins_.end() && k < found->second.size(); ++k)
   {
     const Edge& e = this->edges_[found->second[k]];
+    // The metric is that of the edge itself, the same all around it: the floor is a cone along it.
     // The nearest point of the edge, in the metric of the edge.
     const Vec<D> along = e.b - e.a, mapped = e.metric * along;
     const double part = std::clamp(mapped.dot(x - e.a) / (e.size * e.size), 0.0, 1.0);

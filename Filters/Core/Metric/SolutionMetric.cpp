@@ -55,6 +55,7 @@ void scaleForNorm(const SimplexMesh<D>& mesh, const SolutionMetricOptions& optio
   for (SymmetricEigen<D>& e : metric)
   {
     e.values = e.values.cwiseMax(least);
+    // By logarithms: a determinant of three numbers near the limits would over- or underflow.
     e.values *= std::exp(-e.values.array().log().sum() / (2.0 * options.normOrder + D));
   }
 }

@@ -169,6 +169,7 @@ private:
     bool done = p != None;
     if (done)
     {
+      // To where it is: the attached metric takes its values there, beginning its search at a.
       judge.editor().movePoint(p, x, a);
       judge.editor().setPlace(p, { Freedom::Curve, span->part, s });
       done = proposeSplit(judge.editor(), judge.surface(), t, a, b, p, this->proposal_) &&

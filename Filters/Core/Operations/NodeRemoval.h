@@ -48,6 +48,7 @@ private:
     }
     const bool found = !this->best_.cells.empty();
     judge.count(Operation::EdgeContraction, found);
+    // Within a look-ahead the mesh is another one: what fails there may succeed outside.
     if (!found && !judge.editor().inTransaction())
     {
       judge.editor().setRemoveFailed(v, judge.editor().clock());

@@ -127,6 +127,7 @@ void PolyhedronSearch::findCandidates()
   const State& s = this->states_[0];
   for (int k = 2; k < this->signs_.size(); ++k)
   {
+    // Only greater numbers: each set of four points is met once.
     const Mask later = ~(bit(k) | (bit(k) - 1));
     for (int j = 1; j < k; ++j)
     {
@@ -192,6 +193,7 @@ bool PolyhedronSearch::offer(double bound)
       this->quality_[quadrupleOf(i, j, t.nodes[2], t.nodes[3])] = t.quality;
       for (int m = 0; m < 4; ++m)
       {
+        // At each of its sides a candidate is known by the point opposite to it.
         this->apex_[t.sides[m]] |= bit(t.nodes[m]);
       }
     }
@@ -224,6 +226,7 @@ bool PolyhedronSearch::strike()
       bool good = t.quality > this->bound_;
       for (int m = 0; m < 4 && good; ++m)
       {
+        // Behind a side there must be another candidate, or the boundary.
         good = this->apex_[t.sides[m] ^ 1] != 0 || this->facetOfSide_[t.sides[m]] != 0;
       }
       if (good)

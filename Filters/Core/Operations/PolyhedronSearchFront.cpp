@@ -135,6 +135,7 @@ void PolyhedronSearch::place(const Front& f, int p, const State& s, State& next)
 {
   this->copy(s, next);
   next.used |= bit(p);
+  // A point inside can belong to no cell any more.
   next.dropped |= this->signs_.inside(f.a, f.b, f.c, p);
   this->close(next, f.a, f.b, f.c);
   this->addEdge(next, f.a, p);

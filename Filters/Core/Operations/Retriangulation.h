@@ -82,6 +82,7 @@ private:
       {
         return false;
       }
+      // To where it is: the attached metric takes its values there.
       judge.editor().movePoint(ids.back(), x, near);
     }
     this->polyhedron_.nameNewPoints(ids);

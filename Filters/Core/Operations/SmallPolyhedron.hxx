@@ -150,6 +150,7 @@ template <class Enough>
 bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
 {
   const SimplexMesh<3>& mesh = this->editor_->mesh();
+  // Before anything changes: a refusal leaves nothing to undo.
   const int nodes = static_cast<int>(this->numberOf_.size()) + this->newcomers(c);
   if (nodes > this->limits_.points ||
     nodes + static_cast<int>(this->offers_.size()) > MaximumPoints ||
@@ -160,6 +161,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
   this->cavity_.push_back(c);
   this->taken_.add(c);
   std::uint8_t local[4];
+  // Points first: with them all facets that are there get their best apexes.
   for (int i = 0; i < 4; ++i)
   {
     local[i] = static_cast<std::uint8_t>(this->numberOf(mesh.nodes(c)[i]));
@@ -184,6 +186,7 @@ bool SmallPolyhedron<Shape>::take(Index c, Enough& enough)
     {
       f.nodes[k] = local[Local<3>::facets[i][k]];
     }
+    // The points that are there are offered to the new facet.
     for (int p = 0; p < static_cast<int>(this->x_.size()); ++p)
     {
       if (std::find(f.nodes.begin(), f.nodes.end(), p) == f.nodes.end())
@@ -270,6 +273,7 @@ bool SmallPolyhedron<Shape>::offerPoints(int bare)
   const PolyhedronSearch::Triangle f = this->faces_[bare].nodes;
   const Vec<3> middle = (this->x_[f[0]] + this->x_[f[1]] + this->x_[f[2]]) / 3.0;
   Vec<3> apex = middle;
+  // Where a cell on this facet would be best; no quality is enough, so that the place is exact.
   facetCap(
     this->x_[f[0]], this->x_[f[1]], this->x_[f[2]], std::numeric_limits<double>::infinity(), &apex);
   for (double height : heights)

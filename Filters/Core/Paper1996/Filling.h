@@ -67,6 +67,7 @@ class ElementClusters
 public:
   /// Gathers the clusters whose worst cell is c, if they have changed since `when`. A change in the
   /// cells around a node is noted at the node; a change around an edge is noted at both its nodes.
+  /// Precondition: memory.resize() has been called since points were added.
   void gather(
     MeshEditor<D>& editor, Index c, const ReconnectionMemory<D>& memory, std::uint32_t when);
 

@@ -88,6 +88,7 @@ RepositionResult GlobalAlgorithm<D, Shape>::run(
   RepositionResult result;
   const SimplexMesh<D>& mesh = this->editor_.mesh();
   this->initialize();
+  // Elements whose nodes are all set aside are out of the search for good.
   const auto hasMovableNode = [&](Index c)
   {
     bool any = false;
@@ -140,6 +141,7 @@ RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measu
   double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,
   std::vector<Index>* sequence)
 {
+  // While it lives, the editor tells the metric where nodes go.
   const FollowedMetric<D> follows(editor, metric);
   return dispatchOptimizable<D>(measure,
     [&](auto shape)

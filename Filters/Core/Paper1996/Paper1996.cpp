@@ -213,6 +213,7 @@ bool Paper1996<D>::alternate(int lookAhead)
   {
     this->reconnectAll(lookAhead);
   }
+  // Reconnection alone may have reached the target.
   if (o.moveNodes && !this->run_.clock.hasStopped() && this->worst() < this->target_)
   {
     this->repositionAll();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What is asked of a measure by its number, at run time; all else goes by its type.
 #include "Quality/Measures.h"
 
 #include <array>

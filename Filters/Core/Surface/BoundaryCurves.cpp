@@ -34,6 +34,7 @@ double diagonal(const SimplexMesh<2>& mesh)
 double greatestShare(double angle)
 {
   constexpr double margin = 1.2;
+  // Of an arc whose chord belongs to an angle a, the height is tan(a / 4) / 2 of the chord.
   return margin * 0.5 * std::tan(angle / 4.0 * std::acos(-1.0) / 180.0);
 }
 
@@ -62,6 +63,7 @@ PlaneCurve BoundaryCurves::curve(
 void BoundaryCurves::markWhereSplinesOvershoot(
   LineNetwork& network, const CurveOptions& options) const
 {
+  // It ends: each round makes points corners, and a chain of one segment is no spline.
   for (bool again = true; again;)
   {
     again = false;
@@ -93,6 +95,7 @@ void BoundaryCurves::build(
   LineNetwork boundary = keptLines(editor.mesh());
   for (std::size_t p = 0; p < corners.size(); ++p)
   {
+    // The caller's corners first: they divide chains before any angle is measured.
     boundary.corners[p] |= corners[p];
   }
   markCorners(boundary, options.cornerAngle);
@@ -272,6 +275,7 @@ std::string BoundaryCurves::place(MeshEditor<2>& editor, const LineChain& chain,
   {
     tellEndsApart(mesh, chain.points, curve, tolerance, s);
   }
+  // A chain may run along the curve in either direction.
   const double direction = s.back() > s.front() ? 1.0 : -1.0;
   // Parameters must rise or fall all along the chain. (Of a closed chain with three points nothing
   // can be told.)
@@ -366,6 +370,7 @@ std::optional<SlidingRange> BoundaryCurves::range(
       }
     }
   }
+  // As in space: exactly two neighbours, or the point is an end.
   std::sort(ends.begin(), ends.end()); // the order of the star must not matter
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   if (mesh.freedom(v) != Freedom::Curve || ends.size() != 2)

@@ -76,6 +76,7 @@ void PlaneCurve::fit()
   const int n = static_cast<int>(this->points_.size()) - (this->isClosed_ ? 1 : 0);
   const int wrap = this->isClosed_ ? Wrap : 0;
   const int total = this->isClosed_ ? n + 1 + 2 * wrap : n;
+  // With fewer than four points no cubic is determined.
   const int degree = std::min(3, total - 1);
   Spline::ParameterVectorType u(total);
   Eigen::MatrixXd values(total, 2);
@@ -91,8 +92,10 @@ void PlaneCurve::fit()
   }
   this->splineBegin_ = u[0];
   this->splineLength_ = u[total - 1] - u[0];
+  // Eigen's splines run from 0 to 1.
   u = (u - this->splineBegin_) / this->splineLength_;
   Spline::KnotVectorType knots;
+  // De Boor's averages: with them the interpolation matrix is regular.
   Eigen::KnotAveraging(u, degree, knots);
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < total; ++i)
@@ -118,6 +121,7 @@ double PlaneCurve::inRange(double s) const
   {
     s -= std::floor(s / this->length()) * this->length();
   }
+  // An open curve ends here. Of a closed one, rounding can leave s a little outside.
   return std::clamp(s, 0.0, this->length());
 }
 
@@ -192,6 +196,7 @@ double PlaneCurve::closest(const Vec<2>& x, double& distance) const
     near.emplace_back(
       (this->points_[k] + t * (this->points_[k + 1] - this->points_[k]) - x).squaredNorm(), k);
   }
+  // A polyline is its polygon: there the nearest segment has the nearest point.
   const std::size_t few = std::min<std::size_t>(this->isSpline_ ? 4 : 1, near.size());
   std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(few), near.end());
   double best = 0.0;

@@ -38,6 +38,8 @@ void ReferenceSurface::add(
   const Vec<3>&a = x[first], &b = x[(first + 1) % 3], &c = x[(first + 2) % 3];
   f.origin = a;
   f.l = (b - a).norm();
+  // Zero vectors where there is no direction. A facet without area has the height q = 0: a needle,
+  // which proves nothing and is asked nothing.
   f.along = f.l > 0.0 ? Vec<3>((b - a) / f.l) : Vec<3>::Zero();
   const Vec<3> n = (b - a).cross(c - a);
   f.normal = n.norm() > 0.0 ? Vec<3>(n.normalized()) : Vec<3>::Zero();
@@ -67,6 +69,7 @@ void ReferenceSurface::finish(double tolerance, double least)
     ids.push_back(static_cast<int>(ids.size()));
     boxes.push_back(box);
   }
+  // Facets are known by their numbers: the tree holds these, in an order of its own.
   this->tree_.init(ids.begin(), ids.end(), boxes.begin(), boxes.end());
   // The tree comes first: room() searches it.
   std::vector<int> near;
@@ -94,12 +97,14 @@ double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
     const Facet& o = this->facets_[k];
     const auto isShared = [&](const Vec<3>& x)
     { return std::find(f.x.begin(), f.x.end(), x) != f.x.end(); };
+    // A sheet that looks the same way is another part of this side, not the far side of a wall.
     const bool looksAway = o.normal.dot(f.normal) < 0.0 || !o.isSigned || !f.isSigned;
     // At a sharp edge there is no room at all, and none is needed.
     if (looksAway && std::none_of(o.x.begin(), o.x.end(), isShared))
     {
       const Heights h = this->heights(f, { o.x, o.patch, None });
       const bool isGap = f.isOuter && f.normal.dot(o.x[0] + o.x[1] + o.x[2] - 3.0 * f.origin) > 0.0;
+      // Of the whole sheet only what lies over this facet counts, at its least height.
       room = h.most >= 0.0 ? std::min(room, (isGap ? RoomOfGaps : RoomOfWalls) * h.least) : room;
     }
   }
@@ -125,6 +130,7 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
       const Facet& f = this->surface.facets_[k];
       if (f.patch != this->patch)
       {
+        // Facets of other patches are in the same tree: they never are the nearest.
         return std::numeric_limits<double>::infinity();
       }
       const Vec<3> y = nearestInTriangle(f.x, Vec<3>(this->x));
@@ -177,6 +183,7 @@ Vec<3> ReferenceSurface::withinRoom(const Vec<3>& x, const Vec<3>& to, double mo
 {
   const Vec<3> move = to - x;
   const double off = move.norm();
+  // One factor for the whole way: the point stays on the straight line.
   double part = off > most ? most / off : 1.0;
   for (const RoomLimit& limit : this->limits(x))
   {

@@ -45,6 +45,8 @@ struct Polygon
     Polygon kept;
     for (int k = 0; k < this->size; ++k)
     {
+      // Sutherland and Hodgman: corners inside stay, and a new one comes where an edge crosses.
+      // Points on the line itself count as inside, and bring no second corner.
       const Vec<3>&p = this->x[k], &q = this->x[(k + 1) % this->size];
       const double sp = side(p), sq = side(q);
       if (sp >= 0.0)
@@ -89,6 +91,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
       return result;
     }
   }
+  // Before it is clipped: the normal of what is left would be less certain.
   const Vec<3> n = (polygon.x[1] - polygon.x[0]).cross(polygon.x[2] - polygon.x[0]);
   const double size = n.norm();
   result.cosine = size > 0.0 ? n[2] / size : 1.0;
@@ -98,6 +101,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
     polygon.clip(s[0], s[1], s[2]);
   }
   bool above = false, below = false;
+  // Twice, as everywhere here: the factor cancels in all comparisons.
   double area = 0.0;
   for (int k = 0; k < polygon.size; ++k)
   {
@@ -136,6 +140,7 @@ bool ReferenceSurface::covers(
       }
     }
   }
+  // Facets of the reference that are farther away have no say: see Reach.
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(Reach * this->tolerance_);
   box = Box(box.min() - margin, box.max() + margin);
   // Of each thread: chunks ask at the same time.
@@ -146,6 +151,7 @@ bool ReferenceSurface::covers(
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
+    // Needles are left to the facets beside them: see Needle.
     if (r.patch == gone[0].patch && !this->isNeedle(r) &&
       !this->covers(r, gone, come, sideways, unclear))
     {
@@ -196,6 +202,8 @@ bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
       unclear[k] |= h.least <= Reach * r.tolerance && h.cosine > 0.0;
     }
   }
+  // Facets that were turned away covered R twice: then the same border does not mean the same
+  // points.
   for (std::size_t k = 0; k < gone.size() && isClear; ++k)
   {
     isClear = !r.isSigned || r.normal.dot(normalOf(gone[k])) > 0.0 ||
@@ -237,6 +245,8 @@ bool ReferenceSurface::isFlatOn(const Facet& r, const Piece& piece, double allow
 /// kept between them. What has no such facet is halved.
 bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near, double part) const
 {
+  // Parts to look at in all. Many halvings mean a facet that is near to no single facet of the
+  // reference; to refuse it is safe.
   constexpr int most = 64;
   const Vec<3> normal = normalOf(piece);
   std::vector<std::array<Vec<3>, 3>> open{ piece.x };
@@ -261,6 +271,7 @@ bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near, 
     {
       return false;
     }
+    // The longest side is halved, so that parts stay well shaped and shrink in all directions.
     int longest = 0;
     const auto length = [&](int i) { return (t[(i + 1) % 3] - t[i]).squaredNorm(); };
     longest = length(1) > length(longest) ? 1 : longest;
@@ -293,6 +304,7 @@ bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& n
   };
   constexpr double same = 1.0 - 1e-9; // at a sharp edge, both sides are as near
   const double away = distance(true);
+  // Farther away than the tolerance there is nothing to be mistaken for.
   return away < this->tolerance_ * this->tolerance_ && same * away <= distance(false);
 }
 
@@ -321,8 +333,10 @@ ReferenceSurface::Offset ReferenceSurface::offset(const Piece& piece) const
   for (int k : near)
   {
     const Facet& r = this->facets_[k];
+    // For needles as if they were not met: least > most.
     const Heights h = this->isNeedle(r) ? Heights{ 0.0, -1.0, 1.0, 0.0 } : this->heights(r, piece);
     const bool stands = h.most <= ShareBesideCurves * r.tolerance && h.cosine >= LeastCosine;
+    // What is beyond the share for patches is a matter of distance, not of height: see Offset.
     double& most = h.most <= Share * r.tolerance ? offset.height : offset.distance;
     most = stands ? std::max(most, h.most) : most;
     isClear = isClear &&
@@ -335,6 +349,7 @@ ReferenceSurface::Offset ReferenceSurface::offset(const Piece& piece) const
   {
     part *= 2.0;
   }
+  // In units of the greatest tolerance: facets with less room have even less.
   offset.distance = std::max(offset.distance, part * ShareBesideCurves * this->tolerance_);
   return offset;
 }

@@ -50,6 +50,7 @@ bool SharpEdges::isNear(const Vec<3>& a, const Vec<3>& b, double distance) const
   };
   if (this->edges_.empty())
   {
+    // Then no edge was sharp, and none may become so.
     return false;
   }
   // An edge that is near to some part of the line has a box that meets this one.
@@ -78,6 +79,7 @@ bool SharpEdges::isNear(const Vec<3>& a, const Vec<3>& b, double distance) const
     {
       continue;
     }
+    // False is the safe answer: the change is refused.
     if (n >= most)
     {
       return false;

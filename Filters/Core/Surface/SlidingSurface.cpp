@@ -79,12 +79,14 @@ Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there
 /// On the straight way from the surface to x, as far as there is room.
 Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& there) const
 {
+  // No distance is allowed off the surface: its planes and lines are all there is.
   if (this->isExact_)
   {
     return this->project(place, x, there);
   }
   Place result = place;
   Vec<3> foot;
+  // On curves and corners: only what curves may use. On a patch the nearest facet says how much.
   double room = CurveShare * this->tolerance_;
   if (place.freedom == Freedom::Patch)
   {
@@ -98,6 +100,7 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   {
     foot = this->corners_[place.part];
   }
+  // Towards other sheets there may be less room than the tolerance.
   there = this->reference_.withinRoom(foot, x, room);
   if (place.freedom == Freedom::Patch)
   {
@@ -250,6 +253,7 @@ bool SlidingSurface::mayDivide(
   // A facet between two regions comes from both sides, and from each cell that has it.
   std::sort(patches.begin(), patches.end());
   patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  // What the caller locked belongs to no patch.
   const bool isLocked = std::any_of(
     patches.begin(), patches.end(), [](const auto& p) { return p[3] == None; });
   if (isLocked || patches.empty())
@@ -292,6 +296,7 @@ bool SlidingSurface::mayJoin(
   {
     return false;
   }
+  // When v vanishes, the edge from its other neighbour to u takes the place of two.
   const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
   const Span joined{ place.part, range->low, range->high };
   if (u == w ||
@@ -323,6 +328,7 @@ bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
 {
   const Patch& patch = this->patches_[piece.patch];
   const Vec<3> n = (piece.x[1] - piece.x[0]).cross(piece.x[2] - piece.x[0]);
+  // Inside of a region a facet may be seen from either side: its sign says nothing.
   return (n.dot(patch.plane.normal) > 0.0 || !patch.isSigned) &&
     std::all_of(piece.x.begin(), piece.x.end(),
       [&](const Vec<3>& x)
@@ -349,6 +355,7 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
     return std::all_of(change.come.begin(), change.come.end(),
       [&](const SurfacePiece<3>& piece) { return this->isFlat(this->oriented(piece)); });
   }
+  // A change of a curve moves the border of the patches beside it by this much at most.
   const double sideways = change.spans.empty() ? 0.0 : CurveShare * this->tolerance_;
   std::vector<SurfacePiece<3>> gone, come;
   std::set<Index> patches;
@@ -374,6 +381,7 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
         come.push_back(this->oriented(piece));
       }
     }
+    // A patch must lose facets where it gets some: otherwise it would spread over another patch.
     if (gone.empty() || !this->reference_.covers(gone, come, sideways))
     {
       return false;
@@ -395,6 +403,8 @@ bool SlidingSurface::allowsAngle(
       this->bent_.isNear(mesh.point(a), mesh.point(b), CurveShare * this->tolerance_);
   }
   const std::optional<Span> span = this->span(mesh, a, b);
+  // A curve that was not sharp all along, such as the border between two regions on a plane, need
+  // not turn.
   return !span || !this->isSharp_[span->part] || cosine <= this->halfCosine_;
 }
 
@@ -427,6 +437,8 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
         const ReferenceSurface::Offset offset = this->reference_.offset(piece);
         most = std::max(most, offset.height);
         mostOfAll = std::max(mostOfAll, offset.distance);
+        // A node off its patch says how far it is (placeNear()): in the wedges between prisms no
+        // height does.
         for (Index p : f)
         {
           const Place& place = mesh.place(p);

@@ -20,6 +20,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   this->freedom_ = division.freedom;
   this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
   this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
+  // Angles exist only where the surface stays the same set of points: see surfaceAngles().
   this->angles_ = surfaceAngles(editor.mesh(), division);
   // First the patches: curves ask the reference how much room they have.
   this->addPatches(editor, division);
@@ -33,6 +34,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   for (std::size_t p = 0; p < division.freedom.size(); ++p)
   {
     const auto id = static_cast<Index>(p);
+    // A point of a curve gets its place with its curve, in addCurves().
     if (division.freedom[p] == Freedom::Patch)
     {
       editor.setPlace(id, { Freedom::Patch, division.patchOfPoint[p], 0.0 });
@@ -62,6 +64,7 @@ std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& d
   {
     if (mesh.isAlive(c))
     {
+      // What is left of the share of the volume when all of its surface has moved. Below 0: thin.
       left[mesh.region(c)] += most * std::fabs(signedVolume(mesh.corners(c)));
     }
   }
@@ -70,6 +73,7 @@ std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& d
     const Vec<3>& a = mesh.point(part.nodes[0]);
     const double area = 0.5 *
       (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
+    // A facet between two regions takes from one and gives to the other: it counts for both.
     for (Index region : { part.region, part.other })
     {
       if (region != None)
@@ -123,6 +127,7 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
       { mesh.point(part.nodes[0]), mesh.point(part.nodes[1]), mesh.point(part.nodes[2]) },
       part.patch, patch.isSigned, part.other == None,
       thin.count(part.region) + thin.count(part.other) > 0);
+    // For inputFacet(): the reference knows facets by the order in which they were added.
     this->inputFacets_.push_back(sortedIds(part.nodes));
   }
   this->reference_.finish(this->tolerance_, division.rounding);
@@ -145,6 +150,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
       points.push_back(mesh.point(p));
     }
     std::vector<std::vector<RoomLimit>> limits;
+    // An exact surface moves within itself: there is no room to measure.
     for (std::size_t k = 0; k < points.size() && !this->isExact_; ++k)
     {
       limits.push_back(this->reference_.limits(points[k]));
@@ -158,6 +164,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     {
       piece.period = curve.length();
     }
+    // A closed curve without corners has no ends: only the period relates its parameters.
     else
     {
       piece.ends = { chain.points.front(), chain.points.back() };
@@ -166,6 +173,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     }
     for (std::size_t k = 0; k < chain.points.size(); ++k)
     {
+      // Corners belong to several curves, and have their parameter from the piece's ends.
       if (division.freedom[chain.points[k]] == Freedom::Curve)
       {
         editor.setPlace(chain.points[k], { Freedom::Curve, number, curve.parameter(k) });
@@ -208,6 +216,7 @@ void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision&
   constexpr std::uint32_t all = ~std::uint32_t(0);
   for (Patch& patch : this->patches_)
   {
+    // Intersected below, facet by facet, starting with all.
     patch.sets = all;
   }
   for (const SurfaceDivision::Part& part : division.parts)

@@ -81,6 +81,7 @@ double SpaceCurve::closest(const Vec<3>& x, double s) const
   const std::size_t start = this->segmentAt(r);
   double best = 0.0;
   double nearest = along(start, best) - r;
+  // A step past the end of a closed curve goes on at its other end, a turn later.
   for (int step : { 1, -1 }) // from segment to segment, forwards, then backwards
   {
     double turns = 0.0, least = best;
@@ -95,6 +96,7 @@ double SpaceCurve::closest(const Vec<3>& x, double s) const
       k = wraps ? (step > 0 ? 0 : n - 1) : k + step;
       double distance = 0.0;
       const double there = along(k, distance) + turns - r;
+      // Farther away again: the valley that begins at s ends here.
       if (!(distance < least))
       {
         break;
@@ -122,6 +124,7 @@ bool SpaceCurve::leavesRoom(double from, double to, const Vec<3>& a, const Vec<3
   bool good = true;
   const auto check = [&](std::size_t k, const Vec<3>& away)
   {
+    // Each limit says which part of the way from the reference to the line may be used.
     for (const RoomLimit& limit : this->limits_[k])
     {
       good = good && !(limit.part(-away) < 1.0);
@@ -155,10 +158,12 @@ bool SpaceCurve::forBetween(double from, double to, Vec<3> a, Vec<3> b, F&& f) c
   }
   const Vec<3> line = b - a;
   const double l = line.norm();
+  // A chord without length spans no part of the curve, or all of it.
   if (!(l > 0.0))
   {
     return !(high > low);
   }
+  // Rounding, at points that lie at an end of the chord.
   const double slack = Rounding * l;
   // Knots are within the first turn: they are shifted to that of the span.
   double last = (this->at(low) - a).dot(line) / l;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Angles between planes and straight lines, with walks over cells and facets that tell how much of
+// a turn is meant.
 #include "Surface/SurfaceAngles.h"
 
 #include "Mesh/Ids.h"
@@ -26,6 +28,9 @@ struct Hash
   std::size_t operator()(const std::array<Index, N>& ids) const { return hashIds(ids); }
 };
 
+// Angles come from planes of whole patches and from whole straight chains: single facets may be
+// needles, whose planes are uncertain. The walk over cells or facets only tells which of the angle
+// and the rest of a full turn is meant, and that nothing overlaps there.
 class Finder
 {
 public:
@@ -42,6 +47,7 @@ public:
     this->collectParts();
     for (const SurfaceDivision::Part& part : this->division_.parts)
     {
+      // A facet between regions has an angle on either side: both bodies have to fill theirs.
       for (Index h :
         { part.handle, this->mesh_.adjacent(cellOf(part.handle), facetOf(part.handle)) })
       {
@@ -52,12 +58,14 @@ public:
       }
       for (int k = 0; k < 3 && part.patch != None; ++k)
       {
+        // Either edge at the node may be the one on a curve, where the angle begins.
         this->addFacial(part, k, (k + 1) % 3);
         this->addFacial(part, k, (k + 2) % 3);
       }
     }
     for (std::vector<double>* list : { &this->found_.dihedral, &this->found_.facial })
     {
+      // Each value once: the bound is worked out for each, and a box has the same angle many times.
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());
     }
@@ -69,6 +77,8 @@ private:
   const Vec<3>& point(Index p) const { return this->mesh_.point(p); }
   bool isLongEnough(double length) const
   {
+    // Two directions with two ends each, all of which may be off by the tolerance: together their
+    // angle is then off by less than the slack.
     return SurfaceAngles::slack * length > 4.0 * this->division_.tolerance;
   }
 
@@ -101,6 +111,8 @@ private:
       }
       for (int i = 0; i < 3; ++i)
       {
+        // Edges on curves are where a walk within a patch ends. The others have two parts: with
+        // more or fewer an edge is a curve.
         const Edge key = sortedIds(f[i], f[(i + 1) % 3]);
         if (!this->along_.count(key))
         {
@@ -135,6 +147,7 @@ private:
     const Vec<3> normal = patch == None
       ? Vec<3>((this->point(f[1]) - this->point(f[0])).cross(this->point(f[2]) - this->point(f[0])))
       : this->division_.planes[patch].normal;
+    // The node opposite to the edge tells on which side of it the facet lies.
     const auto tip = std::find_if(
       f.begin(), f.end(), [&](Index p) { return p != edge[0] && p != edge[1]; });
     const Vec<3> w = this->point(*tip) - this->point(edge[0]);
@@ -184,10 +197,12 @@ private:
       {
         ++j;
       }
+      // By sine and cosine: an arc cosine would lose half of the digits near 0 and 180 degrees.
       const Vec<3> x = this->point(edge[1]) - this->point(edge[0]);
       const Vec<3> m = x.cross(this->point(t[j]) - this->point(edge[0]));
       const Vec<3> n = x.cross(this->point(t[i]) - this->point(edge[0]));
       const double angle = std::atan2(m.cross(n).norm(), m.dot(n));
+      // An inverted cell turns back. So the sum is the angle between both facets in that case, too.
       sum += signedVolume(this->mesh_.corners(c)) < 0.0 ? -angle : angle;
       if (this->mesh_.isKept(c, j))
       {
@@ -211,6 +226,7 @@ private:
   {
     const Index p = part.nodes[k], first = part.nodes[l];
     Vec<3> u, v;
+    // Inside of a straight curve the angle is 180 degrees, which asks nothing of a mesh.
     if (this->division_.freedom[p] == Freedom::Curve || !this->alongFrom(p, first, u) ||
       !this->isLongEnough(this->widths_[part.patch]))
     {
@@ -229,6 +245,7 @@ private:
       const Edge key = sortedIds(p, to);
       if (this->along_.count(key))
       {
+        // The same angle is found from its other end. The lower id reports it.
         if (first < to && this->alongFrom(p, to, v))
         {
           this->add(std::atan2(u.cross(v).norm(), u.dot(v)), sum, this->found_.facial);
@@ -261,6 +278,7 @@ private:
   static void add(double angle, double sum, std::vector<double>& list)
   {
     const double meant = sum > pi ? 2.0 * pi - angle : angle;
+    // An angle that rounding could make 0, or a full turn, has no certain bound.
     if (std::fabs(meant - sum) < Agreement && meant > 2.0 * SurfaceAngles::slack &&
       meant < 2.0 * (pi - SurfaceAngles::slack))
     {

@@ -115,9 +115,11 @@ void SurfaceDivision::collectParts(const SurfaceOptions& options)
       part.nodes = this->mesh_.facet(c, i);
       std::swap(part.nodes[1], part.nodes[2]); // now as seen from outside
       const Facet<3> key = sortedIds(part.nodes);
+      // The list is sorted by the caller: see SurfaceOptions::labels.
       const auto label = std::lower_bound(options.labels.begin(), options.labels.end(), key,
         [](const auto& entry, const Facet<3>& f) { return entry.first < f; });
       part.label = label != options.labels.end() && label->first == key ? label->second : None;
+      // A facet whose nodes may not move cannot move either.
       const bool isFixed = std::all_of(key.begin(), key.end(),
         [&](Index p)
         { return (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) != 0; });
@@ -131,6 +133,7 @@ void SurfaceDivision::collectParts(const SurfaceOptions& options)
 /// crack. They stay, so that their nodes stay in pairs.
 void SurfaceDivision::lockTwins()
 {
+  // By coordinates, bit for bit: the lips of a crack have different points.
   std::vector<std::pair<std::array<double, 9>, Index>> places;
   for (std::size_t k = 0; k < this->parts.size(); ++k)
   {
@@ -173,6 +176,7 @@ void SurfaceDivision::collectEdges()
   for (std::size_t k = 0; k < this->parts.size(); ++k)
   {
     const Facet<3>& f = this->parts[k].nodes;
+    // Edge i is opposite to node i, as facets are in a cell.
     for (int i = 0; i < 3; ++i)
     {
       all.push_back({ sortedIds(f[(i + 1) % 3], f[(i + 2) % 3]), static_cast<Index>(k), i });
@@ -215,6 +219,7 @@ bool SurfaceDivision::isFlat(const Edge& edge) const
   const int greater = n[1].squaredNorm() > n[0].squaredNorm() ? 1 : 0;
   const double area = n[greater].norm();
   const double length = (this->mesh_.point(b) - this->mesh_.point(a)).norm();
+  // The altitude of the greater part over the edge.
   const double width = area / length;
   const Vec<3> other = this->mesh_.point(thirdNode(parts[1 - greater]->nodes, edge.nodes)) -
     this->mesh_.point(a);
@@ -232,6 +237,8 @@ bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) c
   }
   const Part &f = this->parts[this->incidences_[edge.first]],
              &g = this->parts[this->incidences_[edge.first + 1]];
+  // What differs across the edge belongs to different things: region, the caller's label, or a
+  // lock.
   if (f.region != g.region || f.other != g.other || f.label != g.label || f.isLocked != g.isLocked)
   {
     return true;
@@ -250,6 +257,7 @@ bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
              &g = this->parts[this->incidences_[edge.first + 1]];
   const Vec<3> n = this->normal(f), m = this->normal(g);
   const auto [a, b] = edge.nodes;
+  // Facets that are seen from the same side run through their edge in opposite directions.
   const bool alike = runsForwards(f.nodes, a, b) != runsForwards(g.nodes, a, b);
   return (alike ? 1.0 : -1.0) * n.dot(m) < cosine(featureAngle) * n.norm() * m.norm();
 }
@@ -304,6 +312,7 @@ void SurfaceDivision::fill(Index seed, const Plane* plane)
           return std::fabs(plane->normal.dot(this->mesh_.point(p) - plane->origin)) <= this->slab();
         });
   };
+  // As a queue that is never emptied: afterwards it is the list of all parts.
   this->filled_.assign(1, seed);
   this->parts[seed].patch = this->numberOfPatches;
   for (std::size_t k = 0; k < this->filled_.size(); ++k)
@@ -320,6 +329,7 @@ void SurfaceDivision::fill(Index seed, const Plane* plane)
           continue;
         }
         const auto [a, b] = edge.nodes;
+        // Inside of a region a facet has no outer side: it takes that of its neighbour.
         if (g.region == g.other && runsForwards(f.nodes, a, b) == runsForwards(g.nodes, a, b))
         {
           std::swap(g.nodes[1], g.nodes[2]);
@@ -337,6 +347,8 @@ void SurfaceDivision::fill(Index seed, const Plane* plane)
 bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) const
 {
   Vec<3> normal = Vec<3>::Zero();
+  // Relative to a point of the patch: far from the origin, products with coordinates would lose
+  // digits.
   const Vec<3> base = this->mesh_.point(this->parts[numbers[0]].nodes[0]);
   double sum = 0.0, count = 0.0;
   for (Index k : numbers)
@@ -371,6 +383,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
 void SurfaceDivision::findPatches()
 {
   // The largest parts first: their planes are the most reliable.
+  // A stable sort: of equal areas, the first in the order of handles.
   std::vector<Index> order(this->parts.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<double> areas;

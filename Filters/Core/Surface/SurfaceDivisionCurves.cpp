@@ -18,6 +18,7 @@ std::vector<Index> SurfaceDivision::signature(Index edge) const
   {
     patches.push_back(this->parts[this->incidences_[i]].patch);
   }
+  // Sorted, so that two edges of one curve compare equal.
   std::sort(patches.begin(), patches.end());
   return patches;
 }
@@ -40,6 +41,7 @@ bool SurfaceDivision::isTouching(const Edge& edge) const
 bool SurfaceDivision::isPinched(
   Index p, const std::vector<Index>& around, const std::vector<Index>& curves) const
 {
+  // Parts are joined to fans over edges that are no curves, as in a flood.
   std::vector<char> seen(around.size(), 0);
   std::size_t fans = 0;
   for (std::size_t first = 0; first < around.size(); ++first)
@@ -96,6 +98,7 @@ bool SurfaceDivision::isPinched(
 void SurfaceDivision::findCorners(const SurfaceOptions& options)
 {
   const Index n = this->mesh_.numberOfPointSlots();
+  // Free: not on the surface. All others get their freedom below.
   this->freedom.assign(n, Freedom::Free);
   this->patchOfPoint.assign(n, None);
   std::vector<std::uint8_t> touching = pinchedPoints<3>(this->mesh_);
@@ -123,6 +126,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
   }
   std::sort(partsAt.begin(), partsAt.end());
   std::sort(curvesAt.begin(), curvesAt.end());
+  // Both lists are sorted by point: one walk through them meets each point once.
   std::size_t i = 0, j = 0;
   std::vector<Index> around, curves;
   while (i < partsAt.size())
@@ -190,6 +194,7 @@ void SurfaceDivision::findChains()
     }
   }
   std::sort(ends.begin(), ends.end());
+  // An edge belongs to one chain only.
   std::vector<char> used(this->edges_.size(), 0);
   // Walks from edge to edge up to a corner, or back to the start.
   const auto follow = [&](Index p, Index e)
@@ -215,11 +220,13 @@ void SurfaceDivision::findChains()
       }
       // A point inside of a curve stands twice in the list, with the edge before it and the one
       // after.
+      // The first entry of p: edges have numbers from 0 on.
       auto next = std::lower_bound(ends.begin(), ends.end(), std::array<Index, 2>{ p, 0 });
       e = (*next)[1] == e ? (*(next + 1))[1] : (*next)[1];
     }
     this->chains.push_back(chain);
   };
+  // Open chains first: a walk that began inside of one would find only a part of it.
   for (const bool fromCorners : { true, false })
   {
     for (const auto& [p, e] : ends)
@@ -291,6 +298,7 @@ void SurfaceDivision::straighten()
       piece.isSharp = chain.isSharp;
       piece.isFixed = chain.isFixed;
       piece.points.assign(chain.points.begin() + from, chain.points.begin() + to + 1);
+      // Both ends of a straight piece stay: the line that the others slide on ends there.
       this->freedom[piece.points.front()] = this->freedom[piece.points.back()] = Freedom::Fixed;
       straight.push_back(piece);
       from = to;

@@ -21,6 +21,8 @@ namespace
 template <int D>
 std::vector<char> neighbourhood(const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
 {
+  // Faults come from cells that are bad: far from them the surface is taken for good, which saves
+  // the sweep over all of it.
   std::vector<char> isNear(mesh.numberOfCellSlots(), 0);
   for (Index c : cells)
   {
@@ -85,6 +87,7 @@ bool hasNoArea(const SimplexMesh<2>& mesh, const Facet<2>& f)
 /// Relative to the longest edge: the test does not depend on units.
 bool hasNoArea(const SimplexMesh<3>& mesh, const Facet<3>& f)
 {
+  // By the longest edge, not by that of any fixed corner: numbering must not matter.
   const Vec<3> a = mesh.point(f[1]) - mesh.point(f[0]), b = mesh.point(f[2]) - mesh.point(f[0]);
   const double longest = std::max({ a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm() });
   return a.cross(b).norm() <= 1e-14 * longest;
@@ -107,6 +110,7 @@ bool lieOnEachOther(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec
 /// cell is inverted.
 double angle(const SimplexMesh<2>& mesh, Index c, Index a, Index w)
 {
+  // Of three ids two are known: the rest of the sum is the third.
   const Corners<2> x = mesh.corners(c);
   const Index p = mesh.nodes(c)[0] + mesh.nodes(c)[1] + mesh.nodes(c)[2] - a - w;
   const Vec<2> u = mesh.point(a) - mesh.point(p), v = mesh.point(w) - mesh.point(p);
@@ -124,6 +128,7 @@ double angle(const SimplexMesh<3>& mesh, Index c, Index a, Index w)
     }
   }
   const Vec<3>& o = mesh.point(ends[0]);
+  // Seen along the edge, the facets are lines: their angle is that of the two normals of the edge.
   const Vec<3> e = (mesh.point(ends[1]) - o).normalized();
   const Vec<3> u = e.cross(Vec<3>(mesh.point(a) - o)), v = e.cross(Vec<3>(mesh.point(w) - o));
   return orientation(mesh.corners(c)) * std::atan2(u.cross(v).norm(), u.dot(v));
@@ -227,6 +232,8 @@ bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
 {
   std::vector<Index> shared, onlyF, onlyG;
   const Facet<D>&m = f.nodes, &n = g.nodes;
+  // Neighbours over an edge (D = 2: at a node) can only fold; the others are asked whether they
+  // cross.
   std::set_intersection(m.begin(), m.end(), n.begin(), n.end(), std::back_inserter(shared));
   if (shared.size() != D - 1)
   {
@@ -271,6 +278,7 @@ std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>
     }
     result.push_back(box);
   }
+  // Ties by number, so that the order of equal boxes does not depend on the library.
   std::sort(result.begin(), result.end(),
     [](const Box<D>& a, const Box<D>& b)
     { return std::tie(a.low[0], a.facet) < std::tie(b.low[0], b.facet); });
@@ -308,6 +316,7 @@ std::vector<SurfaceFault<D>> findSurfaceFaults(
       }
     }
   }
+  // By kind and ids: the order of the sweep would change if the body were turned.
   std::sort(faults.begin(), faults.end(),
     [](const Fault& a, const Fault& b)
     { return std::tie(a.kind, a.facets) < std::tie(b.kind, b.facets); });
@@ -353,6 +362,7 @@ bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
       share[p] += shareOfDirections(edges);
     }
   }
+  // Written so that a share that is not a number counts as too much.
   return std::any_of(share.begin(), share.end(), [](double s) { return !(s <= most); });
 }
 }

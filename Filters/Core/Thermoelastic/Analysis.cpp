@@ -45,6 +45,7 @@ public:
     , options_(options)
     , control_(control)
     , solution_(solution)
+    // A copy: pins are added to it.
     , constraints_(problem.constraints)
   {
   }
@@ -53,6 +54,7 @@ public:
   {
     Stopwatch watch;
     std::optional<Error> error = this->checkAll();
+    // Before any matrix is made: a body that can move freely has a singular one.
     if (!error)
     {
       error = this->handleRigidMotions();
@@ -83,6 +85,7 @@ private:
   /// Free rigid motions are an error unless the problem says how to handle them.
   std::optional<Error> handleRigidMotions()
   {
+    // With the constraints that are really there; pins come later.
     this->modes_ = findRigidModes(this->mesh_, this->constraints_);
     if (this->modes_.count() == 0)
     {
@@ -130,6 +133,7 @@ private:
       system, this->options_.solver, this->control_, AfterAssembly, AfterSolve, x);
     this->solution_.solveSeconds = watch.lap();
     std::vector<Vec<D>>& u = this->solution_.displacement;
+    // Slots that no cell uses stay at rest.
     u.assign(this->mesh_.numberOfPointSlots(), Vec<D>::Zero());
     // Component i of point p is number D p + i.
     for (std::size_t dof = 0; dof < unknowns.numbers.size(); ++dof)
@@ -148,6 +152,7 @@ private:
   std::vector<double> pointVolumes() const
   {
     std::vector<double> volumes(this->mesh_.numberOfPointSlots(), 0.0);
+    // Each node gets the whole volume of its cells: the same factor for all cancels.
     for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
     {
       for (Index p : this->mesh_.nodes(c))
@@ -167,6 +172,7 @@ private:
     for (std::size_t c = 0; c < s.elementStress.size(); ++c)
     {
       const Index cell = static_cast<Index>(c);
+      // For constant stress in a cell the energy density is the same everywhere in it.
       s.strainEnergyDensity[c] = 0.5 * this->d_.elasticity(cell).energyProduct(s.elementStress[c]);
       s.strainEnergy += this->d_.elements[c].volume * s.strainEnergyDensity[c];
     }
@@ -203,6 +209,7 @@ private:
     double squares = 0.0;
     for (double e : s.errorEstimate)
     {
+      // Energies of cells add up, and norms are their roots.
       squares += e * e;
     }
     s.totalErrorEstimate = std::sqrt(squares);

@@ -87,6 +87,7 @@ void findNeighbours(
 template <int D>
 Tensor<D> stiffnessBlock(const ElementGeometry<D>& g, const Elasticity<D>& e, int i, int j)
 {
+  // Hooke's law for an isotropic material, by Lame's constants.
   const Vec<D>&gi = g.gradients[i], &gj = g.gradients[j];
   const double diagonal = e.mu * gi.dot(gj);
   Tensor<D> block;
@@ -107,6 +108,7 @@ template <int D>
 Vec<D> initialForce(const Discretization<D>& d, Index cell, int i)
 {
   const Elasticity<D>& e = d.elasticity(cell);
+  // In plane stress the strain out of the plane follows from the stress, and is not given.
   const double normal = D == 2 && !e.planeStress ? d.outOfPlaneStrain : 0.0;
   const ElementGeometry<D>& g = d.elements[cell];
   return g.volume * (e.beta * d.rise(cell) - e.lambda * normal) * g.gradients[i];
@@ -129,6 +131,7 @@ public:
 
   void run(Index p)
   {
+    // The buffers stay from point to point: no allocation in the loop.
     findNeighbours(this->mesh_, this->d_.cellsOfPoint, p, this->neighbours_);
     this->gather(p);
     for (int a = 0; a < D; ++a)
@@ -146,6 +149,7 @@ private:
     const Rows& cells = this->d_.cellsOfPoint;
     for (const Index* c = cells.begin(p); c != cells.end(p); ++c)
     {
+      // The cell is seen from p: p is its node i, its neighbours are its nodes j.
       const int i = this->mesh_.localIndex(*c, p);
       // neighbours_ is sorted: each block goes to the place of its column.
       for (int j = 0; j <= D; ++j)
@@ -209,6 +213,7 @@ std::vector<int> countEntries(const SimplexMesh<D>& mesh, const Discretization<D
   parallelRanges(control, mesh.numberOfPointSlots(),
     [&](Index begin, Index end)
     {
+      // Of each range, hence of each thread.
       std::vector<Index> neighbours;
       for (Index p = begin; p < end; ++p)
       {
@@ -367,6 +372,8 @@ std::vector<Vec<D>> internalForces(const SimplexMesh<D>& mesh, const Discretizat
       {
         for (const Index* c = d.cellsOfPoint.begin(p); c != d.cellsOfPoint.end(p); ++c)
         {
+          // The transpose of the assembly: internal forces balance the loads where nothing is
+          // prescribed.
           const Tensor<3> s = toTensor<D>(stress[*c]);
           const ElementGeometry<D>& g = d.elements[*c];
           forces[p] += g.volume *
@@ -386,6 +393,7 @@ void multiply(
   const double* values = a.valuePtr();
   const double* from = x.data();
   double* to = y.data();
+  // Rows are summed in order, whoever does it: any number of threads gives the same bits.
   parallelRanges(control, static_cast<Index>(a.rows()),
     [=](Index begin, Index end)
     {

@@ -37,6 +37,7 @@ class CholeskyPreconditioner
 public:
   explicit CholeskyPreconditioner(const SparseMatrix& a)
   {
+    // Eigen's factorization reads one triangle only.
     const Eigen::SparseMatrix<double> lower = a.triangularView<Eigen::Lower>();
     this->factor_.compute(lower);
   }
@@ -49,6 +50,8 @@ private:
 /// Progress, from the logarithm of the residual.
 double fractionDone(double residual, double tolerance)
 {
+  // The residual falls by about the same factor in each step, so that its logarithm is a fair
+  // clock. One that rises above the first counts as no progress.
   const double f = std::log(residual) / std::log(tolerance);
   return std::isfinite(f) ? std::min(1.0, std::max(0.0, f)) : 0.0;
 }
@@ -77,6 +80,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
       report.status = SolverStatus::IterationLimit;
       break;
     }
+    // By the caller's threads, row by row: the same bits for any number of them.
     multiply(system.matrix, p, control, product);
     const double curvature = p.dot(product);
     const double step = rz / curvature;
@@ -101,6 +105,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
     rz = r.dot(z);
     p = z + rz / before * p;
     const double done = fractionDone(report.history.back(), options.tolerance);
+    // Between assembly and recovery, whose shares of the bar are fixed.
     const bool goOn = progress.report(first + (last - first) * done,
       [&] { return "Solving, step " + std::to_string(report.iterations); });
     report.status = goOn ? report.status : SolverStatus::Cancelled;
@@ -120,6 +125,7 @@ SolverReport factorize(const LinearSystem& system, const SolverOptions& options,
   if (factor.info() == Eigen::Success)
   {
     x = factor.solve(system.right);
+    // Computed anew: a factorization has no recurrence, and its rounding is what one wants to see.
     report.relativeResidual = (system.right - system.matrix * x).norm() / system.right.norm();
     report.history.push_back(1.0);
     report.history.push_back(report.relativeResidual);

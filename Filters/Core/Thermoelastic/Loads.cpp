@@ -9,6 +9,7 @@ namespace meshopt::fem
 template <int D>
 std::vector<Facet<D>> surfaceFacets(const SimplexMesh<D>& mesh)
 {
+  // Facets of the outside only: a kept facet between regions carries no load of its own.
   std::vector<Facet<D>> facets;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
@@ -43,6 +44,7 @@ void addTraction(const SimplexMesh<D>& mesh, const Facet<D>& facet,
   const std::array<Vec<D>, D>& traction, std::vector<Vec<D>>& forces)
 {
   const double measure = areaVector<D>(facetCorners<D>(mesh, facet)).norm();
+  // Consistent loads: their work in any linear displacement is that of the traction.
   // The integral of phi_i phi_j over a facet is its measure / (D (D + 1)), and twice that for i =
   // j.
   Vec<D> sum = Vec<D>::Zero();
@@ -60,6 +62,7 @@ template <int D>
 void addPressure(const SimplexMesh<D>& mesh, const Facet<D>& facet,
   const std::array<double, D>& pressure, std::vector<Vec<D>>& forces)
 {
+  // Area and normal in one vector: nothing is divided by, and a facet without area adds nothing.
   const Vec<D> inward = areaVector<D>(facetCorners<D>(mesh, facet));
   // Weights as in addTraction().
   double sum = 0.0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The limits of the constants: within them the elasticity tensor is positive definite.
 #include "Thermoelastic/Material.h"
 
 #include <cmath>

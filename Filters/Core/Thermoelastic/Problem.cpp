@@ -128,6 +128,7 @@ template <int D>
 double shape(const Corners<D>& x)
 {
   double perimeter = 0.0;
+  // Each edge once; the paper's P is the sum of all edges.
   for (const auto& e : Local<D>::edges)
   {
     perimeter += (x[e[1]] - x[e[0]]).norm();
@@ -209,6 +210,8 @@ std::optional<Error> check(const SimplexMesh<D>& mesh, const Problem<D>& problem
 template <int D>
 double freeAxialStrain(const SimplexMesh<D>& mesh, const Problem<D>& problem)
 {
+  // Generalised plane strain: the strain along the axis is one number for the body, and free ends
+  // carry no resulting force.
   double strain = 0.0, weight = 0.0;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {

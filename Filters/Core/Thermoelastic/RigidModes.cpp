@@ -20,6 +20,7 @@ using MotionMatrix = Eigen::Matrix<double, D, MotionSize<D>>;
 
 MotionMatrix<2> motionMatrix(const Vec<2>& r)
 {
+  // u = t + w (-y, x)
   MotionMatrix<2> m;
   m << 1, 0, -r[1], 0, 1, r[0];
   return m;
@@ -75,10 +76,13 @@ struct Groups
 template <int D>
 Eigen::MatrixXd nameMotions(Eigen::MatrixXd m)
 {
+  // The columns span the free motions, but an eigensolver mixes them at will. A person reads
+  // "translates along x" and "rotates about an axis": elimination brings that back.
   const auto isRotation = [](Index row) { return row % MotionSize<D> >= D; };
   std::vector<std::uint8_t> used(m.rows(), 0);
   std::vector<std::pair<Index, Index>> order; // row and column of the pivots
   Index done = 0;
+  // Rotations first: what is left without any rotation can only be translations.
   for (const bool rotations : { true, false })
   {
     while (done < m.cols())
@@ -252,6 +256,7 @@ private:
     std::vector<Group>& groups = this->modes_.groups;
     std::vector<Vec<D>> low(
       groups.size(), Vec<D>::Constant(std::numeric_limits<double>::infinity()));
+    // There is at least one group: check() refuses a mesh without cells.
     std::vector<Vec<D>> high(groups.size(), -low.front());
     for (Index p = 0; p < this->mesh_.numberOfPointSlots(); ++p)
     {
@@ -296,6 +301,7 @@ private:
     {
       const Body& a = this->modes_.bodies[h.bodyA];
       const Index i = M * a.place, j = M * this->modes_.bodies[h.bodyB].place;
+      // Both bodies are in one group, with one origin and unit.
       const MotionMatrix<D> m = motionMatrix(
         this->modes_.groups[a.group], this->mesh_.point(h.point));
       // At a hinge both bodies must move alike: the square of the difference of their motions.
@@ -314,8 +320,10 @@ private:
     for (std::size_t g = 0; g < this->normals_.size(); ++g)
     {
       const Eigen::MatrixXd& normal = this->normals_[g];
+      // Eigenvalues ascend: the null space comes first.
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
       // The null space: the motions that violate nothing, up to rounding.
+      // Relative to the trace: with more constraints rounding is greater, too.
       const double tiny = 1e-13 * std::max(1.0, normal.trace());
       Index count = 0;
       while (count < normal.rows() && eigen.eigenvalues()[count] < tiny)
@@ -416,6 +424,7 @@ std::string RigidModes<D>::describe(Index group, Index mode) const
   const Body* most = nullptr; // of the group, the body that moves most
   for (const Body& body : this->bodies)
   {
+    // With a margin, as where pins are chosen: of equals the first body.
     if (body.group == group &&
       (!most || motion(body).squaredNorm() > motion(*most).squaredNorm() * (1.0 + 1e-9)))
     {

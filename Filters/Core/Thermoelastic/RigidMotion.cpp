@@ -57,6 +57,7 @@ std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidM
   const std::vector<std::vector<Index>> points = pointsOfGroups(modes);
   for (std::size_t g = 0; g < points.size(); ++g)
   {
+    // All free motions at first. Each pin takes one away, so that this ends.
     Eigen::MatrixXd left = modes.groups[g].free;
     while (left.cols() > 0)
     {
@@ -64,6 +65,8 @@ std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidM
       pins.push_back(findPin(mesh, modes, points[g], left, row));
       // The motions left are the combinations that do not displace the pinned component.
       const Eigen::MatrixXd column = row.transpose();
+      // The first column of Q is along the row, the others are orthogonal to it: in them the pinned
+      // component is at rest.
       const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(column).householderQ();
       left = (left * q.rightCols(left.cols() - 1)).eval();
     }

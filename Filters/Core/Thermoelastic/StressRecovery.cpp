@@ -78,6 +78,7 @@ Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D
   fit.isValid = extent[0] > ThinnestPatch * extent[D - 1];
   if (fit.isValid)
   {
+    // Evaluated before it is assigned: the product reads what it writes.
     fit.slope = (fit.slope * aligned.inverse()).eval();
   }
   return fit;
@@ -228,6 +229,7 @@ struct Corner
   int local;
   bool operator<(const Corner& o) const
   {
+    // The cell last: sums over the cells of a node then have one order.
     return this->point != o.point ? this->point < o.point
       : this->region != o.region  ? this->region < o.region
                                   : this->cell < o.cell;
@@ -326,6 +328,7 @@ std::vector<Stress<D>> stressAtPoints(const SimplexMesh<D>& mesh, const Recovery
     const Index point = nodes.pointOfNode[first];
     Index last = first;
     double volume = 0.0;
+    // Cells of several regions meet here: by volume, as if the regions were one.
     Stress<D> sum = Stress<D>::Zero();
     for (; last < nodes.count() && nodes.pointOfNode[last] == point; ++last)
     {
@@ -366,6 +369,7 @@ std::vector<double> estimateErrors(const SimplexMesh<D>& mesh, const Problem<D>&
           const double here = problem.temperature.empty()
             ? 0.0
             : problem.temperature[mesh.nodes(c)[i]] - problem.referenceTemperature - d.rise(c);
+          // The recovered stress minus that of the solution, at the corner.
           const Stress<D> e = nodalStress[nodes.cells[c][i]] -
             (elementStress[c] + law.thermalStress(here));
           sum += e;

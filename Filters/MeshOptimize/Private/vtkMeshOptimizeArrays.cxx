@@ -17,6 +17,7 @@ namespace vtkMeshOptimizeBridge
 namespace
 {
 
+// Name, wanted by default, on cells, whole numbers, number of components.
 constexpr vtkMeshBridge::ArrayRole Roles[NumberOfInputArrays] = {
   { "region array", nullptr, true, true, { { 1, 0 } } },
   { "fixed point array", nullptr, false, false, { { 1, 0 } } },
@@ -36,6 +37,7 @@ constexpr vtkMeshBridge::ArrayRole PatchesAtPoints = { "patch array", nullptr, f
 vtkAbstractArray* FindInRole(
   vtkAlgorithm* filter, vtkUnstructuredGrid* grid, int index, vtkMeshBridge::ArrayRole& role)
 {
+  // A copy: for patches the role depends on where the array was found.
   role = Roles[index];
   vtkAbstractArray* found = vtkMeshBridge::FindArray(filter, grid, index, role);
   vtkInformation* wanted = filter->GetInputArrayInformation(index);
@@ -64,6 +66,7 @@ void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name)
 
 std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, InputArrays& arrays)
 {
+  // Once for each grid: blocks have arrays of their own.
   // In the order of ArrayIndex.
   vtkDataArray** targets[NumberOfInputArrays] = { &arrays.Region, &arrays.FixedPoints, &arrays.Size,
     &arrays.Metric, &arrays.Corners, &arrays.Patch };
@@ -86,6 +89,7 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
 std::string CheckArraysAreThere(
   vtkAlgorithm* filter, const std::vector<vtkUnstructuredGrid*>& grids, int elsewhere)
 {
+  // Without cells there is nothing that an array could be missing for.
   const bool hasCells = std::any_of(grids.begin(), grids.end(),
     [](vtkUnstructuredGrid* grid) { return grid->GetNumberOfCells() > 0; });
   for (int i = 0; i < NumberOfInputArrays && hasCells; ++i)
@@ -96,6 +100,7 @@ std::string CheckArraysAreThere(
       vtkMeshBridge::ArrayRole role;
       return FindInRole(filter, grid, i, role) != nullptr;
     };
+    // The array of index `elsewhere` comes from another input.
     if (vtkMeshBridge::IsWanted(filter, i) && i != elsewhere &&
       std::none_of(grids.begin(), grids.end(), hasArray))
     {

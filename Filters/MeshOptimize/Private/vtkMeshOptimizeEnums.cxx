@@ -9,6 +9,7 @@
 #include "Run/Options.h"
 #include "Run/Report.h"
 
+// At compile time, so that a number that is changed on one side cannot go unseen.
 namespace
 {
 

@@ -45,6 +45,7 @@ void MapPoints(const Model<D>& model, OutputMap& map)
   map.PointToSlot.reserve(mesh.numberOfPointSlots());
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
+    // Slots from here on came with the run.
     const bool isOld = p < mesh.numberOfInputPoints();
     // A point that no simplex used, or that another cell still uses, is not the optimizer's to
     // remove.
@@ -98,6 +99,7 @@ void MapCells(const Model<D>& model, OutputMap& map)
     map.CellToSource.push_back(source);
     map.CellToSlot.push_back(slot);
   };
+  // Simplices are in the order of the grid, so that one walk meets them all.
   std::size_t next = 0; // of cells.Simplices
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
@@ -118,6 +120,7 @@ void MapCells(const Model<D>& model, OutputMap& map)
   {
     if (mesh.isAlive(k) && !isOld[k])
     {
+      // All cells of the run stem from some cell of the input, whose data they get.
       add(cells.Simplices[mesh.parent(k)], k);
     }
   }
@@ -132,6 +135,7 @@ void ExportPoints(const Model<D>& model, const OutputMap& map, vtkUnstructuredGr
   // What has been optimized is not rounded to floats; what has not changed keeps its type.
   points->SetDataType(map.SampledPoints.empty() ? grid->GetPoints()->GetDataType() : VTK_DOUBLE);
   points->SetNumberOfPoints(n);
+  // First all old ones, then those that have moved are overwritten.
   for (vtkIdType id = 0; id < map.NumberOfOldPoints; ++id)
   {
     // From the grid, bit for bit: the way through a tilted plane and back would round.
@@ -200,6 +204,7 @@ void InsertPolyhedron(
 {
   vtkNew<vtkIdList> stream;
   grid->GetFaceStream(cell, stream);
+  // The stream begins with the number of faces; each face with the number of its points.
   vtkIdType place = 1;
   while (place < stream->GetNumberOfIds())
   {
@@ -243,6 +248,7 @@ void SetCells(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh
   vtkNew<vtkIdTypeArray> offsets, connectivity;
   types->SetNumberOfValues(n);
   offsets->SetNumberOfValues(n + 1);
+  // As many as there are if all cells are simplices; others let it grow.
   connectivity->Allocate(n * (D + 1));
   std::vector<vtkIdType> nodes;
   for (vtkIdType c = 0; c < n; ++c)
@@ -262,6 +268,7 @@ void SetCells(vtkUnstructuredGrid* grid, const OutputMap& map, const SimplexMesh
   output->SetCells(types, cells);
 }
 
+// Only cells that passed through can be polyhedra.
 bool HasPolyhedra(vtkUnstructuredGrid* grid, const OutputMap& map)
 {
   for (std::size_t c = 0; c < map.CellToSource.size(); ++c)

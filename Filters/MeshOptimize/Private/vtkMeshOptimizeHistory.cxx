@@ -67,6 +67,7 @@ void StartHistory(vtkTable* table, bool isComposite, bool slides)
   }
   AddColumn<vtkIntArray>(table, "Pass");
   AddColumn<vtkStringArray>(table, "Stage");
+  // The engine's list: a new operation gets its columns by itself.
   for (const std::string name : meshopt::OperationNames)
   {
     AddColumn<vtkIdTypeArray>(table, name + "Tried");
@@ -119,6 +120,7 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
 {
   vtkFieldData* fields = output->GetFieldData();
   const meshopt::Report& report = outcome.Report;
+  // Field data have the same figures as the filter, so that they are saved with the mesh.
   AddFigure<vtkDoubleArray>(fields, "WorstQualityBefore", report.worstBefore);
   AddFigure<vtkDoubleArray>(fields, "WorstQualityAfter", report.worstAfter);
   AddFigure<vtkDoubleArray>(fields, "MeanQualityBefore", report.meanBefore);
@@ -130,6 +132,7 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkIdTypeArray>(fields, "NumberOfReorientedCells", outcome.NumberOfReorientedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfOperations", outcome.NumberOfOperations);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfEvaluations", report.evaluations);
+  // Only a surface in space that slides has a distance, and changes volumes.
   if (outcome.HasSurfaceDistance)
   {
     AddFigure<vtkDoubleArray>(fields, "SurfaceDistance", outcome.SurfaceDistance);

@@ -24,6 +24,7 @@ vtkDoubleArray* AddQualityArray(vtkUnstructuredGrid* output)
   vtkNew<vtkDoubleArray> quality;
   quality->SetName("MeshQuality");
   quality->SetNumberOfValues(output->GetNumberOfCells());
+  // NaN: a cell that is not measured must not pass for a bad one.
   quality->FillValue(std::numeric_limits<double>::quiet_NaN());
   output->GetCellData()->AddArray(quality);
   if (!output->GetCellData()->GetScalars()) // what ParaView colours by
@@ -40,6 +41,7 @@ template <int D>
 bool GetSimplex(
   const Model<D>& model, const OutputMap& map, std::size_t cell, meshopt::Simplex<D>& nodes)
 {
+  // Cells that passed through, such as ghosts, are measured by their nodes in the grid.
   if (map.CellToSlot[cell] != meshopt::None)
   {
     nodes = model.Mesh.nodes(map.CellToSlot[cell]);
@@ -51,6 +53,7 @@ bool GetSimplex(
     return false;
   }
   vtkIdType n = 0;
+  // Point ids of the core are those of the grid.
   const vtkIdType* ids = nullptr;
   model.Grid->GetCellPoints(source, n, ids);
   for (int i = 0; i <= D; ++i)

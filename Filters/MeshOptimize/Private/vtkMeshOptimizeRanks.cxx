@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Whether pieces of several ranks can be optimized as one mesh, and the order of the work. Whatever
+// is decided here is decided by all ranks alike: it depends on gathered facts only.
 #include "vtkMeshOptimizeRanks.h"
 
 #include "vtkMeshBridgeArrays.h"
@@ -49,6 +51,7 @@ bool HasOnlyCopies(vtkUnstructuredGrid* input, const vtkMeshBridge::Cells& cells
   {
     return false;
   }
+  // All ghost flags that are skipped, but the one for copies.
   constexpr unsigned char others = vtkMeshBridge::GhostCells::Skipped &
     ~static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL);
   vtkUnsignedCharArray* flags = input->GetCellGhostArray();
@@ -81,6 +84,7 @@ std::string FindObstacle(
   {
     return "there are other cells than tetrahedra, or than triangles in a plane";
   }
+  // Points, then cells.
   for (int kind : { 0, 1 })
   {
     vtkDataSetAttributes* data = input->GetAttributes(kind);
@@ -106,6 +110,7 @@ std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
     for (int kind : { 0, 1 })
     {
       vtkDataSetAttributes* data = input->GetAttributes(kind);
+      // Global ids are no part of a schema, but all ranks must have them, or none.
       Put(arrays, data->GetGlobalIds() != nullptr);
       const Bytes schema = Schema::Of(data, kind == 1 ? "MeshQuality" : "").Describe();
       arrays.insert(arrays.end(), schema.begin(), schema.end());
@@ -118,6 +123,7 @@ std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
     {
       return "ranks have different arrays";
     }
+    // The first rank with cells says what the others must have.
     common = common.empty() ? one : common;
   }
   return {};
@@ -129,16 +135,19 @@ std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstruct
   std::string error, obstacle = FindObstacle(request);
   if (obstacle.empty())
   {
+    // A rank that has found an obstacle goes on until all know of it: the others wait for it.
     obstacle = FindObstacle(input, cells, error);
     ranks.Agree(error);
     const int mine = cells.Dimension;
     const std::vector<int> all = ranks.Gather(mine);
+    // Ranks without cells have dimension 0.
     dimension = *std::max_element(all.begin(), all.end());
     const bool isMixed = mine != 0 && mine != dimension;
     obstacle = isMixed ? "some ranks have triangles only, others tetrahedra" : obstacle;
     const std::string arrays = CompareArrays(ranks, input);
     obstacle = obstacle.empty() ? arrays : obstacle;
   }
+  // The first sentence, on all ranks: each then takes the same way.
   for (const Bytes& bytes : ranks.Gather(Bytes(obstacle.begin(), obstacle.end())))
   {
     if (!bytes.empty())
@@ -168,6 +177,7 @@ bool ListBlocks(vtkMultiProcessController* controller, const std::vector<int>& h
         const std::vector<int> theirs = Reader(bytes).TakeAll<int>();
         all.insert(theirs.begin(), theirs.end());
       }
+      // In the order of the blocks, the same on all ranks, since each block is optimized together.
       blocks.assign(all.begin(), all.end());
       const std::set<int> known(places.begin(), places.end());
       lacksOne = ranks.IsAny(std::any_of(
@@ -187,6 +197,7 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
     [&]()
     {
       ranks.Agree(check());
+      // Each rank for itself would take all cores of the computer.
       if (request.NumberOfThreads <= 0)
       {
         request.NumberOfThreads = GetShareOfCores(ranks);
@@ -199,6 +210,7 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
         return std::string();
       }
       Rounds rounds(ranks, request, outcome);
+      // Without any cells the dimension does not matter.
       rounds.Read(input, cells.Simplices, dimension == 0 ? 3 : dimension);
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();

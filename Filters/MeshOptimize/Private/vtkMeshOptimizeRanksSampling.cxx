@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Data of points that were interpolated in several rounds, taken anew from the input, which only
+// its first owners have. So they have been interpolated once, as on one rank.
 #include "vtkMeshOptimizeRanksSampling.h"
 
 #include "vtkMeshBridgeImport.h"
@@ -69,6 +71,7 @@ public:
       vtkAbstractArray* array = nullptr;
       for (int i = 0; i < data->GetNumberOfArrays() && !array; ++i)
       {
+        // By name, which may be missing on both sides.
         const char* a = like->GetName();
         const char* b = data->GetAbstractArray(i)->GetName();
         array = (a && b ? std::strcmp(a, b) == 0 : a == b) ? data->GetAbstractArray(i) : nullptr;
@@ -129,6 +132,7 @@ public:
         {
           SetSample(numbers, samples[i], vtkDataArray::SafeDownCast(values), id);
         }
+        // What cannot be averaged comes from the nearest corner.
         else
         {
           values->SetTuple(id, samples[i].Nearest, this->Arrays[a]);
@@ -140,6 +144,7 @@ public:
   }
 
 private:
+  // Made when the first question comes: a rank may be asked nothing.
   const meshopt::Background<D>& GetBackground()
   {
     if (!this->Background)
@@ -206,6 +211,7 @@ void Ask(const Ranks& ranks, Source<D>& source, const std::vector<std::vector<st
     for (std::size_t k = 0; k < asked[r].size(); ++k)
     {
       Search& search = searches[asked[r][k]];
+      // Strictly nearer: of equals the first answer stays, the owner's before all others.
       isNearer.push_back(distances[k] < search.Distance);
       search.Distance = std::min(search.Distance, distances[k]);
     }
@@ -217,6 +223,7 @@ void Ask(const Ranks& ranks, Source<D>& source, const std::vector<std::vector<st
       for (std::size_t k = 0; k < asked[r].size(); ++k)
       {
         const Search& search = searches[asked[r][k]];
+        // An identity stays with its point, however far that has moved.
         if (isNearer[k] && (search.IsNew || !isIdentity))
         {
           array->SetTuple(search.Point, static_cast<vtkIdType>(k), values);
@@ -247,10 +254,12 @@ void SampleIn(const Ranks& ranks, Source<D>& source, const std::vector<vtkIdType
     }
   }
   Ask(ranks, source, asked, hints, schema, searches, part);
+  // Those not found inside the hinted piece: whoever may have them, by the box of his input.
   const std::vector<Box> boxes = ranks.Gather(source.GetBox());
   asked.assign(ranks.GetCount(), {});
   for (std::size_t i = 0; i < searches.size(); ++i)
   {
+    // Distance 0: inside. Nobody can be nearer.
     for (int r = 0; r < ranks.GetCount() && searches[i].Distance > 0.0; ++r)
     {
       if (r != owners[i] && boxes[r].Has(part.GetPoint(searches[i].Point)))

@@ -11,7 +11,8 @@ namespace
 {
 
 /**
- * The stop reason that says more about several grids together.
+ * The stop reason that says more about several grids together: what was cut short comes before what
+ * has come to its end.
  */
 int Strength(meshopt::StopReason reason)
 {
@@ -43,6 +44,7 @@ int Strength(meshopt::StopReason reason)
 double Mean(double a, vtkIdType countA, double b, vtkIdType countB)
 {
   return (a * static_cast<double>(countA) + b * static_cast<double>(countB)) /
+    // Without cells the sum is 0, and so is the mean.
     static_cast<double>(std::max<vtkIdType>(countA + countB, 1));
 }
 
@@ -83,6 +85,7 @@ void Outcome::Add(const Outcome& other)
   }
   if (Strength(its.stopReason) > Strength(mine.stopReason))
   {
+    // Nodes of the worst cell belong to the grid whose reason is told.
     mine.stopReason = its.stopReason;
     mine.worstNodes = its.worstNodes;
   }

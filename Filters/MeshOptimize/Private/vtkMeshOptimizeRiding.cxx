@@ -53,6 +53,8 @@ vtkIdType Find(const Riding& riding, const Facet<3>& key)
 }
 
 /**
+ // Two triangles on one face stand for something that one face cannot carry on: they hold their
+ // points.
  * All triangles of the grid whose points are a face's only once.
  */
 Riding ListTriangles(vtkUnstructuredGrid* grid)
@@ -68,6 +70,7 @@ Riding ListTriangles(vtkUnstructuredGrid* grid)
       all.emplace_back(KeyOf(ids), c);
     }
   }
+  // Sorted by points: the same three points stand together.
   std::sort(all.begin(), all.end());
   for (std::size_t k = 0; k < all.size(); ++k)
   {
@@ -109,6 +112,7 @@ Riding FacesAmong(const Riding& triangles, const Model<3>& model)
       }
     }
   }
+  // In the order of the points, for Find().
   Riding faces;
   for (std::size_t k = 0; k < triangles.size(); ++k)
   {
@@ -138,6 +142,7 @@ std::vector<std::pair<Facet<3>, Index>> ListFacets(const SimplexMesh<3>& mesh)
  */
 Facet<3> TurnedLike(const Model<3>& model, vtkIdType source, Facet<3> facet)
 {
+  // Facets of the mesh are seen from their cell; a triangle is seen from where its user meant.
   const auto normal = [](const meshopt::Vec<3>& a, const meshopt::Vec<3>& b,
                         const meshopt::Vec<3>& c) { return meshopt::Vec<3>((b - a).cross(c - a)); };
   vtkIdType n = 0;
@@ -173,6 +178,7 @@ void FindRiding(Model<3>& model)
   {
     rides[entry.second] = 1;
   }
+  // Simplices are no other cells: they count as riding here, so that they hold nothing.
   for (const vtkIdType c : model.Cells.Simplices)
   {
     rides[c] = 1;
@@ -198,6 +204,7 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
 {
   vtkDataSetAttributes* data = model.Grid->GetCellData();
   std::vector<vtkDataArray*> arrays;
+  // Without a patch array all arrays of integers divide: they may mark boundary conditions.
   const bool isChosen = model.Arrays.Patch && !model.Arrays.PatchIsAtPoints;
   for (int i = 0; i < data->GetNumberOfArrays() && !isChosen; ++i)
   {
@@ -218,6 +225,7 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
   // Triangles whose data differ lie in different patches: their border stays.
   std::map<std::vector<double>, Index> numbers;
   std::vector<std::pair<Facet<3>, Index>> labels;
+  // One number for each set of values that occurs.
   for (const auto& [key, cell] : model.Riding)
   {
     std::vector<double> values;
@@ -261,6 +269,7 @@ void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, Ou
   vtkIdType old = 0;
   for (std::size_t c = 0; c < map.CellToSource.size(); ++c)
   {
+    // What is no riding triangle stays, whether it is a simplex or passes through.
     const bool stays = map.CellToSlot[c] != meshopt::None || !isGone[map.CellToSource[c]];
     if (stays)
     {
@@ -283,6 +292,7 @@ void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, Ou
     }
     const meshopt::Vec<3> centre = (mesh.point(key[0]) + mesh.point(key[1]) + mesh.point(key[2])) /
       3.0;
+    // Data of a new triangle are those of the nearest facet of the input in its patch.
     const vtkIdType source = Find(model.Riding, surface.inputFacet(patch, centre));
     if (source < 0)
     {

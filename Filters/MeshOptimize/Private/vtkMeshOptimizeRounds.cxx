@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Pieces first, each on its rank; then rounds in which bands of cells around borders are brought to
+// one rank and optimized there. What moves is checked at each step, and a fault takes back the
+// round, not the run.
 #include "vtkMeshOptimizeRounds.h"
 
 #include "vtkMeshBridgeControl.h"
@@ -40,8 +43,6 @@ constexpr int MostRounds = 4;
 constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
 /// The part of what may still grow that a round uses; the last may use all.
 constexpr double ShareOfRound = 0.75;
-/// A rank with more than this times the mean does not get back its cells.
-constexpr double MostOfMean = 1.2;
 /// The part of the progress that the pieces take.
 constexpr double PiecesDone = 0.7;
 
@@ -64,6 +65,7 @@ std::vector<vtkIdType> ReadIds(vtkDataArray* array, const std::vector<vtkIdType>
   return ids;
 }
 
+// Whether a point is fixed travels as a flag of the part, not as an array.
 vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
@@ -75,6 +77,7 @@ vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part)
   return mask;
 }
 
+// Downwards: the shares of all ranks together must not exceed the whole.
 long Portion(long all, double share)
 {
   return static_cast<long>(std::floor(static_cast<double>(all) * share));
@@ -129,6 +132,7 @@ void Rounds::Read(
       break;
     }
   }
+  // Described and read again they would lose their information keys.
   if (count > 0) // with the arrays' information keys, which are not sent
   {
     this->Points = Schema::Of(input->GetPointData(), "");
@@ -136,6 +140,7 @@ void Rounds::Read(
   }
   this->FirstCell = this->All.Gather(count);
   this->CellsAtFirst = this->All.Sum(static_cast<vtkIdType>(simplices.size()));
+  // Where the origins of each rank begin.
   std::exclusive_scan(
     this->FirstCell.begin(), this->FirstCell.end(), this->FirstCell.begin(), vtkIdType(0));
   std::vector<vtkIdType> points;
@@ -156,9 +161,11 @@ void Rounds::Read(
   const Shared shared = FindShared(this->All, this->Mine);
   for (vtkIdType p = 0; p < this->Mine.GetNumberOfPoints(); ++p)
   {
+    // Points that several ranks have: no run has seen all that is around them.
     this->Mine.Flags[p] |= shared.Has(p) ? Waiting : 0;
   }
   this->PointsAtFirst = Measure(this->All, this->Mine, shared, 0.0).Points;
+  // By the whole mesh: pieces share what it may grow.
   this->Growth = meshopt::growthOf(
     this->Wanted.Options, static_cast<long>(this->CellsAtFirst), dimension);
   this->Shrink = static_cast<long>(
@@ -194,6 +201,7 @@ Signature Rounds::Sign() const { return vtkMeshRanks::Sign(this->All, this->Mine
 void Rounds::Divide()
 {
   const std::vector<vtkIdType> counts = this->All.Gather(this->Mine.GetNumberOfCells());
+  // All cells on one rank, as a reader without pieces leaves them.
   const bool isOnOne = *std::max_element(counts.begin(), counts.end()) == this->CellsAtFirst;
   if (!isOnOne || this->CellsAtFirst == 0)
   {
@@ -215,6 +223,7 @@ void Rounds::NumberNew(Part& part)
   { return static_cast<vtkIdType>(std::count(ids.begin(), ids.end(), -1)); };
   const std::vector<vtkIdType> points = this->All.Gather(count(part.PointIds));
   const std::vector<vtkIdType> cells = this->All.Gather(count(part.CellIds));
+  // Ids of new ones follow in the order of the ranks, so that they depend on no message.
   const auto before = [&](const std::vector<vtkIdType>& counts, vtkIdType next)
   { return std::accumulate(counts.begin(), counts.begin() + this->All.GetRank(), next); };
   vtkMeshRanks::NumberNew(
@@ -229,6 +238,7 @@ void Rounds::NumberNew(Part& part)
  */
 void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
 {
+  // What has grown on all ranks so far, also in rounds before.
   const auto now = this->All.Sum(this->Mine.GetNumberOfCells());
   const long gained = static_cast<long>(now - this->CellsAtFirst);
   Request request = this->Wanted;
@@ -242,15 +252,18 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
     const auto grid = MakeGrid(part, this->Points, this->Cells);
     InputArrays arrays;
     error = FindInputArrays(request.Filter, grid, arrays);
+    // A mask of the part as it is now: at moved points an interpolated array has fractions.
     const auto mask = MaskOf(part); // the array itself is interpolated at moved points
     arrays.FixedPoints = mask;
     vtkNew<vtkUnstructuredGrid> after;
     error = error.empty() ? OptimizeGrid(grid, arrays, request, after, outcome) : error;
     if (error.empty())
     {
+      // After the first run data have been interpolated once already.
       part = ReadGrid(after, part, this->First > 0.0);
     }
   }
+  // Also ranks without cells: they wait for the errors of the others.
   this->All.Agree(error);
   this->NumberNew(part);
   this->IsShort = this->All.IsAny(outcome.Report.stopReason == StopReason::GrowthLimit);
@@ -264,6 +277,7 @@ bool Rounds::MustStop(const Outcome& run)
   const auto has = [&](StopReason reason)
   { return this->All.IsAny(run.Report.stopReason == reason); };
   const double limit = this->Wanted.Options.timeLimit;
+  // OptionsNow() leaves the least positive number when the time is over.
   const bool isLate = limit > 0.0 &&
     this->Wanted.OptionsNow().timeLimit <= std::numeric_limits<double>::min();
   if (has(StopReason::Aborted))
@@ -284,6 +298,8 @@ bool Rounds::MustStop(const Outcome& run)
 void Rounds::UndoConflicts(const Part& before, Outcome& run)
 {
   bool isUndone = false;
+  // A piece that is undone may meet pieces that are not: so this goes on until none has to. It
+  // ends, since each piece is undone at most once.
   for (bool goesOn = true; goesOn;)
   {
     const bool undoes = HasOverusedFacet(this->All, this->Mine) && !isUndone;
@@ -293,6 +309,7 @@ void Rounds::UndoConflicts(const Part& before, Outcome& run)
       Part part = undoes ? before : MakePart(before.Corners, this->Points, this->Cells);
       const Request wanted = this->Wanted;
       meshopt::Options& options = this->Wanted.Options;
+      // A run that may do nothing: it measures the qualities, and takes no growth.
       options.moveNodes = options.reconnect = options.insertNodes = options.removeNodes = false;
       Outcome idle;
       this->Optimize(part, 0.0, 0.0, idle);
@@ -357,6 +374,7 @@ void Rounds::OptimizeBorders()
       this->Stopped = StopReason::Aborted;
       return;
     }
+    // For a round that is given up. Arrays are not copied.
     Part before = this->Mine; // shares the arrays
     const vtkMeshRanks::Numbering ids = this->Ids;
     this->Result.Fault = this->All.Together(
@@ -374,9 +392,11 @@ void Rounds::OptimizeBorders()
   }
 }
 
+// Every step is collective, also for ranks without a band.
 void Rounds::Round(int round)
 {
   const Signature before = this->Sign();
+  // Ids and places tell whether a move has lost anything.
   Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isMoved;
   Move(this->All, FindBands(this->All, this->Mine, shared, Layers[round]), this->Points,
@@ -388,19 +408,23 @@ void Rounds::Round(int round)
   {
     if (!shared.Has(p))
     {
+      // A point that one rank alone has now has all of its surroundings there.
       this->Mine.Flags[p] &= static_cast<std::uint8_t>(~Waiting);
     }
   }
+  // Part 0 stays, part 1 is the band that this rank runs.
   std::vector<Part> parts = Split(
     this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
   Outcome run;
   const Part band = this->IsTangled ? parts[1] : Part(); // shares the arrays
+  // Growth is shared out by cells.
   const double mine = static_cast<double>(parts[1].GetNumberOfCells());
   const double bands = static_cast<double>(this->All.Sum(parts[1].GetNumberOfCells()));
   this->Result.NumberOfCellsInBands += static_cast<vtkIdType>(bands);
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
   this->All.Agree(Join(parts, this->Mine));
+  // As in UndoConflicts(): one rank takes back its band, which may bring up another fault.
   for (bool goesOn = this->IsTangled, isUndone = false; goesOn;)
   {
     const bool undoes = HasOverusedFacet(this->All, this->Mine) && !isUndone;
@@ -420,75 +444,6 @@ void Rounds::Round(int round)
   this->Record("borders", run);
   this->WaitWhereStuck();
   this->MustStop(run);
-}
-
-//------------------------------------------------------------------------------
-namespace
-{
-
-/**
- * The target of each cell that is not at home and may go there; -1: it stays.
- */
-std::vector<int> FindHomes(const Ranks& ranks, const Part& part, vtkIdType cells)
-{
-  std::vector<vtkIdType> counts(ranks.GetCount(), 0);
-  for (const int home : part.Home)
-  {
-    ++counts[home];
-  }
-  std::vector<Bytes> out(ranks.GetCount());
-  for (int r = 0; r < ranks.GetCount(); ++r)
-  {
-    Put(out[r], counts[r]);
-  }
-  vtkIdType here = 0; // if all came home
-  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
-  {
-    here += Reader(bytes).Take<vtkIdType>();
-  }
-  const std::vector<vtkIdType> loads = ranks.Gather(here);
-  const double most = MostOfMean * static_cast<double>(cells) / ranks.GetCount();
-  std::vector<int> target(part.Home.size(), -1);
-  for (std::size_t c = 0; c < target.size(); ++c)
-  {
-    const int home = part.Home[c];
-    const bool isFull = static_cast<double>(loads[home]) > most;
-    target[c] = home == ranks.GetRank() || isFull ? -1 : home;
-  }
-  return target;
-}
-
-} // namespace
-
-void Rounds::SendHome()
-{
-  Part before;
-  bool isSent = false;
-  const std::string fault = this->All.Together(
-    [&]()
-    {
-      const std::vector<int> target = FindHomes(this->All, this->Mine, this->Result.NumberOfCells);
-      const bool goes = std::any_of(target.begin(), target.end(), [](int t) { return t >= 0; });
-      if (this->All.IsAny(goes))
-      {
-        before = this->Mine; // shares the arrays
-        isSent = true;
-        const Signature whole = this->Sign();
-        std::vector<char> isMoved;
-        Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
-        const std::string problem = Compare(whole, this->Sign(), true);
-        this->All.Agree(problem.empty() ? "" : "After cells have gone home " + problem + ".");
-      }
-      return std::string();
-    });
-  if (!fault.empty())
-  {
-    if (isSent)
-    {
-      this->Mine = std::move(before);
-    }
-    this->Result.Fault = this->Result.Fault.empty() ? fault : this->Result.Fault;
-  }
 }
 
 } // namespace vtkMeshOptimizeBridge

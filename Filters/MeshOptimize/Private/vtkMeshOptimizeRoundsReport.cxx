@@ -67,6 +67,7 @@ void AddFlags(const std::vector<unsigned char>& flags, vtkDataSetAttributes* dat
 void Rounds::RecordInput(const Outcome& run)
 {
   meshopt::Report& report = this->Result.Report;
+  // A rank without cells has no rows.
   const bool isEmpty = run.Report.history.empty();
   meshopt::PassRecord row = isEmpty ? meshopt::PassRecord() : run.Report.history.front();
   const std::vector<long> cells = this->All.Gather(row.cells);
@@ -74,6 +75,7 @@ void Rounds::RecordInput(const Outcome& run)
   double sum = 0.0, least = std::numeric_limits<double>::infinity();
   for (std::size_t r = 0; r < cells.size(); ++r)
   {
+    // The mean of all is that of the ranks, weighted by their cells.
     sum += mean[r] * static_cast<double>(cells[r]);
     least = cells[r] > 0 ? std::min(least, worst[r]) : least;
   }

@@ -38,6 +38,7 @@ double Rounds::GetGoal() const
  */
 bool Rounds::IsDone()
 {
+  // Ranks without cells ask, too: the answer is one for all.
   bool isWaiting = false;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
@@ -60,6 +61,7 @@ void Rounds::WaitWhereStuck()
   const double target = this->Wanted.Options.targetQuality;
   const auto isStuck = [&](vtkIdType c, double most)
   { return this->Mine.Quality[c] < most && !this->Surface.IsCapped[c]; };
+  // Of what is stuck; the target, if nothing is.
   vtkIdType stuck = 0;
   double worst = target;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
@@ -72,6 +74,7 @@ void Rounds::WaitWhereStuck()
   const bool areFew = this->All.Sum(stuck) <= FewStuck + this->Result.NumberOfCells / CellsPerStuck;
   const double most = areFew ? target : worst + NearWorst * (target - worst);
   const std::vector<meshopt::PassRecord>& rows = this->Result.Report.history;
+  // There are two rows at least: of the input and of the pieces.
   const meshopt::PassRecord &now = rows.back(), &before = rows[rows.size() - 2];
   const bool isWorthIt = worst < NearBound * this->Surface.Bound ||
     now.worst > before.worst + LeastGain || (areFew && now.belowTarget < before.belowTarget);

@@ -44,6 +44,7 @@ template <int D>
 void AddVolumes(const Request& request, const Model<D>& model, int when, Outcome& outcome)
 {
   const meshopt::SimplexMesh<D>& mesh = model.Mesh;
+  // Only a surface in space that slides can change a volume.
   for (meshopt::Index c = 0; D == 3 && request.Slide && c < mesh.numberOfCellSlots(); ++c)
   {
     if (mesh.isAlive(c))
@@ -79,6 +80,7 @@ void Optimize(const Request& request, const typename SurfaceOf<D>::type& surface
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(model.Mesh, model.Metric, request.OptionsNow(),
     request.Control, request.Slide ? &surface : nullptr);
+  // Two bounds, both certified: the lesser holds.
   outcome.Report.bound = request.Slide
     ? std::min(outcome.Report.bound, BoundOf(surface, request.Options.measure))
     : outcome.Report.bound;
@@ -91,6 +93,7 @@ void Optimize(const Request& request, const typename SurfaceOf<D>::type& surface
   {
     outcome.NumberOfOperations += std::accumulate(row.done.begin(), row.done.end(), 0L);
   }
+  // Without import and export, and so comparable with the time of a run of the core.
   outcome.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!model.Metric.isTrivial() || (request.UsesSizes() && request.Options.desiredSize > 0.0))
   {
@@ -190,6 +193,7 @@ std::string SetFrame(const Request&, vtkUnstructuredGrid* grid, const vtkMeshBri
 std::string SetFrame(const Request& request, vtkUnstructuredGrid* grid,
   const vtkMeshBridge::Cells& cells, vtkMeshBridge::Frame<2>& frame)
 {
+  // On many ranks: a piece alone might seem to lie in another plane.
   if (request.Plane) // all triangles have been found to lie in it
   {
     frame = *request.Plane;
@@ -226,6 +230,7 @@ std::string OptimizeSimplices(
   {
     return error;
   }
+  // What the builder has found, before anything changes.
   outcome.NumberOfReorientedCells = model.Mesh.numberOfReorientedCells();
   outcome.Overlap = DescribeOverlap(model.Mesh);
   if (request.OptimizeBelow > 0.0)

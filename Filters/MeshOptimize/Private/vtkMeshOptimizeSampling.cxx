@@ -34,6 +34,7 @@ std::vector<Index> ListChangedSimplices(const Model<D>& model, const OutputMap& 
   }
   for (vtkIdType c = 0; c < map.NumberOfOldCells; ++c)
   {
+    // Points alone do not tell: cells between points that stayed may have changed as well.
     const Index slot = map.CellToSlot[c];
     if (slot != meshopt::None)
     {
@@ -75,6 +76,7 @@ Index FindHint(const Background<D>& background, const std::vector<Index>& change
   {
     return background.cellOfPoint(p);
   }
+  // A new point has no cell in the input. The parent of its cell is where that came from.
   const Index parent = mesh.parent(mesh.cellOfPoint(p));
   const auto found = std::lower_bound(changed.begin(), changed.end(), parent);
   return found != changed.end() && *found == parent ? static_cast<Index>(found - changed.begin())
@@ -89,6 +91,7 @@ Sample MakeSample(
 {
   Sample sample;
   double nearest = std::numeric_limits<double>::infinity();
+  // The nearest corner serves data that cannot be averaged.
   for (int i = 0; i <= D; ++i)
   {
     sample.Corners[i] = place.nodes[i];

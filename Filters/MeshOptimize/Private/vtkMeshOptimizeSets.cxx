@@ -57,6 +57,7 @@ Values ValueOf(vtkDataArray* array, vtkIdType p)
   {
     return {};
   }
+  // Numbers with fractions, such as those of a field, tell no sets apart: only 0 and not 0.
   return IsInteger(array) ? values : Values{ 1.0 };
 }
 
@@ -86,12 +87,14 @@ void AddSets(vtkDataArray* array, const std::vector<Index>& points, std::size_t 
   {
     const Values value = ValueOf(array, p);
     hasZero |= value.empty();
+    // One more than allowed is enough to know that there are too many.
     if (!value.empty() && numbers.size() <= mostValues)
     {
       numbers.emplace(value, numbers.size());
     }
   }
   const std::size_t n = numbers.size() > mostValues ? 1 : numbers.size();
+  // A set that has all points of the surface divides nothing; without zeros there is no outside.
   if (!hasZero || n == 0 || used + n > MostSets)
   {
     return;
@@ -128,6 +131,7 @@ std::vector<std::pair<vtkIdType, Index>> ListPatches(
     {
       for (Index p : mesh.facet(c, i))
       {
+        // A point of a curve is on several patches.
         const vtkIdType id = map.SlotToPoint[p];
         const meshopt::Freedom freedom = mesh.freedom(p);
         const bool slides = freedom == meshopt::Freedom::Patch ||
@@ -164,13 +168,16 @@ Sample SampleFacet(
   {
     const Vec<3>&a = corners[(i + 1) % 3], &b = corners[(i + 2) % 3];
     sample.Corners[i] = facet[i];
+    // The area of the triangle opposite to the corner, signed by the normal, with a common factor.
     sample.Weights[i] = std::max(0.0, (a - x).cross(b - x).dot(n));
     sum += sample.Weights[i];
   }
   for (int i = 0; i < 3; ++i)
   {
+    // A facet without area: any of its corners.
     sample.Weights[i] = sum > 0.0 ? sample.Weights[i] / sum : (i == 0 ? 1.0 : 0.0);
   }
+  // Samples have four corners, as those in tetrahedra have.
   sample.Corners[3] = facet[0];
   sample.Weights[3] = 0.0;
   const auto nearest = std::min_element(corners, corners + 3,
@@ -189,6 +196,7 @@ std::vector<std::pair<Facet<3>, Index>> LabelByPoints(const Model<3>& model)
   {
     return labels;
   }
+  // Numbers of the labels do not matter, only which facets have the same.
   std::map<Values, Index> numbers;
   ForKeptFacets(model.Mesh,
     [&](Index c, int i)
@@ -232,6 +240,7 @@ std::vector<std::uint32_t> FindNodeSets(Model<3>& model)
 {
   vtkPointData* data = model.Grid->GetPointData();
   std::vector<std::uint32_t> sets(model.Cells.PointUse.size(), 0);
+  // Only points of the surface: inside, a set means nothing to it.
   const std::vector<Index> points = ListSurfacePoints(model.Mesh);
   std::size_t used = 0;
   model.NodeSets.clear();
@@ -268,6 +277,7 @@ void TransferNodeSets(
 void TransferNodeSets(const Model<3>& model, const meshopt::SlidingSurface& surface,
   const OutputMap& map, vtkDataSetAttributes* output)
 {
+  // Sets that the surface cannot follow are interpolated like all other data.
   const bool hasSets = std::any_of(model.NodeSets.begin(), model.NodeSets.end(),
     [&](const NodeSetArray& set) { return (set.Bits & ~surface.sets()) == 0; });
   const auto patches = hasSets ? ListPatches(model.Mesh, map)
@@ -297,6 +307,7 @@ void TransferNodeSets(const Model<3>& model, const meshopt::SlidingSurface& surf
         const Index patch = patches[last].second;
         inside = (surface.setsOfPatch(patch) & set.Bits) != 0 ? patch : inside;
       }
+      // On no patch of the set: outside of it.
       if (inside == meshopt::None)
       {
         for (int i = 0; i < array->GetNumberOfComponents(); ++i)

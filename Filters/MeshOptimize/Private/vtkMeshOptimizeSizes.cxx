@@ -21,6 +21,7 @@ namespace
 
 constexpr double MostElements = 1e8; // memory, and the core's 32-bit ids
 constexpr double LongEdge = 2.0;     // length of a kept edge in units of the wanted length
+// Of the area: a change that is worth a word.
 constexpr double AreaChange = 0.1;
 
 std::string NameOf(const char* what, vtkDataArray* array)
@@ -101,6 +102,7 @@ void SetMetricOfGhosts(const Request& request, Model<D>& model)
     {
       for (vtkIdType p : ids)
       {
+        // Values at the nodes of the mesh have been set, from the same arrays.
         if (!model.Mesh.isPointAlive(static_cast<meshopt::Index>(p)))
         {
           model.Metric.setSample(
@@ -115,6 +117,7 @@ template <int D>
 std::string CheckCount(const Request& request, const Model<D>& model)
 {
   const bool hasSizes = request.Options.desiredSize > 0.0 || model.Metric.hasSizes();
+  // Only the fast engine has a size stage, which makes as many elements as are predicted.
   if (!request.UsesSizes() || !hasSizes ||
     request.Options.algorithm != meshopt::Algorithm::WorstFirst)
   {
@@ -163,6 +166,7 @@ std::string DescribeSizes(const meshopt::Report& report, const Request& request)
          << " times as long as wanted, and elements beside them can only approach the wanted size."
          << (request.Slide ? "" : " Set the boundary mode to Slide to have the boundary divided.");
   }
+  // Each sentence ends with a blank, for one that may follow.
   std::string result = text.str();
   result.erase(result.find_last_not_of(' ') + 1);
   return result;
@@ -171,6 +175,7 @@ std::string DescribeSizes(const meshopt::Report& report, const Request& request)
 std::string DescribeArea(double before, double after, const Request& request)
 {
   const double change = after / before - 1.0;
+  // Straight lines keep their corners, and the area with them.
   if (!request.Slide || !request.Curves.splines || !(std::fabs(change) > AreaChange))
   {
     return {};

@@ -70,6 +70,7 @@ std::string CheckCorners(vtkPolyData* geometry, vtkDataArray* corners)
 /**
  * Calls f(n, points) for each line of `geometry`.
  */
+// By an iterator, since geometries with 32-bit ids have no pointer to hand out.
 template <class F>
 void ForLines(vtkPolyData* geometry, F&& f)
 {
@@ -90,6 +91,7 @@ std::string FindUsedPoints(vtkPolyData* geometry, std::vector<char>& used)
 {
   const vtkIdType all = geometry->GetNumberOfPoints();
   std::string error;
+  // Lines of a file may use points that are not there: checked before any is read.
   used.assign(static_cast<std::size_t>(all), 0);
   ForLines(geometry,
     [&](vtkIdType n, const vtkIdType* points)
@@ -128,6 +130,7 @@ std::string CheckPoints(
       box.AddPoint(x);
     }
   }
+  // Two passes: the tolerance is relative to the box of all points.
   for (std::size_t p = 0; p < used.size(); ++p)
   {
     geometry->GetPoint(static_cast<vtkIdType>(p), x);
@@ -170,6 +173,7 @@ std::string ReadLines(
   vtkNew<vtkPoints> distinct;
   distinct->SetDataTypeToDouble();
   vtkNew<vtkPointLocator> places;
+  // Rounding only: points nearer than that were meant to be one.
   places->SetTolerance(1e-10 * box.GetDiagonalLength());
   places->InitPointInsertion(distinct, bounds, geometry->GetNumberOfPoints());
   std::vector<Index> ids(used.size(), meshopt::None);
@@ -190,6 +194,7 @@ std::string ReadLines(
         corners && corners->GetComponent(static_cast<vtkIdType>(p), 0) != 0.0);
     }
   }
+  // A polyline of n points has n - 1 lines; those without length are left out.
   ForLines(geometry,
     [&](vtkIdType n, const vtkIdType* points)
     {
@@ -257,6 +262,7 @@ void ForTetrahedra(vtkUnstructuredGrid* grid, F&& f)
  */
 std::vector<meshopt::Facet<3>> ListOuterFaces(vtkUnstructuredGrid* grid)
 {
+  // Blocks are separate grids: a face between two of them is outer in both.
   std::vector<meshopt::Facet<3>> all, once;
   ForTetrahedra(grid,
     [&](const vtkIdType* ids)
@@ -282,6 +288,7 @@ using Place = std::array<double, 9>; // of a facet: its corners in order
 
 Place PlaceOf(vtkUnstructuredGrid* grid, const meshopt::Facet<3>& face)
 {
+  // Compared bit for bit.
   std::array<std::array<double, 3>, 3> x;
   for (int i = 0; i < 3; ++i)
   {
@@ -307,6 +314,7 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
   {
     return locked;
   }
+  // Of tetrahedra only: other cells of the grid may be anywhere.
   vtkBoundingBox box;
   for (vtkUnstructuredGrid* grid : grids)
   {
@@ -341,6 +349,8 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
     }
   }
   std::sort(faces.begin(), faces.end());
+  // Neighbours in the order of places: a face at one place comes from two blocks, or twice from
+  // one.
   for (std::size_t k = 1; k < faces.size(); ++k)
   {
     if (std::get<0>(faces[k - 1]) == std::get<0>(faces[k]))
@@ -351,6 +361,7 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
       }
     }
   }
+  // Sorted, as SurfaceOptions::locked wants to have it.
   for (std::vector<meshopt::Facet<3>>& ofGrid : locked)
   {
     std::sort(ofGrid.begin(), ofGrid.end());
@@ -399,6 +410,7 @@ std::string BuildSurface(const Request& request, Model<2>& model, meshopt::Bound
   {
     return {};
   }
+  // Places are set by the editor, which alone may change a mesh.
   meshopt::MeshEditor<2> editor(model.Mesh);
   const std::vector<std::uint8_t> corners = ReadCorners(model.Arrays.Corners, model.Cells);
   if (!request.Geometry)
@@ -434,6 +446,7 @@ std::string BuildSurface(const Request& request, Model<3>& model, meshopt::Slidi
   options.corners = ReadCorners(model.Arrays.Corners, model.Cells);
   const auto ofPoints = LabelByPoints(model);
   options.labels = Combined(LabelRiding(model), ofPoints);
+  // Points with a label that no facet around them has would lose it: they stay.
   KeepLonePoints(model, ofPoints, options.corners);
   options.sets = FindNodeSets(model);
   meshopt::MeshEditor<3> editor(model.Mesh);

@@ -23,6 +23,7 @@ using meshopt::SurfaceFault;
 namespace
 {
 
+// A sentence, not a list: who needs all finds them by their quality.
 constexpr std::size_t NumberOfExamples = 5;
 
 /**
@@ -84,6 +85,7 @@ public:
     , Faults(meshopt::findSurfaceFaults(mesh, slots))
     , FaultOfPoint(mesh.numberOfPointSlots(), nullptr)
   {
+    // From the last to the first, so that the first one is written last.
     for (auto fault = this->Faults.rbegin(); fault != this->Faults.rend(); ++fault)
     {
       if (fault->kind == SurfaceFault<D>::NoArea)
@@ -107,12 +109,14 @@ public:
     std::vector<Index> star;
     for (int i = 0; i <= D && !found; ++i)
     {
+      // Faults of neighbours count: a cell is pressed flat by what is beside it.
       this->Mesh.star(this->Mesh.nodes(slot)[i], star);
       for (Index c : star)
       {
         for (Index p : this->Mesh.nodes(c))
         {
           const SurfaceFault<D>* fault = this->FaultOfPoint[p];
+          // In the order of the list, which is by kind.
           found = fault && (!found || fault < found) ? fault : found;
         }
       }
@@ -180,6 +184,7 @@ std::string Explain(Reason reason, const std::string& faces, int dimension)
       return "where kept " + noun + " pass through each other" + points;
     case EndedEarly:
       return "left because the run was ended early";
+    // Only if no fault of the surface explains it.
     case AllKept:
       return "with no node that may move (surface, " + noun +
         " between regions, fixed points) and no other connection found";
@@ -196,6 +201,7 @@ std::string ListCells(vtkUnstructuredGrid* output, const OutputMap& map, const G
   {
     const std::size_t cell = group.Cells[k];
     text << (k == 0 ? "" : ", ");
+    // By the user's number where the cell has one, otherwise by its place.
     if (static_cast<vtkIdType>(cell) < map.NumberOfOldCells)
     {
       text << "cell " << map.CellToSource[cell];
@@ -244,6 +250,7 @@ std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
   Group groups[NumberOfReasons];
   for (std::size_t k = 0; k < bad.size(); ++k)
   {
+    // A fault explains more than how the run ended.
     const SurfaceFault<D>* fault = finder.Find(slots[k]);
     Group& group =
       groups[fault ? static_cast<Reason>(fault->kind) : FindReason(mesh, report, slots[k])];
@@ -273,6 +280,7 @@ std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
 template <int D>
 std::string DescribeOverlap(const SimplexMesh<D>& mesh)
 {
+  // Found when the mesh was built, before anything changed.
   const Index folds = mesh.numberOfFoldedFacets();
   if (folds == 0)
   {

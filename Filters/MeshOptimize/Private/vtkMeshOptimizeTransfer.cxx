@@ -108,6 +108,7 @@ void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool 
   vtkIdList* sources)
 {
   sources->SetNumberOfIds(static_cast<vtkIdType>(map.PointToSlot.size()));
+  // What has not moved is copied tuple by tuple, bit for bit, whatever its type.
   for (vtkIdType id = 0; id < map.NumberOfOldPoints; ++id)
   {
     sources->SetId(id, map.PointToSlot[id]);

@@ -18,6 +18,7 @@ namespace
  */
 std::string DescribeNothing(vtkDataObject* input, const Outcome& outcome)
 {
+  // From the most special reason to the most general.
   const std::string all = std::to_string(input->GetNumberOfElements(vtkDataObject::CELL));
   if (outcome.NumberOfGhostSimplices > 0)
   {
@@ -72,6 +73,7 @@ void WarnOfNoEffect(
     vtkWarningWithObjectMacro(
       filter, << "Nothing to optimize: " << DescribeNothing(input, outcome));
   }
+  // What was asked for and can have no effect is worth a word: the run looks as if it had.
   const bool isFixed = filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Fixed;
   const bool hasSizes = filter->GetDesiredSize() > 0.0 ||
     vtkMeshBridge::IsWanted(filter, SizeArray);

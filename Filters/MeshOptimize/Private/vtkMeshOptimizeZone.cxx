@@ -85,6 +85,7 @@ bool AddLayer(const SimplexMesh<D>& mesh, std::vector<char>& isInside)
     const bool touches = std::any_of(
       nodes.begin(), nodes.end(), [&](Index p) { return isTouched[p] != 0; });
     added |= touches && !isInside[k];
+    // Cells inside touch themselves: none is lost.
     isInside[k] = touches;
   }
   return added;
@@ -145,6 +146,8 @@ std::vector<char> MarkZone(
 void KeepSimplices(
   vtkUnstructuredGrid* grid, const std::vector<char>& isKept, vtkMeshBridge::Cells& cells)
 {
+  // Points of what is left out count as used by others, like those of ghosts: so the border of the
+  // zone is held.
   for (std::uint8_t& use : cells.PointUse)
   {
     use &= static_cast<std::uint8_t>(~vtkMeshBridge::UsedBySimplex);
@@ -217,6 +220,7 @@ bool FitsTogether(const SimplexMesh<D>& zone, const std::vector<meshopt::Simplex
 {
   meshopt::MeshInput<D> input;
   input.cells = others;
+  // Only facets are counted here: numbering does not matter.
   input.isOriented = true;
   for (Index p = 0; p < zone.numberOfPointSlots(); ++p)
   {

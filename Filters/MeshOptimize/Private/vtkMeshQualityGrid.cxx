@@ -47,6 +47,7 @@ Grid::Grid(vtkUnstructuredGrid* grid)
   : View(grid)
 {
   this->CountKinds();
+  // Beside tetrahedra each triangle is measured in a plane of its own.
   if (this->HasTriangles() && !this->HasTetrahedra())
   {
     this->FindPlane();
@@ -118,6 +119,7 @@ void Grid::FindPlane()
   std::vector<vtkIdType> triangles = this->ListTriangles(false), ghosts = this->ListTriangles(true);
   if (triangles.empty())
   {
+    // Nothing but ghosts: their plane will do.
     triangles.swap(ghosts);
   }
   if (triangles.empty())
@@ -150,6 +152,7 @@ std::string Grid::CheckExtent() const
   {
     return {};
   }
+  // Points of ghosts, or of no cell, may lie anywhere.
   const std::vector<bool> used = this->FindUsedPoints();
   vtkMeshBridge::Box box;
   for (vtkIdType p = 0; p < this->GetNumberOfPoints(); ++p)

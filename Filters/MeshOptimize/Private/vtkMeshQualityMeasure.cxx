@@ -38,6 +38,7 @@ Corners<2> Unfold(const Corners<3>& x)
 {
   const Vec<3> a = x[1] - x[0], b = x[2] - x[0];
   const double l = a.norm();
+  // Two corners at one place: flat, wherever the third is.
   if (l == 0.0)
   {
     return { Vec<2>(0.0, 0.0), Vec<2>(0.0, 0.0), Vec<2>(b.norm(), 0.0) };
@@ -64,6 +65,7 @@ public:
   double operator()(vtkIdType cell, Kind kind) const
   {
     const double q = kind == Kind::Tetrahedron ? this->Tetrahedron(cell) : this->Triangle(cell);
+    // What is not finite cannot be compared, and is counted apart.
     return std::isfinite(q) ? q : NotANumber;
   }
 
@@ -77,6 +79,7 @@ private:
     }
     const Corners<3> x = { this->Mesh.GetPoint(ids[0]), this->Mesh.GetPoint(ids[1]),
       this->Mesh.GetPoint(ids[2]), this->Mesh.GetPoint(ids[3]) };
+    // The usual case, without metric and size factor.
     if (this->IsPlain)
     {
       return Shape::value(x);
@@ -110,6 +113,7 @@ private:
       return ValueIn(this->MetricOf<2>(ids), this->Flat, y) + finite;
     }
     ElementMetric<2> size;
+    // Out of a plane the metric is taken in space, and the triangle is laid flat after that.
     if (!this->IsPlain)
     {
       const ElementMetric<3> metric = this->MetricOf<3>(ids, 3);
@@ -146,6 +150,7 @@ private:
       {
         sum += logs[ids[k]];
       }
+      // Means of logarithms, as of all tensors here. Half of it: the map is the root.
       metric.euclidean = false;
       metric.map = meshopt::exponential<D>((sum * (0.5 / n)).eval());
     }
@@ -194,6 +199,7 @@ void MeasureChunk(const Grid& grid, const Evaluator<Shape>& evaluate, std::size_
     }
     if (grid.HasRegions())
     {
+      // By rank of the region among those of this grid; names come when chunks are merged.
       Sums& sums = chunk.Regions[grid.GetRegion(c)];
       sums.OtherCells += kind == Kind::Other ? 1 : 0;
       if (kind != Kind::Other)

@@ -36,6 +36,7 @@ using Key = std::uint64_t;
  */
 struct Notice
 {
+  // A cell is told from its copy on another rank by the corner opposite to the facet.
   Key Facet, Opposite; ///< of the corner of the cell that the facet has not
   long long Region;
 };
@@ -72,8 +73,11 @@ class PointHashes
 public:
   PointHashes(const Block& block, bool byIds)
     : Mesh(block.Mesh)
+    // By block: the same ids in two blocks are different points.
     , Seed(meshopt::scramble(~static_cast<Key>(block.FlatIndex)))
   {
+    // Ids count only if all ranks have them: otherwise those with and those without would never
+    // meet.
     vtkDataArray* ids = byIds ? this->Mesh->GetPointData()->GetGlobalIds() : nullptr;
     if (ids)
     {
@@ -115,6 +119,7 @@ std::vector<Bytes> Judge(const std::vector<Bytes>& notices)
       verdicts[r].push_back(Alone);
     }
   }
+  // Stable, so that the order within a facet is that of the ranks.
   std::stable_sort(entries.begin(), entries.end(),
     [](const Entry& a, const Entry& b) { return a.Facet.Facet < b.Facet.Facet; });
   for (std::size_t i = 0, j = 0; i < entries.size(); i = j)
@@ -131,6 +136,7 @@ std::vector<Bytes> Judge(const std::vector<Bytes>& notices)
         const bool isOther = entries[b].Rank != entries[a].Rank &&
           entries[b].Facet.Opposite != entries[a].Facet.Opposite;
         const bool isSame = entries[b].Facet.Region == entries[a].Facet.Region;
+        // A cell of the same region outweighs one of another: then the facet is no surface at all.
         if (isOther && verdict != Border)
         {
           verdict = isSame ? Border : Interface;
@@ -146,6 +152,7 @@ std::vector<Bytes> Judge(const std::vector<Bytes>& notices)
  */
 std::vector<Bytes> Introduce(const std::vector<Bytes>& notices)
 {
+  // Sorted by key: answers have the same order on all runs.
   std::map<Key, std::vector<int>> owners;
   for (std::size_t r = 0; r < notices.size(); ++r)
   {
@@ -204,9 +211,11 @@ public:
     bool lacksIds = false;
     for (const std::size_t b : this->Mine)
     {
+      // A rank without surface has no say.
       lacksIds = lacksIds || !this->Blocks[b].Mesh->GetPointData()->GetGlobalIds();
     }
     this->HashPoints(!this->All.IsAny(lacksIds));
+    // Ranks without any cells of this dimension take part in all exchanges all the same.
     this->DropBorders();
     this->AddSides();
   }
@@ -236,6 +245,7 @@ private:
     Key sum = 0;
     for (int k = 0; k < D; ++k)
     {
+      // Without node `left`: the edge (D = 2: the node) opposite to it.
       sum += k == left ? 0 : this->Hashes[b][nodes[k]];
     }
     return meshopt::scramble(sum);
@@ -265,6 +275,7 @@ private:
       }
     }
     std::vector<Bytes> verdicts = this->All.Exchange(Judge(this->All.Exchange(std::move(out))));
+    // Verdicts come in the order of the notices to each rank.
     std::vector<std::size_t> next(this->All.GetCount(), 0);
     for (const std::size_t b : this->Mine)
     {
@@ -277,6 +288,8 @@ private:
           kept.push_back(side);
           continue;
         }
+        // The edges of what was dropped are where surfaces of several ranks meet: a bound of edges
+        // needs all kept facets around them.
         for (int k = 0; k < D; ++k)
         {
           this->Ends.insert(this->HashOf(b, side.nodes, k));
@@ -308,6 +321,7 @@ private:
     {
       for (const KeptSide<D>& side : this->Of(b).Sides)
       {
+        // Each rank once, though it may have several edges of the facet.
         std::set<int> targets;
         for (int k = 0; k < D; ++k)
         {
@@ -343,6 +357,7 @@ private:
 
   WireSide MakeWireSide(std::size_t b, const KeptSide<D>& side)
   {
+    // All bytes are sent, also those between the members: they must have a value.
     WireSide wire{};
     wire.Block = this->Blocks[b].FlatIndex;
     for (int k = 0; k < D; ++k)
@@ -368,6 +383,7 @@ private:
     {
       foreign.insert(wire.Nodes.begin(), wire.Nodes.begin() + D);
     }
+    // Foreign points that are here, too, get the number that they have here.
     std::unordered_map<Key, Index> numbers;
     std::set<Index> twins; // which of them another rank means is not known
     for (std::size_t p = 0; p < this->Hashes[b].size(); ++p)
@@ -387,6 +403,7 @@ private:
     }
     for (const WireSide& wire : sides)
     {
+      // Regions are known by their values: numbers differ between ranks.
       const auto region = std::lower_bound(regions.begin(), regions.end(), wire.Region);
       if (!regions.empty() && (region == regions.end() || *region != wire.Region))
       {
@@ -405,6 +422,7 @@ private:
       }
       side.region = regions.empty() ? 0 : static_cast<Index>(region - regions.begin());
       side.oriented = wire.IsOriented;
+      // No cell of this rank: the caps of such sides go to nobody here.
       side.cell = meshopt::None;
       surface.Sides.push_back(side);
     }

@@ -60,6 +60,7 @@ PlaneBlocks MergeAll(const Ranks& ranks, const PlaneBlocks& mine)
 //------------------------------------------------------------------------------
 std::map<unsigned int, Planarity> FindPlanes(const Ranks& ranks, const std::vector<Block>& blocks)
 {
+  // By the flat index of the block, which all ranks know.
   PlaneBlocks mine;
   bool isWanted = false;
   for (const Block& block : blocks)
@@ -68,6 +69,7 @@ std::map<unsigned int, Planarity> FindPlanes(const Ranks& ranks, const std::vect
     PlaneBlock& one = mine[block.FlatIndex];
     one.HasTetrahedra = grid.HasTetrahedra();
     one.Facts = vtkMeshBridge::FindPlaneFacts(grid.GetView(), grid.ListTriangles(false));
+    // Cells that some rank measures; ranks without any take part all the same.
     isWanted = isWanted || !one.Facts.IsEmpty();
   }
   std::map<unsigned int, Planarity> result;
@@ -75,6 +77,8 @@ std::map<unsigned int, Planarity> FindPlanes(const Ranks& ranks, const std::vect
   {
     return result;
   }
+  // The same three steps as for a mesh to optimize (FindPlane of vtkMeshRanksPlane.h), for all
+  // blocks at once: each step costs all ranks one message, however many blocks there are.
   PlaneBlocks all = MergeAll(ranks, mine);
   for (const Block& block : blocks)
   {

@@ -112,6 +112,7 @@ Figures TakeFigures(vtkMultiProcessStream& stream, std::size_t numberOfWorstCell
   return f;
 }
 
+// One process needs no messages, and no controller.
 bool IsAlone(vtkMultiProcessController* controller)
 {
   return !controller || controller->GetNumberOfProcesses() == 1;
@@ -175,6 +176,7 @@ void Reduce(vtkMultiProcessController* controller, meshopt::QualityHistogram& hi
 //------------------------------------------------------------------------------
 double GreatestQuality(const Options& options, const Figures& figures)
 {
+  // Triangles and tetrahedra have different regular values where a measure is not normalized.
   const bool onlyTriangles = figures.HasTriangles && !figures.HasTetrahedra;
   return onlyTriangles ? meshopt::regularValue<2>(options.Measure)
                        : meshopt::regularValue<3>(options.Measure);
@@ -184,6 +186,7 @@ double GreatestQuality(const Options& options, const Figures& figures)
 meshopt::QualityHistogram MakeHistogram(
   const Options& options, const Figures& figures, int numberOfBins)
 {
+  // So all ranks have the same bins, from the reduced figures: counts can be added.
   const meshopt::QualityStatistics& q = figures.Total.Quality;
   // From 0, or from the worst inverted cell.
   const double low = std::min(0.0, q.minimum);
@@ -212,7 +215,9 @@ void FillSummary(const Options& options, const Figures& figures, vtkTable* table
   auto* other = AddColumn<vtkIdTypeArray>(table, "OtherCells");
   auto* bound = AddColumn<vtkDoubleArray>(table, "Bound");
   auto* capped = AddColumn<vtkIdTypeArray>(table, "CappedCells");
+  // A region without cells has no qualities.
   const double nothing = std::numeric_limits<double>::quiet_NaN();
+  // No cell is better than the regular one, whatever the bound says.
   const double greatest = GreatestQuality(options, figures);
   for (const auto& row : rows)
   {
@@ -282,6 +287,7 @@ void FillWorstCells(const Options& options, const std::vector<meshopt::WorstElem
     auto& known = newIds[block - blocks.begin()];
     block->Mesh->GetCellPoints(e.id, nodes);
     const int type = block->Mesh->GetCellType(e.id);
+    // Centres make cells findable.
     double sum[3] = { 0.0, 0.0, 0.0 };
     int corners = 0;
     for (vtkIdType k = 0; k < nodes->GetNumberOfIds(); ++k)

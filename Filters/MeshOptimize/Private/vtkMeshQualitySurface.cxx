@@ -29,6 +29,7 @@ using meshopt::KeptSide;
 using meshopt::Vec;
 
 using Key = std::uint64_t;
+// Cells of one step of the threads: enough to cost nothing, few enough to be shared out evenly.
 constexpr vtkIdType Length = 16384;
 
 /**
@@ -60,6 +61,7 @@ public:
   {
     const vtkIdType n = this->Mesh.GetNumberOfCells();
     const vtkIdType chunks = (n + Length - 1) / Length;
+    // See Add().
     const bool alone = vtkSMPTools::GetEstimatedNumberOfThreads() == 1;
     vtkSMPTools::For(0, chunks, 1,
       [&](vtkIdType first, vtkIdType last)
@@ -81,6 +83,7 @@ public:
           }
         }
       });
+    // In the order of the cells, whichever thread has found them.
     std::vector<Candidate> all;
     for (const auto& part : parts)
     {
@@ -136,6 +139,7 @@ private:
     {
       return;
     }
+    // All facets but one contain the lowest point; that one begins at the next.
     Key atLowest = 0;
     for (int i = 0; i <= D; ++i)
     {
@@ -173,6 +177,7 @@ private:
     {
       if (i == f.Opposite ? next : lowest)
       {
+        // The facet opposite to the lowest point was combined at the next lowest.
         out.push_back({ f.Keys[i], cell, i, true });
       }
     }
@@ -183,6 +188,7 @@ private:
    */
   static std::vector<Candidate> KeepSingle(std::vector<Candidate> all)
   {
+    // At most half full, and a power of two.
     std::size_t size = 16;
     while (size < 2 * all.size())
     {
@@ -200,6 +206,7 @@ private:
       {
         table[slot] = i;
       }
+      // The first of them stays in the table, so that a third one is found out, too.
       else
       {
         all[table[slot]].Kept = all[i].Kept = false;
@@ -233,6 +240,8 @@ public:
   {
     for (const Candidate& facet : SurfaceFinder<D>(this->Mesh).Find())
     {
+      // Ghosts were combined like all others, so that facets beside them are no surface. Sides of
+      // their own do not count.
       if (this->Mesh.IsGhost(facet.Cell))
       {
         continue;
@@ -256,6 +265,7 @@ public:
 private:
   Index Number(vtkIdType p)
   {
+    // In the order of first use: the core wants points of the surface only.
     if (this->Numbers[p] == meshopt::None)
     {
       this->Numbers[p] = static_cast<Index>(this->Result.Places.size());
@@ -343,6 +353,7 @@ Surface FindSurface(const Grid& grid, const Options& options, const double* qual
   }
   // With a varying metric nothing is certain, and neither is it for triangles that are not in a
   // plane.
+  // Numbers of points and cells must fit into the core's.
   const bool known = !grid.HasMetric() && (grid.HasTetrahedra() || grid.IsFlat()) &&
     grid.GetNumberOfPoints() < std::numeric_limits<Index>::max() &&
     grid.GetNumberOfCells() < std::numeric_limits<Index>::max();

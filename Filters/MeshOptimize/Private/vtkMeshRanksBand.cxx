@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// A band of cells around what has never been together in one run moves to one rank. Points have
+// labels, which spread from layer to layer over all ranks at once: so all agree on who takes a
+// cell.
 #include "vtkMeshRanksBand.h"
 
 #include <algorithm>
@@ -23,6 +26,7 @@ std::vector<int> OrderRanks(const Ranks& ranks, const Part& part)
   const std::vector<vtkIdType> counts = ranks.Gather(part.GetNumberOfCells());
   std::vector<int> order(ranks.GetCount());
   std::iota(order.begin(), order.end(), 0);
+  // Stable: of equal counts the lower rank.
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return counts[a] < counts[b]; });
   return order;
 }
@@ -80,6 +84,7 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
   {
     if (part.Flags[p] & Waiting)
     {
+      // The one with the fewest cells of those that have the point takes its band.
       labels[p] = place[ranks.GetRank()];
       for (const int r : shared.RanksOf[p])
       {
@@ -90,6 +95,7 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
   TakeLeast(ranks, shared, labels); // where only one of two ranks lets a point wait
   for (int layer = 1; layer < layers; ++layer)
   {
+    // From the labels of the layer before: cells within a layer must not depend on their order.
     std::vector<Label> next = labels;
     for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
     {
@@ -125,6 +131,7 @@ void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& poin
   std::vector<Bytes> out(count);
   for (int r = 0; r < count; ++r)
   {
+    // What moves within this rank is not packed at all.
     out[r] = r == ranks.GetRank() ? Bytes() : Pack(parts[r]);
   }
   const std::vector<Bytes> in = ranks.Exchange(std::move(out));
@@ -140,6 +147,7 @@ void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& poin
     }
   }
   Part joined;
+  // Two ranks that disagree about a cell would have it twice, or not at all.
   ranks.Agree(Join(here, joined));
   part = std::move(joined);
   isMoved.assign(part.CellIds.size(), 1);

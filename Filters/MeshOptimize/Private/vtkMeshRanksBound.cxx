@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The bound of the surface where that is divided among ranks: each rank certifies its own sides,
+// and the least of all bounds is that of the mesh.
 #include "vtkMeshRanksBound.h"
 
 #include "Bound/SurfaceBound.h"
@@ -36,6 +38,7 @@ long long RegionOf(const std::vector<long long>& regions, vtkIdType c)
 
 Side MakeSide(const Part& part, const CellFacet& facet, const std::vector<long long>& regions)
 {
+  // All bytes are sent: none may be without a value.
   Side side{};
   const std::array<vtkIdType, 3> nodes = OrientedNodes(part, facet.Cell, facet.Local);
   for (int i = 0; i < part.Corners - 1; ++i)
@@ -44,6 +47,7 @@ Side MakeSide(const Part& part, const CellFacet& facet, const std::vector<long l
     std::copy_n(part.GetPoint(nodes[i]), 3, &side.Places[3 * i]);
   }
   side.Region = RegionOf(regions, facet.Cell);
+  // Of a flat or inverted cell it is uncertain on which side the mesh is.
   side.IsOriented = part.Quality[facet.Cell] > 0.0;
   side.Cell = facet.Cell;
   return side;
@@ -54,6 +58,7 @@ Side MakeSide(const Part& part, const CellFacet& facet, const std::vector<long l
  */
 std::vector<char> FindCandidates(const Part& part, const std::vector<long long>& regions)
 {
+  // Few facets: those inside of one region and one rank cannot be kept.
   std::vector<char> isWanted = Flagged(part, Skin);
   std::vector<vtkIdType> first(regions.empty() ? 0 : part.PointIds.size(), -1);
   for (vtkIdType c = 0; c < part.GetNumberOfCells() && !regions.empty(); ++c)
@@ -76,6 +81,7 @@ std::vector<Side> FindSides(
   VisitFacets(part, FindCandidates(part, regions),
     [&](const CellFacet* first, const CellFacet* last)
     {
+      // One cell in this part: on the surface, or at a border.
       if (last - first == 1)
       {
         open.push_back(*first);
@@ -92,6 +98,7 @@ std::vector<Side> FindSides(
   {
     const bool isBorder = next != border.end() && next->first.Cell == facet.Cell &&
       next->first.Local == facet.Local;
+    // At a border it is kept if the cell beyond has another region.
     if (!isBorder || (next++)->second != RegionOf(regions, facet.Cell))
     {
       sides.push_back(MakeSide(part, facet, regions));
@@ -110,6 +117,7 @@ void AddSidesOfOthers(
   std::vector<Bytes> out(ranks.GetCount());
   for (const Side& side : sides)
   {
+    // How many nodes of the side each rank has.
     std::map<int, int> common;
     for (int i = 0; i < part.Corners - 1; ++i)
     {
@@ -118,6 +126,7 @@ void AddSidesOfOthers(
         ++common[r];
       }
     }
+    // All nodes of an edge (D = 2: one node).
     for (const auto& [rank, nodes] : common)
     {
       if (nodes >= part.Corners - 2)
@@ -143,6 +152,7 @@ template <int D>
 meshopt::SurfaceBound<D> BoundOf(const std::vector<Side>& sides, meshopt::Measure measure,
   double target, const vtkMeshBridge::Frame<D>& frame, std::vector<vtkIdType>& ids)
 {
+  // Ids and regions become small numbers: the core indexes by them.
   std::vector<long long> regions;
   for (const Side& side : sides)
   {
@@ -172,6 +182,7 @@ meshopt::SurfaceBound<D> BoundOf(const std::vector<Side>& sides, meshopt::Measur
   }
   meshopt::SurfaceBoundOptions options;
   options.measure = measure;
+  // Caps above the target do not matter: cells need not be better.
   options.enough = options.listEdgesBelow = target;
   return meshopt::surfaceBound<D>(points.data(), std::move(kept), options);
 }
@@ -215,6 +226,8 @@ void MarkCappedByEdges(const Part& part, const Shared& shared,
   {
     const vtkIdType a = IndexOf(part, ids[edge.a]);
     const vtkIdType b = D == 3 ? IndexOf(part, ids[edge.b]) : a;
+    // Around an edge that two ranks have, a rank sees a part of the cells only: whether the worst
+    // is capped cannot be said.
     if (a >= 0 && b >= 0 && !(shared.Has(a) && shared.Has(b)))
     {
       Ring& ring = rings.try_emplace({ std::min(a, b), std::max(a, b) }, Ring{ 1.0 }).first->second;
@@ -231,6 +244,7 @@ void MarkCappedByEdges(const Part& part, const Shared& shared,
         {
           Ring& ring = found->second;
           const double q = part.Quality[c];
+          // The second lowest: the old lowest, if this is lower, or this one, if it lies between.
           ring.Second = std::min(ring.Second, std::max(q, ring.Least));
           ring.Cell = q < ring.Least ? c : ring.Cell;
           ring.Least = std::min(ring.Least, q);
@@ -239,6 +253,8 @@ void MarkCappedByEdges(const Part& part, const Shared& shared,
   }
   for (const auto& [nodes, ring] : rings)
   {
+    // An edge caps one cell, whichever: the worst counts as capped if it has reached the cap and
+    // the next is beyond it.
     if (ring.Cell >= 0 && ring.Least >= Reached * ring.Cap && ring.Second > ring.Cap)
     {
       isCapped[ring.Cell] = 1;
@@ -264,6 +280,7 @@ SurfaceFigures MeasureSides(const Ranks& ranks, const Part& part, const Shared& 
     }
   }
   MarkCappedByEdges<D>(part, shared, surface, ids, figures.IsCapped);
+  // Least of all: a certified bound of a part is one of the whole.
   for (const double bound : ranks.Gather(surface.bound))
   {
     figures.Bound = std::min(figures.Bound, bound);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Checks that what the ranks have is still the mesh that was divided.
 #include "vtkMeshRanksCheck.h"
 
 #include "Base/Scramble.h"
@@ -14,6 +15,9 @@ namespace vtkMeshRanks
 namespace
 {
 
+/**
+ * By id and place: a point that was moved, or exchanged for another, changes the hash.
+ */
 std::uint64_t HashOfPoint(const Part& part, vtkIdType p)
 {
   std::uint64_t hash = meshopt::scramble(static_cast<std::uint64_t>(part.PointIds[p]));
@@ -33,6 +37,7 @@ std::uint64_t HashOfFacet(
   std::uint64_t sum = 0;
   for (int i = 0; i < n; ++i)
   {
+    // A sum does not depend on the order. Scrambled, since these sums are combined by exclusive or.
     sum += hashes[nodes[i]];
   }
   return meshopt::scramble(sum);
@@ -48,6 +53,7 @@ double VolumeOf(const Part& part, vtkIdType c, const Vector& up)
     const double* p = part.GetPoint(part.GetCell(c)[i]);
     x[i] = Vector(p[0], p[1], p[2]);
   }
+  // In their plane triangles have signed areas, as tetrahedra have volumes.
   const Vector normal = (x[1] - x[0]).cross(x[2] - x[0]);
   return part.Corners == 4 ? normal.dot(x[3] - x[0]) / 6.0 : normal.dot(up) / 2.0;
 }
@@ -59,9 +65,11 @@ Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, doub
 {
   Figures mine;
   mine.Worst = std::numeric_limits<double>::infinity();
+  // Each rank over its own cells, in their order.
   for (const double q : part.Quality)
   {
     mine.BelowTarget += q < target;
+    // Written so that a quality that is not a number counts.
     mine.NotPositive += !(q > 0.0);
     mine.Worst = std::min(mine.Worst, q);
     mine.Mean += q;
@@ -73,6 +81,7 @@ Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, doub
   }
   Figures sum;
   sum.Worst = std::numeric_limits<double>::infinity();
+  // In the order of the ranks, so that all get the same bits.
   for (const Figures& one : ranks.Gather(mine))
   {
     sum.Cells += one.Cells;
@@ -101,6 +110,7 @@ Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
   {
     mine.Volume += VolumeOf(part, c, up);
+    // A sum, and not an exclusive or: a cell that came twice would cancel out.
     mine.Ids += meshopt::scramble(static_cast<std::uint64_t>(part.CellIds[c]));
     for (int local = 0; local < part.Corners; ++local)
     {
@@ -136,10 +146,12 @@ bool HasOverusedFacet(const Ranks& ranks, const Part& part)
     [](vtkIdType id) { return meshopt::scramble(static_cast<std::uint64_t>(id)); });
   const auto count = static_cast<std::uint64_t>(ranks.GetCount());
   std::vector<Bytes> out(ranks.GetCount());
+  // Only facets with all nodes on the skin may have cells on several ranks.
   VisitFacets(part, Flagged(part, Skin),
     [&](const CellFacet* first, const CellFacet* last)
     {
       const std::uint64_t hash = HashOfFacet(first->Nodes, part.Corners - 1, hashes);
+      // Each facet is counted by one rank, the same for all.
       Bytes& bytes = out[meshopt::scramble(hash) % count];
       Put(bytes, hash);
       Put(bytes, static_cast<vtkIdType>(last - first));
@@ -157,6 +169,7 @@ bool HasOverusedFacet(const Ranks& ranks, const Part& part)
   std::vector<Bytes> answers(ranks.GetCount(), Bytes(1, 0));
   for (int r = 0; r < ranks.GetCount(); ++r)
   {
+    // One byte to each rank: whether any of its facets has too many cells.
     for (Reader reader(in[r]); !reader.IsAtEnd(); reader.Take<vtkIdType>())
     {
       answers[r][0] |= uses[reader.Take<std::uint64_t>()] > 2;

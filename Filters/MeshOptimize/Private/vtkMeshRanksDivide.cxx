@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Recursive bisection by coordinates: parts of equal size whose cells are near each other.
 #include "vtkMeshRanksDivide.h"
 
 #include <algorithm>
@@ -13,6 +14,9 @@ namespace
 
 using Place = std::array<double, 3>;
 
+/**
+ * Not divided by the number of corners: centers are only compared with each other.
+ */
 Place CenterOf(const Part& part, vtkIdType c)
 {
   Place sum{};
@@ -56,8 +60,11 @@ void Cut(const std::vector<Place>& centers, Iterator first, Iterator last, int b
     std::for_each(first, last, [&](vtkIdType c) { target[c] = begin; });
     return;
   }
+  // Not a power of two: each half gets its share of the parts, and as many cells in proportion.
   const int half = begin + (end - begin) / 2, axis = LongestSide(centers, first, last);
   const auto middle = first + (last - first) * (half - begin) / (end - begin);
+  // Ties by number: otherwise, which of two cells on the cut goes where would depend on the
+  // library.
   std::nth_element(first, middle, last,
     [&](vtkIdType a, vtkIdType b)
     { return centers[a][axis] != centers[b][axis] ? centers[a][axis] < centers[b][axis] : a < b; });

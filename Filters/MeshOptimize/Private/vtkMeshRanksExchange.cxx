@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// All ranks meet at each step, also those that have failed: a rank that left early would keep the
+// others waiting for ever.
 #include "vtkMeshRanksExchange.h"
 
 #include "vtkCommunicator.h"
@@ -12,10 +14,12 @@ namespace vtkMeshRanks
 namespace
 {
 
+// No other message of a controller may be taken for one of these.
 constexpr int Tag = 71919;
 
 void Send(vtkMultiProcessController* controller, const Bytes& bytes, int to)
 {
+  // Empty messages are not sent: both sides know the lengths.
   if (!bytes.empty())
   {
     controller->Send(bytes.data(), static_cast<vtkIdType>(bytes.size()), to, Tag);
@@ -37,6 +41,7 @@ void SwapAll(
   vtkMultiProcessController* controller, int rank, std::vector<Bytes>& out, std::vector<Bytes>& in)
 {
   const int count = static_cast<int>(out.size());
+  // Up to the next power of two: r xor s then meets all.
   int steps = 1;
   while (steps < count)
   {
@@ -61,6 +66,7 @@ void SwapAll(
       Receive(controller, in[partner], partner);
       Send(controller, out[partner], partner);
     }
+    // What has been sent is not needed any more: its memory is free for what comes.
     Bytes().swap(out[partner]);
   }
 }
@@ -76,6 +82,7 @@ Ranks::Ranks(vtkMultiProcessController* controller)
 
 void Ranks::Meet(const std::string& error) const
 {
+  // The longest error: one reduction tells whether there is any, and it costs no more than a flag.
   vtkIdType mine = static_cast<vtkIdType>(error.size()), most = 0;
   this->Controller->AllReduce(&mine, &most, 1, vtkCommunicator::MAX_OP);
   if (most == 0)
@@ -85,6 +92,7 @@ void Ranks::Meet(const std::string& error) const
   // One after another: no rank needs more memory than one sentence.
   for (int r = 0; r < this->Count; ++r)
   {
+    // The rank's own length on rank r; the others are told.
     vtkIdType length = mine;
     this->Controller->Broadcast(&length, 1, r);
     if (length > 0)
@@ -127,6 +135,7 @@ std::vector<Bytes> Ranks::Gather(const Bytes& mine) const
   {
     offsets[r] = offsets[r - 1] + lengths[r - 1];
   }
+  // It may throw for want of memory: hence the meeting before anything is sent.
   Bytes joined(static_cast<std::size_t>(offsets.back() + lengths.back()));
   this->Meet({});
   if (!joined.empty())
@@ -142,6 +151,7 @@ std::vector<Bytes> Ranks::Gather(const Bytes& mine) const
   return all;
 }
 
+// Here a rank learns that another one has failed in the meantime.
 vtkIdType Ranks::Sum(vtkIdType value) const
 {
   this->Meet({});
@@ -157,12 +167,14 @@ std::string Ranks::Together(const std::function<std::string()>& work) const
   std::string error;
   try
   {
+    // What one rank finds wrong must end the work of all: see Meet().
     error = work();
   }
   catch (const Failure& failure) // thrown by all ranks
   {
     return failure.Error;
   }
+  // A rank that has no memory left must still tell the others.
   catch (const std::bad_alloc&)
   {
     error = "Not enough memory to optimize this mesh.";

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Facets of a part, and which points and facets other ranks have, too. Nobody has a list of all
+// points: for each id one rank is its directory, which everybody can compute.
 #include "vtkMeshRanksFacets.h"
 
 #include "Base/Scramble.h"
@@ -11,6 +13,8 @@ namespace vtkMeshRanks
 namespace
 {
 
+// As in the core (Local<D>::facets): with node i appended, facet i is a simplex oriented like the
+// cell.
 constexpr int TetrahedronFacets[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
 constexpr int TriangleFacets[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
 
@@ -29,6 +33,7 @@ std::uint64_t HashOfPlace(const double* x)
  */
 void SortFew(std::array<vtkIdType, 3>& nodes, int n)
 {
+  // By exchange of neighbours: two or three values, for each facet of each cell.
   for (int i = 0; i < n; ++i)
   {
     for (int k = 0; k + 1 < n - i; ++k)
@@ -91,6 +96,7 @@ std::vector<Bytes> Answer(const std::vector<Bytes>& notices, std::string& error)
     for (j = i; j < entries.size() && entries[j].Point.Id == entries[i].Point.Id; ++j)
     {
       owners.push_back(entries[j].Rank);
+      // Of the place only the hash was sent, which is all that a comparison needs.
       if (entries[j].Point.Place != entries[i].Point.Place)
       {
         error = "The point with the global id " + std::to_string(entries[i].Point.Id) +
@@ -98,6 +104,7 @@ std::vector<Bytes> Answer(const std::vector<Bytes>& notices, std::string& error)
           std::to_string(entries[i].Rank) + ".";
       }
     }
+    // An id that only one rank has needs no answer.
     for (std::size_t k = 0; k < owners.size() && owners.size() > 1; ++k)
     {
       Put(answers[owners[k]], entries[i].Point.Id);
@@ -111,6 +118,7 @@ using Key = std::array<vtkIdType, 3>;
 
 Key IdsOf(const Part& part, const CellFacet& facet)
 {
+  // Triangles have two nodes: the third stays -1, which no id is.
   Key ids = { -1, -1, -1 };
   for (int i = 0; i < part.Corners - 1; ++i)
   {
@@ -140,6 +148,7 @@ void VisitFacets(const Part& part, const std::vector<char>& isWanted,
   const int corners = part.Corners;
   std::vector<CellFacet> facets;
   std::vector<std::size_t> starts(part.PointIds.size() + 1, 0);
+  // Called twice: to count, then to fill. Facets of unwanted nodes cost nothing but the test.
   const auto forEach = [&](const auto& call)
   {
     for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
@@ -156,6 +165,7 @@ void VisitFacets(const Part& part, const std::vector<char>& isWanted,
       }
     }
   };
+  // A counting sort: linear, where a sort of all facets would not be.
   forEach([&](const CellFacet& facet) { ++starts[facet.Nodes[0] + 1]; });
   for (std::size_t p = 1; p < starts.size(); ++p)
   {
@@ -167,6 +177,7 @@ void VisitFacets(const Part& part, const std::vector<char>& isWanted,
   for (std::size_t p = 0; p + 1 < starts.size(); ++p)
   {
     const auto begin = facets.begin() + starts[p], end = facets.begin() + starts[p + 1];
+    // Ties by cell, so that visitors get cells in one order.
     std::sort(begin, end,
       [](const CellFacet& a, const CellFacet& b)
       { return a.Nodes != b.Nodes ? a.Nodes < b.Nodes : a.Cell < b.Cell; });
@@ -212,6 +223,7 @@ vtkIdType IndexOf(const Part& part, vtkIdType id)
 Shared FindShared(const Ranks& ranks, const Part& part)
 {
   std::vector<Bytes> notices(ranks.GetCount());
+  // A loose point has no cells that could meet those of another rank.
   std::vector<char> isUsed(part.PointIds.size(), 0);
   for (const vtkIdType p : part.Cells)
   {
@@ -227,6 +239,7 @@ Shared FindShared(const Ranks& ranks, const Part& part)
   }
   std::string error;
   std::vector<Bytes> answers = Answer(ranks.Exchange(std::move(notices)), error);
+  // Two meanings of one id end the work on all ranks, before anything is built on them.
   ranks.Agree(error);
   answers = ranks.Exchange(std::move(answers));
   Shared shared;
@@ -245,6 +258,7 @@ Shared FindShared(const Ranks& ranks, const Part& part)
       }
     }
   }
+  // A map, so that neighbours come in the order of ranks; points are met in the order of ids.
   std::map<int, std::vector<vtkIdType>> lists;
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
@@ -265,6 +279,8 @@ std::vector<std::pair<CellFacet, long long>> FindBorder(const Ranks& ranks, cons
   const Shared& shared, const std::vector<CellFacet>& open, const std::vector<long long>& values)
 {
   std::vector<Bytes> out(ranks.GetCount());
+  // A facet is told to every rank that has all of its nodes: more than those that have the facet,
+  // which only they can say.
   for (const CellFacet& facet : open)
   {
     for (const int r : shared.RanksOf[facet.Nodes[0]])
@@ -281,6 +297,7 @@ std::vector<std::pair<CellFacet, long long>> FindBorder(const Ranks& ranks, cons
       }
     }
   }
+  // Of ids: indices differ between ranks.
   std::map<Key, long long> theirs;
   for (const Bytes& bytes : ranks.Exchange(std::move(out)))
   {

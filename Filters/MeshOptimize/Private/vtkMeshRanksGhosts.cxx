@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Layers of cells of other ranks around each piece, for filters that look at neighbours. Each rank
+// finds what others need of it, and sends that; nobody asks.
 #include "vtkMeshRanksGhosts.h"
 
 #include "vtkDataSetAttributes.h"
@@ -24,6 +26,7 @@ struct Reach
  */
 std::vector<vtkIdType> Grow(const Part& part, Reach& reach)
 {
+  // A copy: cells of one layer must not reach each other.
   std::vector<char> before = reach.Points;
   std::vector<vtkIdType> fresh;
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
@@ -88,6 +91,7 @@ std::vector<Reach> FindReaches(
       {
         continue;
       }
+      // Only new points have to be told: those of earlier layers have been.
       for (const vtkIdType p : Grow(part, reaches[r]))
       {
         for (const int third : shared.RanksOf[p])
@@ -105,6 +109,7 @@ std::vector<Reach> FindReaches(
       {
         const Notice notice = reader.Take<Notice>();
         start(notice.Rank);
+        // A point of a cell in reach of that rank, but on a third one's border.
         reaches[notice.Rank].Points[IndexOf(part, notice.Id)] = 1;
       }
     }
@@ -129,6 +134,7 @@ GhostFlags AddGhosts(
       out[r] = Pack(Split(part, target, 2, 0)[1]);
     }
   }
+  // Its own part first: at points that both have, its values stay.
   std::vector<Part> parts{ part };
   for (const Bytes& bytes : ranks.Exchange(std::move(out)))
   {
@@ -140,6 +146,7 @@ GhostFlags AddGhosts(
   Part joined;
   ranks.Agree(Join(parts, joined));
   GhostFlags flags;
+  // All are ghosts at first; what belongs to this rank is freed below.
   flags.Points.assign(joined.PointIds.size(), vtkDataSetAttributes::DUPLICATEPOINT);
   flags.Cells.assign(joined.CellIds.size(), vtkDataSetAttributes::DUPLICATECELL);
   const auto find = [](const std::vector<vtkIdType>& ids, vtkIdType id)
@@ -147,6 +154,7 @@ GhostFlags AddGhosts(
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
     const std::vector<int>& others = shared.RanksOf[p];
+    // The lowest rank that has a point owns it.
     if (others.empty() || others.front() > ranks.GetRank())
     {
       flags.Points[find(joined.PointIds, part.PointIds[p])] = 0;

@@ -70,6 +70,7 @@ void ReadCells(vtkUnstructuredGrid* grid, Part& part)
 {
   const vtkIdType n = grid->GetNumberOfCells();
   part.CellIds = ReadIds(grid->GetCellData());
+  // A run adds it always: see AddMeshQuality().
   auto quality = vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray("MeshQuality"));
   auto origin = vtkIdTypeArray::SafeDownCast(grid->GetCellData()->GetArray(OriginName));
   part.Quality.assign(quality->GetPointer(0), quality->GetPointer(0) + n);
@@ -94,6 +95,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
   std::vector<vtkIdType>& pointsOfGrid)
 {
   Part part = MakePart(corners, points, cells);
+  // Two bits: a point may have cells of both kinds.
   std::vector<char> use(grid->GetNumberOfPoints(), 0); // 1: by others, 2: by simplices
   vtkIdType n = 0;
   const vtkIdType* ids = nullptr;
@@ -110,6 +112,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
   std::vector<vtkIdType> index(use.size(), -1);
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
+    // A point of simplices, or of no cell at all. Those of other cells only stay where they are.
     if (use[p] != 1)
     {
       index[p] = static_cast<vtkIdType>(pointsOfGrid.size());
@@ -127,6 +130,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
   {
     grid->GetCellPoints(c, n, ids);
     std::for_each(ids, ids + n, [&](vtkIdType p) { part.Cells.push_back(index[p]); });
+    // Ids are local at first. The caller gives them global ones.
     part.CellIds.push_back(static_cast<vtkIdType>(part.CellIds.size()));
     part.Origin.push_back(firstOrigin + c);
   }
@@ -136,11 +140,13 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
   const auto choose = [](vtkDataSetAttributes* data, const Schema& schema,
                         const std::vector<vtkIdType>& chosen, Arrays& arrays)
   {
+    // The schema lists arrays in the order of the grid, so that one walk finds them all.
     std::size_t a = 0;
     for (int i = 0; i < data->GetNumberOfArrays() && a < schema.Arrays.size(); ++i)
     {
       vtkAbstractArray* array = data->GetAbstractArray(i);
       const char* name = schema.Arrays[a]->GetName();
+      // Unnamed arrays match each other: a missing name equals a missing name.
       if (name && array->GetName() ? !std::strcmp(name, array->GetName())
                                    : name == array->GetName())
       {
@@ -157,6 +163,7 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   const Part& part, const Schema& pointSchema, const Schema& cellSchema)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  // Double, whatever the input had: moved points must not be rounded at each round.
   vtkNew<vtkDoubleArray> coordinates;
   coordinates->SetNumberOfComponents(3);
   coordinates->SetNumberOfTuples(part.GetNumberOfPoints());
@@ -201,6 +208,7 @@ Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)
   part.Flags.assign(part.PointIds.size(), 0);
   part.Hint.assign(part.PointIds.size(), -1);
   ReadCells(grid, part);
+  // From the last to the first, so that the cell with the lowest number stays.
   std::vector<vtkIdType> near(part.PointIds.size(), -1); // the origin of some cell of each point
   for (vtkIdType c = part.GetNumberOfCells() - 1; c >= 0; --c)
   {
@@ -214,6 +222,7 @@ Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)
   {
     double* x = &part.Coordinates[3 * p];
     grid->GetPoint(p, x);
+    // New points stand at the end, with the id -1.
     const vtkIdType id = part.PointIds[p];
     while (id >= 0 && before.PointIds[at] != id)
     {
@@ -221,6 +230,7 @@ Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)
     }
     part.Flags[p] = id >= 0 ? before.Flags[at] : 0;
     part.Hint[p] = id >= 0 ? before.Hint[at] : -1;
+    // Where a point has stayed, its data still are those of the input.
     if (isAgain && (id < 0 || !IsSamePlace(x, before.GetPoint(at))))
     {
       part.Hint[p] = near[p];

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Global ids of points and cells: those of the caller, if all have them. Otherwise facets on the
+// surfaces of pieces are matched by their coordinates, and points by the facets; points alone would
+// not do, since at a crack several lie at one place.
 #include "vtkMeshRanksIds.h"
 
 #include "vtkMeshRanksFacets.h"
@@ -58,6 +61,7 @@ struct Link
   }
 };
 
+// Bits decide: neighbours' pieces come from one mesh, and have the same coordinates.
 std::uint64_t HashOf(const std::array<Place, 3>& places)
 {
   std::uint64_t hash = 0;
@@ -127,6 +131,7 @@ std::vector<Bytes> Match(const std::vector<Bytes>& facets, int n, std::string& e
     {
       ++j;
     }
+    // Sorted by rank within a place: the first and the last are the same if all are.
     if (entries[i].Rank == entries[j - 1].Rank)
     {
       continue; // one facet, or both sides of a crack in one piece
@@ -164,6 +169,7 @@ std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part)
     OpenFacet open;
     if (MakeOpenFacet(part, facet, open))
     {
+      // Any rank can be asked where a place is looked after: the hash says.
       Put(out[HashOf(open.Places) % ranks.GetCount()], open);
     }
   }
@@ -182,6 +188,7 @@ std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part)
       }
     }
   }
+  // Facets share points, so that links come several times.
   for (std::vector<Link>& list : links)
   {
     std::sort(list.begin(), list.end());
@@ -197,6 +204,7 @@ std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part)
 void Spread(
   const Ranks& ranks, const std::vector<std::vector<Link>>& links, std::vector<vtkIdType>& ids)
 {
+  // A point can be linked over a chain of ranks: the lowest id has to travel along it.
   for (bool changes = true; ranks.IsAny(changes);)
   {
     std::vector<Bytes> out(ranks.GetCount());
@@ -204,6 +212,7 @@ void Spread(
     {
       for (const Link& link : links[r])
       {
+        // The partner's index and the id here; the partner knows its own points only.
         Put(out[r], Link{ link.Theirs, ids[link.Mine] });
       }
     }
@@ -239,6 +248,7 @@ void MakePointIds(const Ranks& ranks, Part& part, vtkIdType& end)
   const vtkIdType first = FirstOf(ranks, part.PointIds.size(), end);
   std::iota(part.PointIds.begin(), part.PointIds.end(), first);
   Spread(ranks, links, part.PointIds);
+  // Two points of one piece that got the same id would become one.
   ranks.Agree(HasTwins(part.PointIds)
       ? "A crack of doubled nodes runs into the border of a piece, so that points at the same "
         "place cannot be told apart without global ids: give the points global ids, or switch "
@@ -248,6 +258,7 @@ void MakePointIds(const Ranks& ranks, Part& part, vtkIdType& end)
 
 vtkIdType EndOf(const Ranks& ranks, const std::vector<vtkIdType>& ids)
 {
+  // -1 on a rank without points: the first new id is then 0.
   const vtkIdType mine = ids.empty() ? -1 : *std::max_element(ids.begin(), ids.end());
   const std::vector<vtkIdType> all = ranks.Gather(mine);
   return *std::max_element(all.begin(), all.end()) + 1;
@@ -293,6 +304,7 @@ void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids)
  */
 void Order(Part& part)
 {
+  // Join() orders by id, also a single part.
   Part ordered;
   Join({ part }, ordered); // ids are unique
   part = std::move(ordered);

@@ -23,6 +23,7 @@ struct Source
   vtkIdType Index;
   bool operator<(const Source& other) const
   {
+    // The lower part comes first, and gives the values of points that several have.
     return this->Id != other.Id ? this->Id < other.Id : this->Part < other.Part;
   }
 };
@@ -48,6 +49,7 @@ std::vector<Source> ListSources(const std::vector<Part>& parts, std::vector<vtkI
 void Collect(const std::vector<Part>& parts, const std::vector<Source>& sources,
   Arrays Part::*arrays, Arrays& result)
 {
+  // Tuples are copied part by part, in one call each, and not one by one.
   std::vector<vtkNew<vtkIdList>> from(parts.size()), to(parts.size());
   for (std::size_t i = 0; i < sources.size(); ++i)
   {
@@ -83,6 +85,7 @@ std::string JoinPoints(
   }
   for (const Source& o : ListSources(parts, &Part::PointIds))
   {
+    // Sorted by id: the same point of several parts comes in a row.
     const Part& part = parts[o.Part];
     const double* x = part.GetPoint(o.Index);
     if (sources.empty() || sources.back().Id != o.Id)
@@ -97,6 +100,7 @@ std::string JoinPoints(
     {
       return "Point " + std::to_string(o.Id) + " is at two places.";
     }
+    // What any part knows of a point holds: it may be fixed or waiting.
     result.Flags.back() |= part.Flags[o.Index];
     newIndex[o.Part][o.Index] = result.GetNumberOfPoints() - 1;
   }
@@ -110,6 +114,7 @@ std::string JoinCells(
   const std::vector<Source> sources = ListSources(parts, &Part::CellIds);
   for (const Source& o : sources)
   {
+    // Points may be shared, cells may not.
     const Part& part = parts[o.Part];
     if (!result.CellIds.empty() && result.CellIds.back() == o.Id)
     {
@@ -136,6 +141,7 @@ std::string Join(const std::vector<Part>& parts, Part& result)
   result = Part();
   result.Corners = parts[0].Corners;
   std::vector<std::vector<vtkIdType>> newIndex;
+  // Cells need the new numbers of their points.
   const std::string error = JoinPoints(parts, result, newIndex);
   return error.empty() ? JoinCells(parts, newIndex, result) : error;
 }

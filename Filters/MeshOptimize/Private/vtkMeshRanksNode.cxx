@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Ranks on one computer share its cores. If each took all of them, threads would wait for each
+// other; so each takes its share.
 #include "vtkMeshRanksNode.h"
 
 #include <algorithm>
@@ -20,6 +22,10 @@ namespace
 
 constexpr int MostCores = 1024; // of a Linux cpu_set_t
 
+/**
+ * Which computer a rank runs on, and which cores it may use there: a launcher may have bound it to
+ * some of them.
+ */
 struct Seat
 {
   std::array<char, 256> Computer{};
@@ -44,6 +50,7 @@ Seat FindSeat()
     return seat;
   }
 #endif
+  // Where cores cannot be asked for, or there are more than fit: as many as there are.
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   for (int core = 0; core < std::min(cores, MostCores); ++core)
   {
@@ -59,6 +66,7 @@ int GetShareOfCores(const Ranks& ranks)
   const Seat mine = FindSeat();
   std::bitset<MostCores> cores;
   int neighbors = 0;
+  // Ranks that are bound to different cores have all of these together.
   for (const Seat& seat : ranks.Gather(mine))
   {
     if (seat.Computer == mine.Computer)
@@ -67,6 +75,7 @@ int GetShareOfCores(const Ranks& ranks)
       ++neighbors;
     }
   }
+  // Whole cores, and at least one: ranks may be more than cores.
   return std::max(1, static_cast<int>(cores.count()) / neighbors);
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Parts of a divided mesh: taken apart, put into bytes, and made again from bytes. All arrays of
+// the user go along: what comes out must not depend on the number of ranks.
 #include "vtkMeshRanksPart.h"
 
 #include "vtkAbstractArray.h"
@@ -73,6 +75,9 @@ Part Extract(const Part& part, const std::vector<vtkIdType>& points,
   return result;
 }
 
+/**
+ * VTK packs bits: eight values in a byte.
+ */
 vtkIdType BytesOf(vtkDataArray* array)
 {
   return array->GetDataType() == VTK_BIT ? (array->GetNumberOfValues() + 7) / 8
@@ -89,7 +94,9 @@ Schema Schema::Of(vtkDataSetAttributes* data, const char* without)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
     const int attribute = data->IsArrayAnAttribute(i);
+    // Array names may be missing. An empty name stands for none.
     const std::string name = array->GetName() ? array->GetName() : "";
+    // Global ids are those of the part itself, and none of its cells is a ghost.
     if (attribute != vtkDataSetAttributes::GLOBALIDS && name != without &&
       name != vtkDataSetAttributes::GhostArrayName())
     {
@@ -102,6 +109,7 @@ Schema Schema::Of(vtkDataSetAttributes* data, const char* without)
 
 Bytes Schema::Describe() const
 {
+  // The keys of information objects are left out: each rank has those of its own arrays.
   Bytes bytes;
   const auto put = [&bytes](const char* text)
   {
@@ -109,6 +117,7 @@ Bytes Schema::Describe() const
     PutAll(bytes, Bytes(name.begin(), name.end()));
   };
   Put(bytes, static_cast<int>(this->Arrays.size()));
+  // Components may have names of their own, which a join must not lose.
   for (std::size_t i = 0; i < this->Arrays.size(); ++i)
   {
     vtkAbstractArray* array = this->Arrays[i];
@@ -162,6 +171,7 @@ vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source)
   array->SetName(source->GetName());
   array->SetNumberOfComponents(source->GetNumberOfComponents());
   array->CopyComponentNames(source);
+  // Information tells units, for example, which a copy must keep.
   if (source->HasInformation())
   {
     array->CopyInformation(source->GetInformation(), 1);
@@ -198,6 +208,7 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
 {
   const vtkIdType n = part.GetNumberOfPoints();
   std::vector<std::vector<vtkIdType>> cells(parts);
+  // Points on a cut belong to all parts that use them.
   std::vector<int> user(n, -1); // -1: none; -2: several parts
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
   {
@@ -208,6 +219,7 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
       u = u == -1 || u == target[c] ? target[c] : -2;
     }
   }
+  // Only flags are written: the copy keeps the arrays of the caller unchanged.
   Part marked = part; // arrays are shared
   std::vector<char> isUsed(n, 0);
   for (vtkIdType p = 0; p < n; ++p)
@@ -218,6 +230,7 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
   std::vector<vtkIdType> newIndex(n, -1);
   for (int k = 0; k < parts; ++k)
   {
+    // Most parts of a piece get nothing: no need to look at all points for them.
     if (k != rest && cells[k].empty())
     {
       result.push_back(Extract(marked, {}, {}, newIndex));
@@ -232,6 +245,7 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
       }
     }
     std::vector<vtkIdType> points;
+    // In the order of the part, so that ids stay ascending.
     for (vtkIdType p = 0; p < n; ++p)
     {
       if (isUsed[p] || (k == rest && user[p] == -1))
@@ -254,6 +268,7 @@ bool CanPack(vtkAbstractArray* array)
 void Pack(vtkAbstractArray* array, Bytes& bytes)
 {
   Put(bytes, static_cast<vtkTypeInt64>(array->GetNumberOfTuples()));
+  // Texts have lengths of their own; all other arrays are one block of memory.
   if (auto strings = vtkStringArray::SafeDownCast(array))
   {
     for (vtkIdType i = 0; i < strings->GetNumberOfValues(); ++i)
@@ -268,6 +283,7 @@ void Pack(vtkAbstractArray* array, Bytes& bytes)
   bytes.insert(bytes.end(), first, first + BytesOf(values));
 }
 
+// A schema says what comes: names and types are not sent with each part.
 vtkSmartPointer<vtkAbstractArray> Unpack(Reader& reader, vtkAbstractArray* like)
 {
   vtkSmartPointer<vtkAbstractArray> array = MakeLike(like);
@@ -291,6 +307,7 @@ Bytes Pack(const Part& part)
   Bytes bytes;
   if (part.CellIds.empty())
   {
+    // A part without cells has no points that anybody needs. Nothing is sent for it.
     return bytes;
   }
   PutAll(bytes, part.PointIds);
@@ -302,6 +319,7 @@ Bytes Pack(const Part& part)
   PutAll(bytes, part.Origin);
   PutAll(bytes, part.Home);
   PutAll(bytes, part.Hint);
+  // In the same order as in Unpack(), without any marks: both sides are this file.
   for (const Arrays* arrays : { &part.PointArrays, &part.CellArrays })
   {
     for (vtkAbstractArray* array : *arrays)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The plane of triangles that are divided among ranks, found by the same steps as on one rank:
+// facts are gathered, merged in the order of the ranks, and each rank draws the same conclusion.
 #include "vtkMeshRanksPlane.h"
 
 #include <algorithm>
@@ -57,6 +59,7 @@ PlaneFacts TakeFacts(Reader& reader)
 vtkMeshBridge::Plane FindPlane(const Ranks& ranks, const vtkMeshBridge::GridView& grid,
   const std::vector<vtkIdType>& triangles, vtkMeshBridge::Box& box)
 {
+  // Two rounds: the direction of the largest triangle decides which way the others are counted.
   PlaneFacts mine = vtkMeshBridge::FindPlaneFacts(grid, triangles);
   PlaneFacts all = MergeAll(ranks, mine);
   mine.Largest = all.Largest;
@@ -65,6 +68,7 @@ vtkMeshBridge::Plane FindPlane(const Ranks& ranks, const vtkMeshBridge::GridView
   box = all.Bounds;
   vtkMeshBridge::Plane plane = vtkMeshBridge::MakePlane(all);
   vtkMeshBridge::FindFarthest(grid, triangles, plane);
+  // Each rank has seen its own triangles only.
   const std::vector<double> farthest = ranks.Gather(plane.Farthest);
   plane.Farthest = *std::max_element(farthest.begin(), farthest.end());
   return plane;

@@ -59,6 +59,7 @@ std::string DescribeMissing(
       (isDefault ? ", and the input has no active " + kind + " scalars." : ".");
   }
   std::string text = bridge::DescribeMissing(name, role);
+  // The usual mistake: point and cell data are told apart in VTK, not by their names.
   if (others->HasArray(name))
   {
     text += " There is a " + other + " array of that name; convert it to " + kind + " data first.";
@@ -115,6 +116,7 @@ std::string CheckCells(vtkUnstructuredGrid* grid, const bridge::Cells& cells)
       continue;
     }
     cell->SetCellType(type);
+    // Lines and vertices may lie beside the mesh; cells of its own dimension may not.
     if (cell->GetCellDimension() >= std::max(2, cells.Dimension))
     {
       return "Cell " + std::to_string(c) + " (" + vtkCellTypes::GetClassNameFromTypeId(type) +
@@ -161,6 +163,7 @@ std::string ReadErrors(vtkDataArray* array, const bridge::Cells& cells, std::vec
 {
   for (vtkIdType cell : cells.Simplices)
   {
+    // Squares of errors are summed: a negative one would not show.
     const double error = array->GetComponent(cell, 0);
     if (!(error >= 0.0) || !std::isfinite(error))
     {
@@ -175,6 +178,9 @@ std::string ReadErrors(vtkDataArray* array, const bridge::Cells& cells, std::vec
   return {};
 }
 
+/**
+ * The solution is known to this precision only: what is smaller is no curvature.
+ */
 double RelativePrecision(vtkDataArray* array)
 {
   return array->GetDataType() == VTK_FLOAT
@@ -192,6 +198,7 @@ Tensor<3> ToGrid(const Tensor<2>& m, const bridge::Frame<2>& frame)
 {
   const Vec<3> u = frame.Axes[0], v = frame.Axes[1];
   const Vec<3> n = u.cross(v);
+  // Out of the plane nothing is known. The mean keeps the tensor positive definite and in scale.
   return m(0, 0) * u * u.transpose() + m(1, 1) * v * v.transpose() +
     m(0, 1) * (u * v.transpose() + v * u.transpose()) +
     std::sqrt(m.determinant()) * n * n.transpose();
@@ -204,6 +211,7 @@ template <int D>
 Tensor<D> InverseRoot(const Tensor<D>& m)
 {
   SymmetricEigen<D> e = SymmetricEigen<D>::of(m);
+  // As lengths, tensors can be drawn as ellipsoids (Tensor Glyph).
   e.values = e.values.cwiseSqrt().cwiseInverse();
   return e.compose();
 }
@@ -277,6 +285,7 @@ std::string AddMetric(vtkUnstructuredGrid* grid, const bridge::Cells& cells,
   const vtkIdType n = grid->GetNumberOfPoints();
   grid->GetPointData()->AddArray(
     MakeTensors("Metric", n, [&](vtkIdType p) { return ToGrid(metric.tensors[p], frame); }));
+  // One size for all points: the metric has all that differs.
   AddSizes(grid, [&metric](vtkIdType) { return metric.desiredSize; });
   if (request.ComputeSizeTensor)
   {
@@ -314,6 +323,7 @@ std::string AddIndicatorSizes(vtkUnstructuredGrid* grid, const bridge::Cells& ce
   outcome.PredictedCount = sizes.predictedCount;
   outcome.IsCountReached = sizes.isCountReached;
   outcome.IsEven = sizes.isZero;
+  // Errors of cells are norms: their squares add up.
   double sum = 0.0;
   for (double e : errors)
   {

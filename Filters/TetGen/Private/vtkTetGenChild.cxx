@@ -28,7 +28,9 @@ namespace vtkTetGenBridge
 namespace
 {
 
+// As long may an abort have to wait.
 constexpr int PollMilliseconds = 100;
+// Enough of what TetGen prints to find faults in it; the pipe is read to its end all the same.
 constexpr std::size_t KeptText = std::size_t(4) << 20;
 
 /**
@@ -93,6 +95,7 @@ bool WriteAll(int file, const void* data, std::size_t bytes)
   while (bytes > 0)
   {
     const ssize_t n = ::write(file, from, bytes);
+    // A signal of the application came in between, which is no fault.
     if (n < 0 && errno == EINTR)
     {
       continue;
@@ -222,6 +225,7 @@ bool ReadSome(int file, const Append& append)
   {
     append(buffer, static_cast<std::size_t>(n));
   }
+  // Interrupted, or nothing there yet: not the end.
   return n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
@@ -277,6 +281,7 @@ bool Unpack(const std::vector<char>& message, std::int64_t& error, Mesh& mesh)
     return false;
   }
   std::memcpy(&header, message.data(), sizeof header);
+  // The child may have died while it wrote: the lengths are checked against what has arrived.
   const std::size_t expected = sizeof header + header.Points * sizeof(double) +
     (header.Tetrahedra + header.Regions) * sizeof(int);
   if (header.Magic != HeaderMagic || message.size() != expected)
@@ -353,6 +358,7 @@ ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mes
   }
   catch (...)
   {
+    // Whatever progress() throws: no child may be left behind.
     ::kill(child, SIGKILL);
     Bury(child);
     throw;

@@ -29,6 +29,7 @@ void ExportPoints(
 {
   const vtkIdType old = input->GetNumberOfPoints();
   const auto used = static_cast<vtkIdType>(surface.PointIds.size());
+  // TetGen numbers the points of the surface first, in the order in which they were given.
   const vtkIdType fresh = static_cast<vtkIdType>(mesh.Points.size() / 3) - used;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -63,6 +64,7 @@ void ExportCells(
     for (int i = 0; i < 4; ++i)
     {
       const vtkIdType p = mesh.Tetrahedra[t + i];
+      // Behind all points of the input, also behind those that no triangle uses.
       corners[i] = p < used ? surface.PointIds[p] : old + p - used;
     }
     cells->InsertNextCell(4, corners);
@@ -99,6 +101,7 @@ void ExportPointData(vtkPolyData* input, vtkUnstructuredGrid* output)
       continue;
     }
     const int type = numbers->GetDataType();
+    // NaN where a type has it; elsewhere 0, which is a value.
     const double unknown = type == VTK_FLOAT || type == VTK_DOUBLE
       ? std::numeric_limits<double>::quiet_NaN()
       : 0.0;
@@ -134,6 +137,7 @@ double Side(const double* a, const double* b, const double* c, const double* x)
  */
 std::ptrdiff_t FindTetrahedron(const Mesh& mesh, const double* x)
 {
+  // Facet i opposite to corner i, seen from outside counter-clockwise.
   static const int faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
   // One after the other: there are few region points.
   for (std::size_t t = 0; t < mesh.Regions.size(); ++t)
@@ -141,6 +145,7 @@ std::ptrdiff_t FindTetrahedron(const Mesh& mesh, const double* x)
     const int* corners = mesh.Tetrahedra.data() + 4 * t;
     const auto isInside = [&](const int* face)
     {
+      // Also on a face: a point between two tetrahedra lies in both.
       return Side(mesh.Points.data() + 3 * corners[face[0]],
                mesh.Points.data() + 3 * corners[face[1]], mesh.Points.data() + 3 * corners[face[2]],
                x) >= 0.0;

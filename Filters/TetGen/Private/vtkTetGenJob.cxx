@@ -115,6 +115,7 @@ void Collect(const Job& job, const tetgenio& out, Mesh& mesh)
 {
   const int kept = static_cast<int>(job.Points.size() / 3);
   std::vector<int> number(out.numberofpoints, -1);
+  // Which points tetrahedra use; then all that stay get their numbers.
   const int corners = 4 * out.numberoftetrahedra;
   for (int i = 0; i < corners; ++i)
   {
@@ -162,6 +163,7 @@ int RunTetGen(const Job& job, Mesh& mesh)
   }
   catch (int error)
   {
+    // TetGen throws its error numbers.
     return error;
   }
   Collect(job, out, mesh);

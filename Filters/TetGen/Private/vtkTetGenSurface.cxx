@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Checks a surface before TetGen sees it, so that the user reads where it is wrong instead of how
-// TetGen failed.
+// TetGen failed. How it is read stands in vtkTetGenSurfaceRead.cxx.
 #include "vtkTetGenSurface.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkGenericCell.h"
-#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkStaticCellLocator.h"
-#include "vtkTriangleFilter.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +26,6 @@ namespace
 using Triangle = std::array<int, 3>;
 using Edge = std::array<int, 2>;
 
-const char* const CellIdName = "vtkTetGenCellId";
 /// A triangle whose height is below this fraction of its longest edge has no area.
 constexpr double Flat = 1e-14;
 /// Points nearer than this fraction of the box's diagonal are on the surface: TetGen's own
@@ -70,91 +67,6 @@ int NumberOfTriangles(const Surface& surface)
 
 //------------------------------------------------------------------------------
 /**
- * Ids in range, polygons of three points and more, no point twice. Returns an error, or "".
- */
-std::string CheckCells(vtkPolyData* input)
-{
-  vtkIdType cell = input->GetNumberOfVerts() + input->GetNumberOfLines();
-  for (vtkCellArray* cells : { input->GetPolys(), input->GetStrips() })
-  {
-    const bool isStrip = cells == input->GetStrips();
-    for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i, ++cell)
-    {
-      vtkIdType size;
-      const vtkIdType* ids;
-      cells->GetCellAtId(i, size, ids);
-      const std::string name = "Cell " + std::to_string(cell);
-      if (size < 3)
-      {
-        return name + " of the surface has " + std::to_string(size) + " points only.";
-      }
-      std::vector<vtkIdType> sorted(ids, ids + size);
-      std::sort(sorted.begin(), sorted.end());
-      if (sorted.front() < 0 || sorted.back() >= input->GetNumberOfPoints())
-      {
-        const vtkIdType wrong = sorted.front() < 0 ? sorted.front() : sorted.back();
-        return name + " of the surface uses point " + std::to_string(wrong) + ", but there are " +
-          std::to_string(input->GetNumberOfPoints()) + " points.";
-      }
-      const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-      if (!isStrip && twice != sorted.end()) // a strip may return to a point
-      {
-        return name + " of the surface has point " + std::to_string(*twice) + " twice.";
-      }
-    }
-  }
-  return {};
-}
-
-/**
- * A polygon of n points has n - 2 triangles; vtkTriangleFilter returns fewer if it fails.
- */
-std::string CheckTriangulation(vtkPolyData* input, const std::vector<vtkIdType>& cellIds)
-{
-  const vtkIdType first = input->GetNumberOfVerts() + input->GetNumberOfLines();
-  std::vector<vtkIdType> found(input->GetNumberOfPolys(), 0);
-  for (const vtkIdType cell : cellIds)
-  {
-    if (cell - first < input->GetNumberOfPolys())
-    {
-      ++found[cell - first];
-    }
-  }
-  for (vtkIdType i = 0; i < input->GetNumberOfPolys(); ++i)
-  {
-    const vtkIdType size = input->GetPolys()->GetCellSize(i);
-    if (found[i] != size - 2)
-    {
-      return "Cell " + std::to_string(first + i) + " of the surface, a polygon of " +
-        std::to_string(size) + " points, cannot be cut into triangles.";
-    }
-  }
-  return {};
-}
-
-/**
- * `input` with its ids as cell data, cut into triangles.
- */
-vtkSmartPointer<vtkPolyData> CutIntoTriangles(vtkPolyData* input)
-{
-  vtkNew<vtkPolyData> numbered;
-  numbered->CopyStructure(input);
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName(CellIdName);
-  ids->SetNumberOfTuples(input->GetNumberOfCells());
-  std::iota(ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfTuples(), vtkIdType(0));
-  // Cell data go along: each triangle knows the cell that it was cut from.
-  numbered->GetCellData()->AddArray(ids);
-  vtkNew<vtkTriangleFilter> cut;
-  cut->PassVertsOff();
-  cut->PassLinesOff();
-  cut->SetInputData(numbered);
-  cut->Update();
-  return cut->GetOutput();
-}
-
-//------------------------------------------------------------------------------
-/**
  * TetGen cannot start from points in one plane.
  */
 std::string CheckCoordinates(const Surface& surface)
@@ -176,6 +88,7 @@ std::string CheckCoordinates(const Surface& surface)
       upper[i] = std::max(upper[i], x[i]);
     }
   }
+  // Flat along an axis only: a tilted plane does not show here.
   for (int i = 0; i < 3; ++i)
   {
     if (lower[i] == upper[i])
@@ -309,67 +222,9 @@ std::string CheckClosed(const Surface& surface)
 } // namespace
 
 //------------------------------------------------------------------------------
-std::string ReadSurface(vtkPolyData* input, Surface& surface)
-{
-  if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0)
-  {
-    return "The input has no facets: no triangle, polygon or strip among its " +
-      std::to_string(input->GetNumberOfCells()) + " cells.";
-  }
-  const std::string error = CheckCells(input);
-  if (!error.empty())
-  {
-    return error;
-  }
-  const vtkSmartPointer<vtkPolyData> cut = CutIntoTriangles(input);
-  vtkCellArray* triangles = cut->GetPolys();
-  auto cellIds = vtkIdTypeArray::SafeDownCast(cut->GetCellData()->GetArray(CellIdName));
-  constexpr vtkIdType most = std::numeric_limits<int>::max() / 4;
-  if (triangles->GetNumberOfCells() > most || input->GetNumberOfPoints() > most)
-  {
-    return "The surface is too large for TetGen, which counts in 32 bits.";
-  }
-
-  // Used points, in the order of the input.
-  std::vector<int> number(input->GetNumberOfPoints(), -1);
-  for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i)
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    triangles->GetCellAtId(i, size, ids);
-    for (int k = 0; k < 3; ++k)
-    {
-      number[ids[k]] = 0;
-    }
-    // For messages, which name cells of the input.
-    surface.CellIds.push_back(cellIds->GetValue(i));
-  }
-  for (vtkIdType p = 0; p < input->GetNumberOfPoints(); ++p)
-  {
-    if (number[p] == 0)
-    {
-      number[p] = static_cast<int>(surface.PointIds.size());
-      surface.PointIds.push_back(p);
-      double x[3];
-      input->GetPoint(p, x);
-      surface.Points.insert(surface.Points.end(), x, x + 3);
-    }
-  }
-  for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i)
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    triangles->GetCellAtId(i, size, ids);
-    for (int k = 0; k < 3; ++k)
-    {
-      surface.Triangles.push_back(number[ids[k]]);
-    }
-  }
-  return CheckTriangulation(input, surface.CellIds);
-}
-
 std::string CheckSurface(const Surface& surface)
 {
+  // Coordinates first: all others compute with them.
   for (const auto check : { CheckCoordinates, CheckDuplicatePoints, CheckTriangles, CheckClosed })
   {
     const std::string error = check(surface);
@@ -401,6 +256,7 @@ std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<d
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(data);
   locator->BuildLocator();
+  // Relative to the box, as TetGen's tolerance is.
   const double tolerance2 = std::pow(OnSurface * data->GetLength(), 2);
   std::vector<double> off;
   vtkNew<vtkGenericCell> cell;
@@ -441,6 +297,7 @@ std::vector<std::pair<int, int>> ParseIntersections(const std::string& text)
 {
   // Lines of TetGen: "  Facet #41 intersects facet #50 at triangles:",
   // "  Facet #1 duplicates facet #49 ..."
+  // Both kinds of fault have this form, whatever the verb.
   std::vector<std::pair<int, int>> pairs;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
@@ -460,6 +317,7 @@ std::vector<std::pair<int, int>> ParseIntersections(const std::string& text)
 std::string DescribeIntersections(
   const Surface& surface, const std::vector<std::pair<int, int>>& pairs)
 {
+  // A surface that is wrong once is often wrong in many places: a few show which kind it is.
   constexpr std::size_t shown = 3;
   std::string text = "The surface intersects itself: " + std::to_string(pairs.size()) +
     " pairs of facets meet elsewhere than in common edges and points";

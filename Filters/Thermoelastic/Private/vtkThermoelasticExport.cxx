@@ -31,6 +31,7 @@ using vtkMeshBridge::UsedBySimplex;
 namespace
 {
 
+// For points and cells that have no value: 0 would look like a result.
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 
 Vec<3> VectorToGrid(const Frame<3>&, const Vec<3>& u) { return u; }
@@ -48,6 +49,7 @@ Tensor<3> StressToGrid(const Frame<2>& frame, const Stress<2>& s)
   Tensor<3> axes;
   axes.col(0) = frame.Axes[0];
   axes.col(1) = frame.Axes[1];
+  // The third axis is the normal: out of the plane there may be stress, too.
   axes.col(2) = frame.Axes[0].cross(frame.Axes[1]);
   return axes * meshopt::fem::toTensor<2>(s) * axes.transpose();
 }
@@ -85,6 +87,7 @@ void ExportVectors(const Model<D>& model, const std::vector<Vec<D>>& vectors, co
   vtkUnstructuredGrid* output)
 {
   const vtkIdType n = output->GetNumberOfPoints();
+  // 0, not NaN, where no element is: such points can still be warped.
   vtkDoubleArray* array = AddArray(output->GetPointData(), name, 3, n, 0.0);
   for (vtkIdType p = 0; p < n; ++p)
   {
@@ -154,6 +157,7 @@ void ExportSolution(const Model<D>& model, const Solution<D>& solution, vtkUnstr
       StressToGrid(model.Frame, solution.elementStress[c]));
   }
   ExportCellValues(model, solution.strainEnergyDensity, "StrainEnergyDensity", output);
+  // Without recovery there are no nodal stresses, and no estimate that needs them.
   if (!solution.stress.empty())
   {
     ExportPointStress(model, solution.stress, output);

@@ -91,6 +91,7 @@ std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
     bool isLoaded = true;
     for (int k = 0; k < D; ++k)
     {
+      // A zero at one corner: the facet is beside the loaded part, not in it.
       ids[k] = facet[k];
       isLoaded &= !IsZero(array, ids[k]);
       if (!IsFinite(array, ids[k]))
@@ -142,6 +143,7 @@ std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
     const vtkIdType* ids = nullptr;
     model.Grid->GetCellPoints(c, n, ids);
     const int type = model.Grid->GetCellType(c);
+    // Marks of the right dimension; other cells of the grid are no loads.
     if (type != (D == 3 ? VTK_TRIANGLE : VTK_LINE) || n != D || IsZero(array, c))
     {
       continue;
@@ -160,6 +162,7 @@ std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
       return title + " has nothing to act on: the cell is no facet of the surface of the " +
         (D == 3 ? "tetrahedra." : "triangles.");
     }
+    // One value for the facet, the same at all its corners.
     std::array<vtkIdType, D> same;
     same.fill(c);
     AddLoad<D>(model, found->second, array, same);
@@ -174,6 +177,7 @@ std::string SetLoads(const Request& request, Model<D>& model)
 {
   const bool hasPoints = model.Arrays[TractionArray] != nullptr;
   const bool hasFacets = model.Arrays[FacetTractionArray] != nullptr;
+  // No loads: an empty list spares the core all sums.
   if (request.SurfacePressure == 0.0 && !hasPoints && !hasFacets)
   {
     return {};
@@ -185,6 +189,7 @@ std::string SetLoads(const Request& request, Model<D>& model)
   model.Problem.forces.assign(
     static_cast<std::size_t>(model.Grid->GetNumberOfPoints()), Vec<D>::Zero());
   const std::vector<Facet<D>> surface = meshopt::fem::surfaceFacets(model.Mesh);
+  // On the whole surface, inner walls of cavities included.
   for (const Facet<D>& facet : surface)
   {
     std::array<double, D> pressure;

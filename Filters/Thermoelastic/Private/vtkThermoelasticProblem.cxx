@@ -55,6 +55,7 @@ std::string SetTemperature(const Request& request, Model<D>& model)
       DefaultName(TemperatureArray) +
       "'. Choose another array, or let the temperature be radial or uniform.";
   }
+  // For the uniform mode; the others overwrite it.
   temperature.assign(static_cast<std::size_t>(n), request.UniformTemperature);
   for (vtkIdType p = 0; p < n; ++p)
   {
@@ -86,6 +87,7 @@ void SetMaterials(const Request& request, Model<D>& model)
   model.Problem.planeState = request.PlaneState;
   if (!arrays[YoungsModulusArray] && !arrays[PoissonsRatioArray] && !arrays[ThermalExpansionArray])
   {
+    // One for all: the core then stores one, and no list with the length of the mesh.
     return;
   }
   materials.assign(model.Cells.Simplices.size(), request.Material);
@@ -133,6 +135,7 @@ std::string SetConstraints(Model<D>& model)
       "'), but no constraint array ('" + DefaultName(ConstraintArray) +
       "') that says which components they are prescribed for.";
   }
+  // A mask without displacements holds points where they are.
   for (vtkIdType p = 0; p < model.Grid->GetNumberOfPoints() && mask; ++p)
   {
     bool held[3];
@@ -153,6 +156,7 @@ std::string SetConstraints(Model<D>& model)
         "two "
         "axes: hold all three, or none.";
     }
+    // In a plane across axes all components are held: those of the core are then given, too.
     for (int i = 0; i < D; ++i)
     {
       if (!IsAligned(model.Frame) || held[GridAxis(model.Frame, i)])
@@ -186,12 +190,14 @@ std::string SetGeneralizedPlaneStrain(const Request& request, Model<D>& model, d
     : meshopt::fem::freeAxialStrain(model.Mesh, model.Problem);
   for (int i = 0; i < D; ++i)
   {
+    // The axis lies in the mesh: its ends are held apart by the strain.
     if (GridAxis(model.Frame, i) == request.Axis)
     {
       meshopt::fem::constrainEnds(model.Mesh, i, axialStrain, EndTolerance, model.Problem);
       return {};
     }
   }
+  // Otherwise the axis is the normal of the plane.
   if (request.PlaneState == meshopt::fem::PlaneState::PlaneStress)
   {
     return std::string("Generalized plane strain along ") + static_cast<char>('x' + request.Axis) +

@@ -40,6 +40,7 @@ int DimensionOf(int type)
 std::string CheckCellTypes(vtkUnstructuredGrid* grid, int dimension)
 {
   const int simplex = dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
+  // -1: not asked yet.
   std::vector<int> dimensions(VTK_NUMBER_OF_CELL_TYPES, -1);
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
@@ -72,6 +73,7 @@ std::string BuildMesh(Model<D>& model)
   {
     return error;
   }
+  // Regions matter for the recovery of stress, which may jump between them.
   meshopt::MeshInput<D> input = bridge::ImportGeometry(
     model.Grid, model.Cells.Simplices, model.Frame);
   input.regions = bridge::ReadRegions(model.Arrays[RegionArray], model.Cells);
@@ -139,6 +141,7 @@ std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnst
 std::string SolveGrid(vtkUnstructuredGrid* input, const Request& request,
   vtkUnstructuredGrid* output, vtkTable* history, Outcome& outcome)
 {
+  // A process without a piece: its output is empty, and nothing is wrong.
   if (input->GetNumberOfCells() == 0)
   {
     output->ShallowCopy(input);

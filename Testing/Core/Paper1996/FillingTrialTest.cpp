@@ -51,6 +51,7 @@ struct Scene
       if (this->mesh.isAlive(c))
       {
         ElementClusters<D> clusters;
+        this->memory.resize(this->mesh); // f may have added cells and points
         clusters.gather(this->editor, c, this->memory, 0);
         clusters.forEach(this->mesh,
           [&](const Part<D>& part, Filling kind, const Apex<D>& apex)

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// After the rounds, cells go back to the ranks that they came from.
+#include "vtkMeshOptimizeRounds.h"
+
+#include "vtkMeshRanksBand.h"
+#include "vtkMeshRanksCheck.h"
+
+#include <algorithm>
+
+namespace vtkMeshOptimizeBridge
+{
+
+using namespace vtkMeshRanks;
+
+namespace
+{
+
+/// A rank with more than this times the mean does not get back its cells.
+constexpr double MostOfMean = 1.2;
+
+/**
+ * The target of each cell that is not at home and may go there; -1: it stays.
+ */
+std::vector<int> FindHomes(const Ranks& ranks, const Part& part, vtkIdType cells)
+{
+  std::vector<vtkIdType> counts(ranks.GetCount(), 0);
+  // A cell's home is that of its ancestor, so that new cells go where their parents came from.
+  for (const int home : part.Home)
+  {
+    ++counts[home];
+  }
+  std::vector<Bytes> out(ranks.GetCount());
+  for (int r = 0; r < ranks.GetCount(); ++r)
+  {
+    Put(out[r], counts[r]);
+  }
+  vtkIdType here = 0; // if all came home
+  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+  {
+    here += Reader(bytes).Take<vtkIdType>();
+  }
+  const std::vector<vtkIdType> loads = ranks.Gather(here);
+  const double most = MostOfMean * static_cast<double>(cells) / ranks.GetCount();
+  std::vector<int> target(part.Home.size(), -1);
+  for (std::size_t c = 0; c < target.size(); ++c)
+  {
+    const int home = part.Home[c];
+    const bool isFull = static_cast<double>(loads[home]) > most;
+    target[c] = home == ranks.GetRank() || isFull ? -1 : home;
+  }
+  return target;
+}
+
+} // namespace
+
+// So that cells are where the caller had them, as far as ranks do not get too many.
+void Rounds::SendHome()
+{
+  Part before;
+  bool isSent = false;
+  const std::string fault = this->All.Together(
+    [&]()
+    {
+      const std::vector<int> target = FindHomes(this->All, this->Mine, this->Result.NumberOfCells);
+      const bool goes = std::any_of(target.begin(), target.end(), [](int t) { return t >= 0; });
+      if (this->All.IsAny(goes))
+      {
+        before = this->Mine; // shares the arrays
+        isSent = true;
+        const Signature whole = this->Sign();
+        std::vector<char> isMoved;
+        Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
+        const std::string problem = Compare(whole, this->Sign(), true);
+        this->All.Agree(problem.empty() ? "" : "After cells have gone home " + problem + ".");
+      }
+      return std::string();
+    });
+  if (!fault.empty())
+  {
+    if (isSent)
+    {
+      this->Mine = std::move(before);
+    }
+    this->Result.Fault = this->Result.Fault.empty() ? fault : this->Result.Fault;
+  }
+}
+
+} // namespace vtkMeshOptimizeBridge
