@@ -27,8 +27,9 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
     const double now = this->worst();
     again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
       now > before * (1.0 + WideGain) && this->isFarBelowBound();
-    // Where the target is out of reach, the best effort does first just what the usual one does: it
-    // never ends below it.
+    // Where the target is out of reach, the best effort does first what the usual one does: it then
+    // ends no lower. (Only caps of edges may differ, by their rounding: they are listed up to
+    // another limit.)
     const bool isFinal = isLast || (!(target < this->options_.targetQuality) && now < target);
     this->reserve_ = isFinal && !again ? 0 : this->reserve_;
     const bool many = !this->slides() &&
