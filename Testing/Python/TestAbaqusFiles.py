@@ -4,12 +4,10 @@
 Skipped (77) where meshio is not installed.
 """
 import os
-import pathlib
-import sys
-import tempfile
 import warnings
 
 import numpy as np
+from each_test import run_each
 from TestMeshioFiles import GROUPS, POINTS, N, check_groups, volume  # which is skipped without meshio
 
 import meshoptimize
@@ -115,9 +113,4 @@ def test_abaqus_files_that_cannot_be_read(folder):
 
 if __name__ == "__main__":
     os.environ.setdefault("NO_COLOR", "1")
-    for name, test in list(globals().items()):
-        if name.startswith("test_"):
-            print(name, flush=True)
-            with tempfile.TemporaryDirectory() as folder:
-                test(pathlib.Path(folder))
-    sys.exit(0)
+    run_each(globals())

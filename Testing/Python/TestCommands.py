@@ -10,11 +10,11 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
 import meshoptimize
 import numpy as np
+from each_test import run_each
 
 PELLET = pathlib.Path(os.environ["MESHOPTIMIZE_DATA"]) / "crack40.vtu"
 FOLDER = sys.argv[1] if len(sys.argv) > 1 else None
@@ -181,9 +181,4 @@ def look(path, width):
 
 
 if __name__ == "__main__":
-    for name, test in list(globals().items()):
-        if name.startswith("test_"):
-            print(name, flush=True)
-            with tempfile.TemporaryDirectory() as folder:
-                test(pathlib.Path(folder))
-    sys.exit(0)
+    run_each(globals())

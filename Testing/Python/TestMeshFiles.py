@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """meshoptimize.read() and write(): VTK's formats, and what is wrong with files."""
 import os
-import pathlib
 import subprocess
 import sys
-import tempfile
 
 import meshoptimize
 import numpy as np
+from each_test import run_each
 from meshoptimize import _files
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
@@ -91,9 +90,4 @@ def test_without_meshio(folder):
 
 
 if __name__ == "__main__":
-    for name, test in list(globals().items()):
-        if name.startswith("test_"):
-            print(name, flush=True)
-            with tempfile.TemporaryDirectory() as folder:
-                test(pathlib.Path(folder))
-    sys.exit(0)
+    run_each(globals())

@@ -5,12 +5,11 @@ Skipped (77) where meshio is not installed.
 """
 import itertools
 import os
-import pathlib
 import sys
-import tempfile
 import warnings
 
 import numpy as np
+from each_test import run_each
 
 try:
     import meshio
@@ -271,9 +270,4 @@ def test_files_that_cannot_be_read(folder):
 
 if __name__ == "__main__":
     os.environ.setdefault("NO_COLOR", "1")
-    for name, test in list(globals().items()):
-        if name.startswith("test_"):
-            print(name, flush=True)
-            with tempfile.TemporaryDirectory() as folder:
-                test(pathlib.Path(folder))
-    sys.exit(0)
+    run_each(globals())

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Several grids in one call: composite data of VTK come back as they are, and so do files of blocks and of pieces."""
 import os
-import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 import warnings
 
 import meshoptimize
 import numpy as np
+from each_test import run_each
 from meshoptimize._grids import grids_of, names_of_leaves, simplices, vtk_points
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import (vtkCompositeDataSet, vtkMultiBlockDataSet, vtkPartitionedDataSet,
@@ -221,9 +220,4 @@ def test_picture(folder):
 
 
 if __name__ == "__main__":
-    for name, test in list(globals().items()):
-        if name.startswith("test_"):
-            print(name, flush=True)
-            with tempfile.TemporaryDirectory() as folder:
-                test(pathlib.Path(folder))
-    sys.exit(0)
+    run_each(globals())

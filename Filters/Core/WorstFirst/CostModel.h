@@ -26,7 +26,7 @@ namespace worstfirst
 class CostModel
 {
 public:
-  /// The operations that insert nodes: they cost a hundred times a swap.
+  /// The operations that insert nodes: a try costs fifty swaps and more.
   enum Kind
   {
     Look,
@@ -100,8 +100,8 @@ public:
   }
 
 private:
-  // All found by trying: Delaunay meshes of random points and surfaces of CGAL (hard.py). With
-  // half of them the worst cell ends lower on some; twice as much gains hardly anything.
+  // All found by trying, on Delaunay meshes of random points and surfaces of CGAL (hard.py): what
+  // lowers the time most before the worst cells end lower.
   /// Evaluations for each cell lifted, by effort. Where cells are not stuck, it is a few thousand.
   static constexpr double MostPerLifted[] = { 2e4, 5e4, 5e4 };
   /// Evaluations for each cell of the mesh until the worst must have risen, by effort; and at least
