@@ -24,6 +24,7 @@
 #include "Edit/SurfaceChanges.h"
 #include "Edit/Switches.h"
 #include "Mesh/CavityFit.h"
+#include "Reposition/TrustRegion.h"
 #include "Surface/Surface.h"
 
 #include <array>
@@ -89,11 +90,16 @@ public:
   /// are bad, most of their tries are in vain.
   void setThorough(bool on) { this->isThorough_ = on; }
   bool isThorough() const { return this->isThorough_; }
-  void setGain(double gain)
+  /// The least gain of a change, and how many steps the search for the best place of a node may
+  /// take. With others, what has failed may succeed.
+  void setGain(double gain, int steps = StarSteps)
   {
-    this->failuresSince_ = gain == this->gain_ ? this->failuresSince_ : this->editor_->clock();
+    const bool isSame = gain == this->gain_ && steps == this->steps_;
+    this->failuresSince_ = isSame ? this->failuresSince_ : this->editor_->clock();
     this->gain_ = gain;
+    this->steps_ = steps;
   }
+  int steps() const { return this->steps_; }
   /// Sets the guard: no change may add more bad cells than it removes. Otherwise many cells that
   /// are hardly better would replace one that is worst. A cell under `quality` counts once, under
   /// two thirds of it twice, under one third three times. -1: no guard. Insertions are always
@@ -230,9 +236,10 @@ private:
   const Surface<D>* surface_;
   const Caps<D>* caps_;
   double target_ = 1.0, gain_ = 1e-3;
+  int steps_ = StarSteps;
   double guard_ = -1.0;
   bool guardsAll_ = false, stampsStars_ = true, isThorough_ = true;
-  std::uint32_t failuresSince_ = 0; ///< older failures at a node were with another gain
+  std::uint32_t failuresSince_ = 0; ///< older failures at a node were with another gain or steps
   long bad_ = 0;                    ///< badness() of all cells made, minus that of those removed
   bool tangled_ = false, inverted_ = false;
   const std::vector<std::uint8_t>* pinched_ = nullptr; // only if tangled_

@@ -80,7 +80,8 @@ private:
       return this->slide(judge, v);
     }
     Vec<D> x = mesh.point(v);
-    const double now = this->problem_.maximize(x, judge.enough(old), 0.5 * judge.gain(old));
+    const double now = this->problem_.maximize(
+      x, judge.enough(old), 0.5 * judge.gain(old), judge.steps());
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
     // the node must also lie among its neighbours.
     const bool better = now > judge.required(old) && (now > 0.0 || this->problem_.isAmidPoints(x));

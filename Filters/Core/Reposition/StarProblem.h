@@ -124,7 +124,7 @@ public:
 
   /// Moves x to a better place; returns the worst quality there. Stops when that is at least
   /// `enough`, or when a step promises less than `gain`. Afterwards values() belong to x.
-  double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = 20)
+  double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = StarSteps)
   {
     Ascent ascent{ *this, x };
     const double worst = ascend(

@@ -21,6 +21,9 @@ struct TrustRegion
   static constexpr double FirstShare = 0.1;
 };
 
+/// The most steps of a search for one node, where nothing else is said: it converges long before.
+inline constexpr int StarSteps = 20;
+
 /// Raises `worst` in at most `maximumSteps` steps; returns what is reached. Stops when that is at
 /// least `enough`, or when no step promises to gain more than `gain`. The problem has
 ///  - linearize(worst): at the place where it is;

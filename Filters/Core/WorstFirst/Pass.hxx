@@ -106,7 +106,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
     Judge<D, Shape>& judge = w.improver.judge();
     judge.growth = share;
     judge.setTangled(this->tangled_, this->inverted_, this->pinched_);
-    judge.setGain(this->gain_);
+    this->demand(judge, task, false);
     judge.setTarget(task.target);
     judge.setThorough(!this->model_.plain || (this->guard_ && task.below <= few));
     judge.setGuard(guard, this->model_.weights || many);
@@ -118,6 +118,17 @@ void Schedule<D, Shape>::instruct(const Task& task)
     w.looks = looks;
     w.isPatient = true;
   }
+}
+
+/// What a change of the pass must gain at least. Where many cells are bad, small gains cost more
+/// than they help: other changes around the same node follow, and undo them.
+template <int D, class Shape>
+void Schedule<D, Shape>::demand(Judge<D, Shape>& judge, const Task& task, bool creeps) const
+{
+  const bool isThrifty = this->isThrifty(task.target, task.below);
+  const double thrifty = ThriftyGain[static_cast<int>(this->options_.effort)];
+  const double least = std::max(isThrifty ? thrifty : 0.0, creeps ? CoarseGain : 0.0);
+  judge.setGain(std::max(this->gain_, least), isThrifty ? ThriftySteps : StarSteps);
 }
 
 /// Collects the counts of the workers and the growth that they have left.
@@ -212,7 +223,7 @@ void Schedule<D, Shape>::watch(Worker& w, const Task& task)
   }
   if (w.creeps || w.tries > Creeping * w.given)
   {
-    w.improver.judge().setGain(std::max(this->gain_, CoarseGain));
+    this->demand(w.improver.judge(), task, true);
   }
 }
 

@@ -81,6 +81,7 @@ private:
   void drain(const Task& task, const std::vector<Index>& bad, int mostChunks);
   int numberOfChunks(std::size_t numberOfBadCells, int most) const;
   void instruct(const Task& task);
+  void demand(Judge<D, Shape>& judge, const Task& task, bool creeps) const;
   void gather();
   void work(Worker& worker, const Task& task);
   int patientLevel(Worker& worker, const Task& task, int level) const;
