@@ -61,43 +61,45 @@ struct ApexProblem
   /// soon as `enough` is reached.
   double maximize(Point& p, double enough) const
   {
-    double z = std::cbrt(p[N - 1]);
+    double z = p[N - 1];
     double s = this->sum(p);
+    // Cubes are compared, since roots take long. The margin is for rounding: what is returned is
+    // then not below `enough`.
+    const double most = cubed(enough) * (1.0 + 1e-12);
     double lastRest = 1e30;
     for (int iteration = 0; iteration < 60; ++iteration)
     {
-      // The maximum of a quotient z / s is where z - lambda s has its maximum 0 (Dinkelbach).
-      const double lambda = z / s;
-      if (lambda >= enough)
+      if (z >= most * cubed(s))
       {
-        return lambda;
+        return std::cbrt(z) / s;
       }
-      Point g;
+      // The maximum of a quotient z^(1/3) / s is where z^(1/3) - lambda s has its maximum 0
+      // (Dinkelbach). All of that is in units of lambda here: the step does not depend on it.
+      Point slope;
       Matrix h;
-      this->derivatives(p, g, h);
-      Point slope = -lambda * g;
-      slope[N - 1] += z / (3.0 * p[N - 1]);
+      this->derivatives(p, slope, h);
+      slope = -slope;
+      slope[N - 1] += s / (3.0 * z);
       // z^(1/3) - lambda P is concave and 0 at p, so its maximum is at most the slope times a
       // distance. The best node is nearer to the given ones than their perimeter, and so is p.
       const double rest = slope.norm() * 2.0 * this->base / s;
-      if (rest <= 1e-13 * lambda)
+      if (rest <= 1e-13)
       {
-        return lambda + rest;
+        return std::cbrt(z) / s * (1.0 + rest);
       }
       // One Newton step; the Hessian is definite, since the function is strictly concave.
-      h *= lambda;
-      h(N - 1, N - 1) += 2.0 * z / (9.0 * p[N - 1] * p[N - 1]);
+      h(N - 1, N - 1) += 2.0 * s / (9.0 * z * z);
       const Point step = h.llt().solve(slope);
       if (!this->advance(step, p, z, s))
       {
-        // Rounding hides any further gain of z / s; steps may still make the slope smaller.
+        // Rounding hides any further gain of z / s^3; steps may still make the slope smaller.
         if (rest > 0.5 * lastRest || p[N - 1] + step[N - 1] <= 0.0)
         {
-          return lambda + std::min(rest, lastRest);
+          return std::cbrt(z) / s * (1.0 + std::min(rest, lastRest));
         }
         lastRest = rest;
         p += step;
-        z = std::cbrt(p[N - 1]);
+        z = p[N - 1];
         s = this->sum(p);
       }
     }
@@ -106,21 +108,21 @@ struct ApexProblem
   }
 
 private:
-  /// Takes the longest of the steps 1, 1/2, 1/4 ... that raises z / s. False if none does.
+  /// Takes the longest of the steps 1, 1/2, 1/4 ... that raises z / s^3. False if none does.
   bool advance(const Point& step, Point& p, double& z, double& s) const
   {
     double t = 1.0;
     for (int halving = 0; halving < 40; ++halving, t *= 0.5)
     {
       const Point next = p + t * step;
-      // Stay on the positive side of the facet, and well off its plane, where cbrt() is steep.
+      // Stay on the positive side of the facet, and well off its plane, where the root is steep.
       if (next[N - 1] < 0.1 * p[N - 1])
       {
         continue;
       }
-      const double zNext = std::cbrt(next[N - 1]);
+      const double zNext = next[N - 1];
       const double sNext = this->sum(next);
-      if (zNext * s > z * sNext)
+      if (zNext * cubed(s) > z * cubed(sNext))
       {
         p = next;
         z = zNext;
