@@ -31,9 +31,9 @@ inline constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of the borders, in tur
 inline constexpr long HeldUpPart = 3;
 /// A stage ends with a pass in which fewer than 1 in HardlyAny of the bad cells gain.
 inline constexpr long HardlyAny = 2000;
-/// Where the cost model rules: the least gain of a change, by effort, and the most steps of a search
-/// for the place of one node. The first steps bring most, and the node is tried again when its
-/// neighbours have moved.
+/// Where the cost model rules: the least gain of a change, by effort, and the most steps of a
+/// search for the place of one node. The first steps bring most, and the node is tried again when
+/// its neighbours have moved.
 inline constexpr double ThriftyGain[] = { 2e-2, 1e-2, 1e-2 };
 inline constexpr int ThriftySteps = 4;
 /// How many of the worst cells are polished together: at first, and at most.
@@ -48,7 +48,7 @@ inline constexpr double WideGain = 0.02;
 inline constexpr int PolishCycles[] = { 2, 8, 8 };
 /// Up to the target, so many look-aheads are spent on polishing in a run: 1 for so many cells, but
 /// at least FewestLooks. Each takes as long as a pass over thousands of cells.
-inline constexpr Index CellsPerLook = 150;
+inline constexpr Index CellsPerLook = 75;
 inline constexpr Index FewestLooks = 40;
 inline constexpr int PolishRounds = 50;
 inline constexpr double RoundGain =

@@ -140,6 +140,19 @@ TEST(Judge, AFailureCountsUntilSomethingChanges)
   EXPECT_TRUE(b.judge.failsAgain(11, 7));
 }
 
+TEST(Judge, AFailureInAFewStepsDoesNotCountForMore)
+{
+  Bench<2> b(diamond());
+  b.judge.setGain(1e-2, 4);
+  EXPECT_EQ(b.judge.steps(), 4);
+  b.editor.setClock(10);
+  b.judge.setGain(1e-2, 4); // as it is
+  EXPECT_TRUE(b.judge.failsAgain(8, 7));
+  b.judge.setGain(1e-2);
+  EXPECT_FALSE(b.judge.failsAgain(8, 7));
+  EXPECT_EQ(b.judge.steps(), StarSteps);
+}
+
 TEST(Judge, MeasuringEndsAtTheFirstCellThatIsNoBetter)
 {
   Bench<2> b(diamond());
