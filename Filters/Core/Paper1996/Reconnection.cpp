@@ -89,6 +89,7 @@ void Reconnection<D, Shape>::touch(
   const std::uint32_t now = ++this->memory_.time;
   const auto touchPoint = [&](Index p)
   {
+    // Each point once, though many of the cells share it.
     if (this->memory_.changed[p] != now && this->mesh_.isPointAlive(p))
     {
       this->memory_.touch(p);
