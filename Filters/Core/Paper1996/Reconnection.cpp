@@ -275,6 +275,8 @@ bool Reconnection<D, Shape>::iterate(
 {
   for (;;)
   {
+    // Cells that are not fresh leave the queue. touch() puts them back when something changes
+    // around them.
     const Index worst = this->queue_.worst([&](Index c) { return this->isFresh(c); });
     if (worst == None)
     {
