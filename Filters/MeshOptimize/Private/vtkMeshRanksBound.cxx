@@ -140,6 +140,7 @@ void AddSidesOfOthers(
     for (Reader reader(bytes); !reader.IsAtEnd();)
     {
       sides.push_back(reader.Take<Side>());
+      // It belongs to no cell here: it completes the angles, and is counted where its cell is.
       sides.back().Cell = -1;
     }
   }

@@ -241,6 +241,7 @@ std::string CheckSurface(const Surface& surface)
 std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<double>& points)
 {
   vtkNew<vtkPoints> corners;
+  // Rounded to floats, the surface would move by more than the tolerance.
   corners->SetDataTypeToDouble();
   for (std::size_t p = 0; p < surface.PointIds.size(); ++p)
   {
