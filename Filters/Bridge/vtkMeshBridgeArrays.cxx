@@ -85,6 +85,8 @@ vtkAbstractArray* FindArray(
   {
     attributes = grid->GetCellData();
   }
+  // The name by default is looked up only if nothing is chosen: a choice that is not there is an
+  // error.
   if (!IsWanted(filter, index))
   {
     return role.DefaultName ? attributes->GetAbstractArray(role.DefaultName) : nullptr;
@@ -103,6 +105,7 @@ std::string CheckArray(vtkAbstractArray* found, const ArrayRole& role)
   const std::string title = std::string("The ") + role.Noun + " '" + (name ? name : "(no name)") +
     "' has ";
   vtkDataArray* array = vtkDataArray::SafeDownCast(found);
+  // Also arrays of strings: found by name, but no numbers.
   if (!array || (role.IsInteger && !IsInteger(array)))
   {
     return title + "values of type " + found->GetDataTypeAsString() + "; " +

@@ -203,6 +203,7 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;
     grid->GetCellPoints(c, n, ids);
+    // Also of cells that pass through: their points are looked up by these ids later.
     error = CheckPointIds(grid, c, n, ids);
     const int type = grid->GetCellType(c);
     if (error.empty() && type == VTK_POLYHEDRON)

@@ -15,7 +15,8 @@
  * that vtkGhostType marks as duplicate, refined or hidden.
  *
  * <b>What is kept.</b> The surface, bit for bit (in 2D: the boundary edges); the faces between
- * regions, see SetRegionArray(); the points of SetFixedPointArray(). The worst quality never falls,
+ * regions, see SetRegionArray(); the points of SetFixedPointArray(). With SetBoundaryMode() Slide
+ * the first two take part, within a tolerance. The worst quality never falls,
  * so no cell becomes inverted if none was. Inverted and flat cells of the input are repaired where
  * the surface allows it; a warning names those that are left, and the reason. (Their number may
  * rise if the worst becomes less inverted.) Cells that are numbered against their neighbours are
@@ -36,22 +37,28 @@
  * - field data: kept; added are `WorstQualityBefore`, `WorstQualityAfter`, `MeanQualityBefore`,
  *   `MeanQualityAfter`, `QualityBound`, `NumberOfCappedCells`, `NumberOfInvertedCellsBefore`,
  *   `NumberOfInvertedCellsAfter`, `NumberOfReorientedCells`, `NumberOfOperations`,
- *   `NumberOfEvaluations`, `StopReason`.
+ *   `NumberOfEvaluations`, `StopReason`; with sizes or a metric `EdgeLengthShare` and
+ *   `EdgeLengthHistogram`; if the surface of tetrahedra takes part `SurfaceDistance`,
+ *   `VolumeChange` and `RegionVolumes`; with OptimizeBorders `NumberOfCellsInBands`.
  * - the cell array `MeshQuality` (double): quality by the chosen measure, also of ghost cells; NaN
  *   for other cells. It is the active scalars, unless another cell array of the input is.
  *   `MinimumDihedralAngle`, which vtkMeshQualityMinMax adds, is of other cells and left out.
+ * - the point array `BoundaryPlace` (int), if the surface of tetrahedra takes part: 0 inside, 1 on
+ *   a patch, 2 on a curve, 3 at a corner or fixed.
  *
  * <b>Output port 1: the history</b>, a vtkTable with one row per pass; the first row is the input.
  * Columns: Pass, Stage, how often each kind of operation was tried and done, then Worst, Mean,
  * BelowTarget (cells under the target), Cells and Points. For composite input the first column is
- * Block (the flat index).
+ * Block (the flat index). If the surface of tetrahedra takes part, SurfaceChangeTried and
+ * SurfaceChangeDone count its changes, whatever the operation.
  *
  * <b>Composite data</b>: each vtkUnstructuredGrid is optimized separately; other leaves pass
  * through. Surfaces are kept, so neighbouring blocks still fit together. Results cover all blocks.
  *
  * <b>Distributed data</b>: each process optimizes its own piece and keeps the piece's surface, so
  * pieces still fit together. Ghost cells stay as they are, but their originals may have changed:
- * generate ghost cells afterwards, not before. The results below are those of the piece.
+ * generate ghost cells afterwards, not before. The results below are those of the piece. With
+ * SetOptimizeBorders() borders take part, and results are those of the whole.
  *
  * <b>Errors.</b> An unusable input, array or option gives one error message that says what is wrong
  * and where; the outputs are then empty and GetErrorCode() is not 0. Unusable are a point id out of

@@ -92,6 +92,9 @@ int vtkSolutionMetricFilter::FillInputPortInformation(int, vtkInformation* info)
 namespace
 {
 
+/**
+ * Fills in both criteria, whichever is chosen: the options of the other one are not read.
+ */
 bridge::Request MakeRequest(vtkSolutionMetricFilter* filter)
 {
   // Both criteria have the same limits.
@@ -126,6 +129,9 @@ std::string Compute(
   return error.empty() ? bridge::AddArrays(grid, request, outcome) : error;
 }
 
+/**
+ * What is no error, but hardly what the caller wanted.
+ */
 void Warn(vtkSolutionMetricFilter* filter, const bridge::Outcome& outcome)
 {
   if (outcome.IsEven)

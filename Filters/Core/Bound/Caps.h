@@ -22,7 +22,7 @@ public:
 
   double bound() const { return this->bound_; }
 
-  /// The fraction of its cap at which a cell counts as capped.
+  /// The fraction of its cap at which a cell counts as capped; at first CapReached.
   void setReached(double fraction) { this->reached_ = fraction; }
 
   /// True if cell c has reached a cap of one of its kept facets, or that of a kept edge whose other
@@ -76,7 +76,7 @@ private:
   double greatestWeight(const Simplex<D>& nodes) const;
   bool isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const;
 
-  double reached_ = 0.998;
+  double reached_ = CapReached;
   double bound_ = 1.0;
   double largest_ = -1.0; // of all caps
   double full_ = 1.0;     // see setFull()

@@ -19,6 +19,9 @@
 
 namespace meshopt
 {
+/// The fraction of its cap at which a cell counts as capped, and is left alone.
+inline constexpr double CapReached = 0.998;
+
 /// One side of a kept facet. A facet between regions has two.
 template <int D>
 struct KeptSide

@@ -53,10 +53,7 @@ struct QualityModel
     }
     return this->at(nodes, x);
   }
-  double weight(const Facet<D>& f) const
-  {
-    return this->weights ? this->weights->weight(f) : 1.0;
-  }
+  double weight(const Facet<D>& f) const { return this->weights ? this->weights->weight(f) : 1.0; }
 
 private:
   // Not inlined: without them the usual case is short enough to be inlined where it is asked often.

@@ -160,6 +160,8 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   }
   // The empty face is in all facets: cells connected in any way.
   const std::vector<std::size_t> whole = parts<D>(facets, cells.size(), {});
+  // All of the boundary is filled; the new cells are one piece; no handle and no hollow came or
+  // went; nothing was torn apart or joined at the boundary.
   return within.size() == outer.size() &&
     std::adjacent_find(whole.begin(), whole.end(), std::not_equal_to<>()) == whole.end() &&
     eulerCharacteristic<D>(cells) == eulerCharacteristic<D>(old) &&

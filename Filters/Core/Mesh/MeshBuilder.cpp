@@ -431,6 +431,7 @@ struct MeshBuilder
         const Index b = this->mesh.nodes(c)[Local<D>::edges[k][1]];
         if (std::binary_search(edges.begin(), edges.end(), sortedIds(a, b)))
         {
+          // An edge stays where it is only if both its ends do.
           this->mesh.cellData_[c].flags |= std::uint16_t(1u << (Mesh::FirstEdgeBit + k));
           this->mesh.points_[a].flags |= Mesh::PointHeld;
           this->mesh.points_[b].flags |= Mesh::PointHeld;

@@ -94,6 +94,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
         }
         crossed |= kept;
         const Index nextCell = cellOf(h);
+        // Back at the start: the ring is closed, and there is no other way to go.
         if (nextCell == c)
         {
           return !crossed;

@@ -277,6 +277,7 @@ void Background<D>::buildTree() const
     this->fitBox(box);
     if (box.last - box.first > leafSize)
     {
+      // Along the longest side, so that boxes do not become thin.
       int axis;
       (box.high - box.low).maxCoeff(&axis);
       const auto begin = this->order_.begin();

@@ -132,6 +132,7 @@ private:
         }
       }
       // Back from z to x: H = L^-T h L^-1.
+      // Two triangular solves with a transpose between them, in place of an inverse.
       scale.matrixU().solveInPlace(h);
       h.transposeInPlace();
       scale.matrixU().solveInPlace(h);

@@ -226,6 +226,7 @@ ScaledMetric<D> MetricScaling<D>::withSize(double h)
 template <int D>
 ScaledMetric<D> MetricScaling<D>::withCount(double count)
 {
+  // Both ends of the range are uniform meshes: everything at one of the two limits.
   const double fewest = this->uniformCount(this->maximumSize_);
   const double most = this->limits_.minimumSize > 0.0
     ? this->uniformCount(this->limits_.minimumSize)

@@ -242,6 +242,7 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
     }
   }
   double inUnits = metricVolume<D>(mesh, halfLogDeterminants);
+  // One size for all is a factor of the whole: it need not go through a logarithm at each point.
   for (int d = 0; d < D && !this->hasSizes_ && this->constantSize_ > 0.0; ++d)
   {
     inUnits /= this->constantSize_;

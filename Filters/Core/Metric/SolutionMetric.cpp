@@ -67,6 +67,7 @@ namespace
 template <int D>
 std::string checkRange(const SimplexMesh<D>& mesh, const SolutionMetric<D>& metric)
 {
+  // Only beyond them is the logarithm tried, which decides and costs more.
   constexpr double least = 1e-140, most = 1e140; // between them squares are safe
   Tensor<D> logarithms;
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)

@@ -61,6 +61,7 @@ template <int D>
 void Optimizer<D>::optimize()
 {
   Report& report = this->run_.report;
+  // A copy: stages add rows, which may move the others.
   const PassRecord input = report.history.back();
   if (input.cells == 0)
   {
@@ -145,6 +146,7 @@ void Optimizer<D>::judgeByWantedSizes()
       run.metric.resample(p, run.mesh().point(p));
     }
   }
+  // The stored qualities are those in the attainable sizes.
   computeQualities<D>(run.editor, run.metric, run.options.measure, run.options.beta);
   const PassRecord& row = this->run_.record("sizes as wanted");
   // The engine has reached the target with the attainable sizes, perhaps not with the wanted ones.

@@ -118,6 +118,7 @@ RepositionResult GlobalAlgorithm<D, Shape>::run(
       }
       continue;
     }
+    // Asked only before work: setting nodes aside costs nothing.
     if (keepGoing && !keepGoing(mesh.quality(worst)))
     {
       result.cancelled = true;

@@ -89,6 +89,7 @@ void Reconnection<D, Shape>::touch(
   const std::uint32_t now = ++this->memory_.time;
   const auto touchPoint = [&](Index p)
   {
+    // Each point once, though many of the cells share it.
     if (this->memory_.changed[p] != now && this->mesh_.isPointAlive(p))
     {
       this->memory_.touch(p);
@@ -274,6 +275,8 @@ bool Reconnection<D, Shape>::iterate(
 {
   for (;;)
   {
+    // Cells that are not fresh leave the queue. touch() puts them back when something changes
+    // around them.
     const Index worst = this->queue_.worst([&](Index c) { return this->isFresh(c); });
     if (worst == None)
     {

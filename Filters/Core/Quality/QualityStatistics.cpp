@@ -91,6 +91,7 @@ void QualityHistogram::add(double value)
   ++this->counts[static_cast<int>(std::min<double>(last, std::max(0.0, std::floor(place))))];
 }
 
+/// Both have the same range and the same number of bins, or the sums mean nothing.
 void QualityHistogram::merge(const QualityHistogram& other)
 {
   for (std::size_t i = 0; i < this->counts.size() && i < other.counts.size(); ++i)
@@ -106,8 +107,10 @@ double QualityHistogram::edge(int i) const
   return i >= n ? this->high : this->low + (this->high - this->low) * (static_cast<double>(i) / n);
 }
 
+/// A heap of fixed size: a cell costs the logarithm of the number that is wanted, not of the mesh.
 void WorstElements::insert(const WorstElement& e)
 {
+  // NaN has no order: it would break the heap.
   if (std::isnan(e.quality))
   {
     return;

@@ -14,6 +14,7 @@ namespace
 // Conditions are written as !(x >= 0), so that NaN is refused, too.
 std::string checkQuality(const Options& o, bool hasSizes)
 {
+  // Enums come from callers as numbers (XML, Python): any number may arrive here.
   if (!isMeasure(static_cast<int>(o.measure)))
   {
     return "The quality measure is none of the known ones.";
@@ -31,10 +32,12 @@ std::string checkQuality(const Options& o, bool hasSizes)
   {
     return "The desired size h* must be a number >= 0.";
   }
+  // The size factor compares with h*: without one there is nothing to compare with.
   if (o.beta > 0.0 && o.desiredSize == 0.0 && !hasSizes)
   {
     return "With beta > 0 a desired size h* > 0 is needed, or sizes at the points.";
   }
+  // With a target of 0, cells without volume would be good enough.
   if (!(o.targetQuality > 0.0 && o.targetQuality <= 1.0))
   {
     return "The target quality must be in ]0, 1].";
@@ -53,10 +56,13 @@ std::string checkPaper(const Options& o)
   {
     return "The maximum number of iterations M must be >= 0 (0: no limit).";
   }
+  // With 0 the active set would be the worst cell alone, and the descent would zigzag between it
+  // and the next one.
   if (!(o.epsilon > 0.0 && o.epsilon <= 1.0))
   {
     return "epsilon of the active set must be in ]0, 1].";
   }
+  // From 1 on no step along a curved function would be accepted.
   if (!(o.armijo > 0.0 && o.armijo < 1.0))
   {
     return "alpha of Armijo's rule must be in ]0, 1[.";
@@ -104,6 +110,8 @@ std::string Options::check(bool hasSizes) const
 
 long growthOf(const Options& options, long cells, int dimension)
 {
+  // Parts of a mesh share the budget of the whole. The least below is for whole meshes: here it
+  // would come once for each part.
   if (options.mostGrowth >= 0)
   {
     return options.mostGrowth;
@@ -114,8 +122,5 @@ long growthOf(const Options& options, long cells, int dimension)
   return options.growthBudget > 0.0 ? std::max(least, static_cast<long>(most)) : 0;
 }
 
-long roomToGrow(long cells)
-{
-  return std::max(0L, (MaximumNumberOfCells - cells) / 2);
-}
+long roomToGrow(long cells) { return std::max(0L, (MaximumNumberOfCells - cells) / 2); }
 }

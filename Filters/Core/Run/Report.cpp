@@ -44,6 +44,8 @@ std::string describeStop(const Report& report)
 {
   std::string text = toString(report.stopReason);
   const auto count = [&](Freedom freedom) { return report.worstNodes[static_cast<int>(freedom)]; };
+  // From what moves least to what moves freely. Corners and fixed points are one kind to the
+  // reader: neither slides.
   const std::pair<int, const char*> places[] = { { count(Freedom::Corner) + count(Freedom::Fixed),
                                                    "at corners" },
     { count(Freedom::Curve), "on curves" }, { count(Freedom::Patch), "on patches" },
@@ -54,6 +56,7 @@ std::string describeStop(const Report& report)
     // Kinds without a node of the worst cell are not named.
     list += number == 0 ? "" : (list.empty() ? "" : ", ") + std::to_string(number) + " " + place;
   }
+  // Where the target is reached, nothing holds the worst cell.
   if (list.empty() || report.stopReason == StopReason::TargetReached)
   {
     return text;

@@ -32,6 +32,7 @@ void computeQualities(
 }
 
 template <int D>
+/// Of the qualities that the cells have stored: no cell is measured again.
 PassRecord summarize(const SimplexMesh<D>& mesh, double target, long* inverted)
 {
   PassRecord row;
@@ -44,6 +45,7 @@ PassRecord summarize(const SimplexMesh<D>& mesh, double target, long* inverted)
     {
       const double q = mesh.quality(c);
       row.worst = std::min(row.worst, q);
+      // Strictly below: a cell at the target has reached it.
       row.belowTarget += q < target ? 1 : 0;
       flat += q <= 0.0 ? 1 : 0;
       sum += q;

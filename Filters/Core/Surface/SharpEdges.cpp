@@ -63,6 +63,7 @@ bool SharpEdges::isNear(const Vec<3>& a, const Vec<3>& b, double distance) const
 
   // The distance from one edge is convex: where it is kept at both ends, it is kept between them.
   // What has no such edge is halved.
+  // Parts to look at in all.
   constexpr int most = 32;
   const double limit = distance * distance;
   std::vector<std::array<Vec<3>, 2>> open{ { a, b } };

@@ -157,6 +157,7 @@ int SlidingSurface::tangents(const SimplexMesh<3>& mesh, const std::vector<Index
     return 0;
   }
   normal.normalize();
+  // The axis farthest from the normal: with it the product is well away from zero.
   int axis = 0;
   normal.cwiseAbs().minCoeff(&axis);
   const Vec<3> u = normal.cross(Vec<3>(Vec<3>::Unit(axis))).normalized(), w = normal.cross(u);
@@ -214,6 +215,7 @@ std::optional<SlidingRange> SlidingSurface::range(
   {
     return std::nullopt;
   }
+  // Both as seen from v: on a closed curve their ends are then on the same turn as v.
   const auto low = this->span(mesh, v, ends[0]), high = this->span(mesh, v, ends[1]);
   return low && high ? std::optional<SlidingRange>({ { ends[0], ends[1] }, low->to, high->to })
                      : std::nullopt;

@@ -205,6 +205,7 @@ bool cross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
 
 bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
 {
+  // Two triangles that cross have an edge that passes through the other one: all six are tried.
   const auto oneWay = [&](const Facet<3>& edges, const Facet<3>& face)
   {
     for (int i = 0; i < 3; ++i)

@@ -29,6 +29,7 @@ std::optional<Error> checkLengths(const SimplexMesh<D>& mesh, const Problem<D>& 
 {
   const std::size_t cells = mesh.numberOfCellSlots(), points = mesh.numberOfPointSlots();
   std::optional<Error> error;
+  // Later steps rely on at least one cell: rigid motions have a centre, loads a surface.
   if (cells == 0)
   {
     return Error{ "The mesh has no elements." };
@@ -101,6 +102,7 @@ std::optional<Error> checkConstraints(const SimplexMesh<D>& mesh, const Problem<
 {
   for (const Constraint& c : problem.constraints)
   {
+    // Ranges first: the last check reads the point.
     if (c.point < 0 || c.point >= mesh.numberOfPointSlots())
     {
       return Error{ "A constraint is on point " + std::to_string(c.point) + ", which is not there.",

@@ -56,10 +56,10 @@ inline constexpr double RoundGain =
 /// How many layers around the worst cells are lifted, and by how much per layer.
 inline constexpr int LiftedLayers = 3;
 inline constexpr double LiftStep = 0.02;
-/// The least gain of a change, and the fraction of its cap at which a cell is left alone: in
-/// general, and where the best effort polishes finely.
+/// The least gain of a change: in general, and where the best effort polishes finely. There a cell
+/// is left alone at this fraction of its cap, elsewhere at CapReached.
 inline constexpr double Gain = 1e-3, FineGain = 1e-4;
-inline constexpr double CapReached = 0.998, CapReachedFinely = 0.9995;
+inline constexpr double CapReachedFinely = 0.9995;
 /// With weights on, a cell that reaches this fraction of its tiny cap counts as being at the
 /// target.
 inline constexpr double TinyReached = 0.5;

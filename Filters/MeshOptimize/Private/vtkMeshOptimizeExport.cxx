@@ -182,6 +182,7 @@ void GetOutputNodes(vtkUnstructuredGrid* grid, const OutputMap& map, const Simpl
   }
   vtkIdType n = 0;
   const vtkIdType* ids = nullptr;
+  // A cell that passes through: the same points, under their new numbers.
   grid->GetCellPoints(map.CellToSource[cell], n, ids);
   for (vtkIdType k = 0; k < n; ++k)
   {

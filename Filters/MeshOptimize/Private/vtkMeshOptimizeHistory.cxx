@@ -34,6 +34,9 @@ void Append(vtkTable* table, const std::string& name, Value value)
 }
 
 template <class Array, class Value>
+/**
+ * As an array of one value: field data hold nothing else.
+ */
 void AddFigure(vtkFieldData* fields, const char* name, Value value)
 {
   vtkNew<Array> figure;
@@ -140,6 +143,7 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
     AddVolumes(outcome, fields);
   }
   const meshopt::EdgeLengths& lengths = outcome.Lengths;
+  // Measured only where sizes or a metric are given.
   if (lengths.edges > 0)
   {
     AddFigure<vtkDoubleArray>(fields, "EdgeLengthShare", lengths.share);

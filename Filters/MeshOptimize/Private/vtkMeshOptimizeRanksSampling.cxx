@@ -105,6 +105,7 @@ public:
     Bytes answer;
     std::vector<double> distances;
     std::vector<Sample> samples;
+    // The mesh for the search is made only if somebody asks: see GetBackground().
     for (Reader reader(questions); !reader.IsAtEnd();)
     {
       const Question question = reader.Take<Question>();
@@ -193,6 +194,7 @@ void Ask(const Ranks& ranks, Source<D>& source, const std::vector<std::vector<st
       Put(out[r], Question{ { x[0], x[1], x[2] }, hints.empty() ? -1 : hints[i] });
     }
   }
+  // Two exchanges, one there and one back, whatever the number of questions.
   std::vector<Bytes> answers;
   for (const Bytes& questions : ranks.Exchange(std::move(out)))
   {
@@ -246,6 +248,7 @@ void SampleIn(const Ranks& ranks, Source<D>& source, const std::vector<vtkIdType
     const vtkIdType hint = part.Hint[p];
     if (hint >= 0)
     {
+      // Origins are numbered rank by rank: the last rank that begins at or before the hint has it.
       const auto owner = std::upper_bound(firstCell.begin(), firstCell.end(), hint) - 1;
       owners.push_back(static_cast<int>(owner - firstCell.begin()));
       asked[owners.back()].push_back(searches.size());

@@ -63,10 +63,12 @@ void Rounds::SendHome()
     {
       const std::vector<int> target = FindHomes(this->All, this->Mine, this->Result.NumberOfCells);
       const bool goes = std::any_of(target.begin(), target.end(), [](int t) { return t >= 0; });
+      // Moving is collective: all ranks take part, or none.
       if (this->All.IsAny(goes))
       {
         before = this->Mine; // shares the arrays
         isSent = true;
+        // The mesh of all ranks must be the same as before, cell by cell, wherever its cells are.
         const Signature whole = this->Sign();
         std::vector<char> isMoved;
         Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
@@ -77,6 +79,7 @@ void Rounds::SendHome()
     });
   if (!fault.empty())
   {
+    // All ranks go back together: the mesh is whole again, only not at home.
     if (isSent)
     {
       this->Mine = std::move(before);

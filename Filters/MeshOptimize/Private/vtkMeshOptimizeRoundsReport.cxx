@@ -81,6 +81,7 @@ void Rounds::RecordInput(const Outcome& run)
   }
   row.stage = "input";
   row.pass = 0;
+  // Not the sum of the rows: points on borders would count several times.
   row.cells = static_cast<long>(this->CellsAtFirst);
   row.points = static_cast<long>(this->PointsAtFirst);
   row.belowTarget = static_cast<long>(this->All.Sum(row.belowTarget));
@@ -123,6 +124,7 @@ void Rounds::Record(const char* stage, const Outcome& run)
       row.done[op] += one[1][op];
     }
   }
+  // Rows of `run` are of one piece each. What is true of the whole mesh is measured anew.
   const double target = this->Wanted.Options.targetQuality;
   const Shared shared = FindShared(this->All, this->Mine);
   const Figures now = Measure(this->All, this->Mine, shared, target);
@@ -153,6 +155,7 @@ StopReason Rounds::FindReason() const
 {
   const meshopt::Report& report = this->Result.Report;
   const long below = report.history.back().belowTarget;
+  // In the order of a run on one rank: the first that applies is the reason.
   return this->CellsAtFirst == 0          ? StopReason::NothingToDo
     : this->Stopped != StopReason::NotRun ? this->Stopped
     : below == 0                          ? StopReason::TargetReached
@@ -174,8 +177,10 @@ void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
   const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
   meshopt::Report& report = this->Result.Report;
   report.stopReason = this->FindReason();
+  // The grid was made for this output: nobody else has its arrays.
   output->ShallowCopy(grid);
   RemoveOwn(output);
+  // Only where the input has global ids.
   if (this->Ids.HasPointIds)
   {
     AddIds(input->GetPointData()->GetGlobalIds(), this->Mine.PointIds, output->GetPointData());
@@ -194,6 +199,7 @@ void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
     AddFlags(ghosts.Points, output->GetPointData());
     AddFlags(ghosts.Cells, output->GetCellData());
   }
+  // The caller's first: figures of an earlier run, under the same names, are then replaced.
   output->GetFieldData()->DeepCopy(input->GetFieldData());
   AddFigures(this->Result, output);
   vtkNew<vtkIdTypeArray> bands;

@@ -157,6 +157,7 @@ void Export(const Request& request, const typename SurfaceOf<D>::type& surface, 
   TransferPointData(input->GetPointData(), map, samples, output->GetPointData());
   if (request.Slide)
   {
+    // After the other data: what was interpolated in the arrays of sets is overwritten.
     TransferNodeSets(model, surface, map, output->GetPointData());
   }
   TransferCellData(input->GetCellData(), map, output->GetCellData());

@@ -392,6 +392,8 @@ Labels Combined(const Labels& first, const Labels& second)
         .first->second[labels == &second] = label;
     }
   }
+  // Two facets are alike if both their labels are. Numbers follow the order of the facets, which
+  // the input alone decides.
   std::map<std::array<Index, 2>, Index> numbers;
   Labels combined;
   for (const auto& [facet, pair] : pairs)

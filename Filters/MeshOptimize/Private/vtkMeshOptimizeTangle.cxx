@@ -254,6 +254,7 @@ std::string DescribeTangle(vtkUnstructuredGrid* output, const OutputMap& map,
     const SurfaceFault<D>* fault = finder.Find(slots[k]);
     Group& group =
       groups[fault ? static_cast<Reason>(fault->kind) : FindReason(mesh, report, slots[k])];
+    // Of the first cell only: one place to look at is enough for each reason.
     if (group.Cells.empty() && fault)
     {
       group.Faces = ListFaces<D>(*fault);

@@ -273,6 +273,7 @@ void FillWorstCells(const Options& options, const std::vector<meshopt::WorstElem
   output->SetPoints(points);
   output->AllocateExact(
     static_cast<vtkIdType>(worst.size()), 4 * static_cast<vtkIdType>(worst.size()));
+  // By block: points of different blocks stay apart, also where they lie on each other.
   std::vector<std::unordered_map<vtkIdType, vtkIdType>> newIds(blocks.size());
   vtkNew<vtkIdList> nodes;
   for (const meshopt::WorstElement& e : worst)

@@ -140,6 +140,7 @@ void AddSidesOfOthers(
     for (Reader reader(bytes); !reader.IsAtEnd();)
     {
       sides.push_back(reader.Take<Side>());
+      // It belongs to no cell here: it completes the angles, and is counted where its cell is.
       sides.back().Cell = -1;
     }
   }
@@ -186,9 +187,6 @@ meshopt::SurfaceBound<D> BoundOf(const std::vector<Side>& sides, meshopt::Measur
   options.enough = options.listEdgesBelow = target;
   return meshopt::surfaceBound<D>(points.data(), std::move(kept), options);
 }
-
-/// The fraction of its cap at which a cell counts as capped: that of Bound/Caps.h.
-constexpr double Reached = 0.998;
 
 /**
  * The two lowest qualities around an edge, or around a node of triangles.
@@ -255,7 +253,7 @@ void MarkCappedByEdges(const Part& part, const Shared& shared,
   {
     // An edge caps one cell, whichever: the worst counts as capped if it has reached the cap and
     // the next is beyond it.
-    if (ring.Cell >= 0 && ring.Least >= Reached * ring.Cap && ring.Second > ring.Cap)
+    if (ring.Cell >= 0 && ring.Least >= meshopt::CapReached * ring.Cap && ring.Second > ring.Cap)
     {
       isCapped[ring.Cell] = 1;
     }
@@ -274,7 +272,8 @@ SurfaceFigures MeasureSides(const Ranks& ranks, const Part& part, const Shared& 
   for (std::size_t k = 0; k < sides.size(); ++k)
   {
     const vtkIdType c = sides[surface.sides[k].cell].Cell;
-    if (c >= 0 && surface.sideCaps[k] < target && part.Quality[c] >= Reached * surface.sideCaps[k])
+    if (c >= 0 && surface.sideCaps[k] < target &&
+      part.Quality[c] >= meshopt::CapReached * surface.sideCaps[k])
     {
       figures.IsCapped[c] = 1;
     }

@@ -112,6 +112,8 @@ Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>
     mine.Volume += VolumeOf(part, c, up);
     // A sum, and not an exclusive or: a cell that came twice would cancel out.
     mine.Ids += meshopt::scramble(static_cast<std::uint64_t>(part.CellIds[c]));
+    // A facet inside comes from both its cells, of whatever rank, and cancels out: the surface is
+    // left.
     for (int local = 0; local < part.Corners; ++local)
     {
       mine.Surface ^= HashOfFacet(OrientedNodes(part, c, local), part.Corners - 1, hashes);

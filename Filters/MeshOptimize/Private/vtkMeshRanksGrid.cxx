@@ -31,6 +31,7 @@ void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes*
   for (std::size_t i = 0; i < arrays.size(); ++i)
   {
     const int place = data->AddArray(arrays[i]);
+    // What is active stays active: colours and later filters go by it.
     if (schema.Attributes[i] >= 0)
     {
       data->SetActiveAttribute(place, schema.Attributes[i]);
@@ -47,6 +48,9 @@ void AddIds(const std::vector<vtkIdType>& ids, vtkDataSetAttributes* data)
   data->SetGlobalIds(array); // moved points keep theirs, new ones get -1
 }
 
+/**
+ * What MakeGrid() has added, as the run has left it: -1 for what is new.
+ */
 std::vector<vtkIdType> ReadIds(vtkDataSetAttributes* data)
 {
   auto array = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(IdName));
@@ -186,6 +190,8 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   AddArrays(part.CellArrays, cellSchema, grid->GetCellData());
   AddIds(part.PointIds, grid->GetPointData());
   AddIds(part.CellIds, grid->GetCellData());
+  // Origin and home are cell data, so that the run hands them on from parents to new cells, as it
+  // does with those of the user.
   vtkNew<vtkIdTypeArray> origin;
   origin->SetName(OriginName);
   origin->SetNumberOfValues(part.GetNumberOfCells());
@@ -236,6 +242,7 @@ Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)
       part.Hint[p] = near[p];
     }
   }
+  // The user's own come first, and the run appends: the first arrays are those of the part.
   part.PointArrays = ReadArrays(grid->GetPointData(), before.PointArrays.size());
   part.CellArrays = ReadArrays(grid->GetCellData(), before.CellArrays.size());
   return part;

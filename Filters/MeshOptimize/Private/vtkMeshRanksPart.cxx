@@ -29,6 +29,9 @@ vtkSmartPointer<vtkIdList> MakeList(const std::vector<vtkIdType>& ids)
 }
 
 template <class T>
+/**
+ * `n`: values of each id.
+ */
 std::vector<T> Chosen(const std::vector<T>& values, const std::vector<vtkIdType>& ids, int n = 1)
 {
   std::vector<T> chosen;
@@ -133,6 +136,9 @@ Bytes Schema::Describe() const
   return bytes;
 }
 
+/**
+ * In the order of Describe(), with nothing but the lengths of texts between: both are this file.
+ */
 Schema Schema::From(Reader& reader)
 {
   const auto take = [&reader]()
@@ -260,6 +266,9 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Others, such as arrays of variants, have no fixed form as bytes.
+ */
 bool CanPack(vtkAbstractArray* array)
 {
   return vtkDataArray::SafeDownCast(array) || vtkStringArray::SafeDownCast(array);

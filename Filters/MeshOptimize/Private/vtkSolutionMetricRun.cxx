@@ -266,6 +266,7 @@ std::string AddMetric(vtkUnstructuredGrid* grid, const bridge::Cells& cells,
     return error;
   }
   meshopt::SolutionMetricOptions options = request.Metric;
+  // Floats are less precise than the doubles that they become here: their noise is no curvature.
   options.precision = RelativePrecision(request.Values);
   if (options.desiredCount == 0.0)
   {
@@ -282,6 +283,7 @@ std::string AddMetric(vtkUnstructuredGrid* grid, const bridge::Cells& cells,
   outcome.PredictedCount = metric.predictedCount;
   outcome.IsCountReached = metric.isCountReached;
   outcome.IsEven = metric.isLinear;
+  // Points that no cell uses get values, too: an array of the grid has one for each.
   const vtkIdType n = grid->GetNumberOfPoints();
   grid->GetPointData()->AddArray(
     MakeTensors("Metric", n, [&](vtkIdType p) { return ToGrid(metric.tensors[p], frame); }));

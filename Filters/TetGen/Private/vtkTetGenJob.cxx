@@ -89,6 +89,8 @@ void FillBehavior(const Job& job, tetgenbehavior& behavior)
   const bool byVolume = job.MaximumVolume > 0.0;
   const bool byRegion = HasRegionVolumes(job);
   const bool byShape = job.MaximumRadiusEdgeRatio > 0.0 || job.MinimumDihedralAngle > 0.0;
+  // Intersections only; surface kept; limits on shapes; volumes of all and of regions; points
+  // inside.
   switches += job.OnlyFindIntersections ? "d" : "";
   switches += job.KeepSurface ? "Y" : "";
   switches += byShape || byVolume || byRegion ? "q" : "";

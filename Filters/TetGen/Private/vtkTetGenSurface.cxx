@@ -113,6 +113,7 @@ std::string CheckDuplicatePoints(const Surface& surface)
     return std::lexicographical_compare(
       At(surface, a), At(surface, a) + 3, At(surface, b), At(surface, b) + 3);
   };
+  // Ties by id: the first of each group is then the lowest, whatever the library does with equals.
   std::sort(order.begin(), order.end(),
     [&](int a, int b) { return compare(a, b) || (!compare(b, a) && a < b); });
   int pairs = 0;
@@ -145,6 +146,7 @@ bool HasArea(const Surface& surface, const Triangle& t)
   const double v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
   const double n[3] = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
     u[0] * v[1] - u[1] * v[0] };
+  // Relative to the longest edge, so that the test does not depend on units.
   const double longest2 = std::max({ Distance2(a, b), Distance2(b, c), Distance2(c, a) });
   return std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > Flat * longest2;
 }
@@ -239,6 +241,7 @@ std::string CheckSurface(const Surface& surface)
 std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<double>& points)
 {
   vtkNew<vtkPoints> corners;
+  // Rounded to floats, the surface would move by more than the tolerance.
   corners->SetDataTypeToDouble();
   for (std::size_t p = 0; p < surface.PointIds.size(); ++p)
   {

@@ -64,6 +64,10 @@ bool IsZero(vtkDataArray* array, vtkIdType id)
   return true;
 }
 
+/**
+ * Asked before a load is added: through the solution, one that is not finite would reach all
+ * points.
+ */
 bool IsFinite(vtkDataArray* array, vtkIdType id)
 {
   for (int i = 0; i < array->GetNumberOfComponents(); ++i)

@@ -82,6 +82,9 @@ std::string BuildMesh(Model<D>& model)
 }
 
 template <int D>
+/**
+ * Also of a run that has not converged or was aborted: they say how far it came.
+ */
 void KeepFigures(const Solution<D>& solution, Outcome& outcome)
 {
   outcome.HasSolved = true;
@@ -117,6 +120,7 @@ std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnst
     model.Mesh, model.Problem, request.Options, request.Control, solution);
   if (fault)
   {
+    // The core counts simplices only. The sentence names the cell of the grid.
     return bridge::WithGridIds(fault->message, fault->cell, model.Cells);
   }
   KeepFigures(solution, outcome);
