@@ -3,6 +3,7 @@
 #include "vtkMeshOptimizeFilter.h"
 
 #include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeHistory.h"
@@ -15,7 +16,6 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeIterator.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
@@ -167,8 +167,7 @@ int vtkMeshOptimizeFilter::FillInputPortInformation(int port, vtkInformation* in
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     return 1;
   }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObjectTree");
+  vtkMeshBridge::AcceptBlocks(info);
   return 1;
 }
 
@@ -184,19 +183,7 @@ int vtkMeshOptimizeFilter::FillOutputPortInformation(int port, vtkInformation* i
 int vtkMeshOptimizeFilter::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputVector, 0);
-  // Without an input the executive reports one error later; returning 0 here would add a second
-  // one.
-  const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
-  if (!output || !output->IsA(type))
-  {
-    // Of the very class of the input: a tree has several.
-    vtkSmartPointer<vtkDataObject> fresh = input
-      ? vtkSmartPointer<vtkDataObject>::Take(input->NewInstance())
-      : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New());
-    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
-  }
+  vtkMeshBridge::MakeOutputLikeInput(inputVector, outputVector);
   // All outputs are made here: the base class is not asked.
   if (!vtkTable::GetData(outputVector, 1))
   {
@@ -407,40 +394,6 @@ bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
 }
 
 /**
- * The leaves of a tree that are grids or nothing yet, by flat index.
- */
-std::vector<int> ListPlaces(vtkDataObjectTree* tree)
-{
-  std::vector<int> places;
-  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-  // Also empty leaves: another rank may have a grid there.
-  leaf->SkipEmptyNodesOff();
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    vtkDataObject* object = leaf->GetCurrentDataObject();
-    if (!object || vtkUnstructuredGrid::SafeDownCast(object))
-    {
-      places.push_back(static_cast<int>(leaf->GetCurrentFlatIndex()));
-    }
-  }
-  return places;
-}
-
-void SetLeaf(vtkDataObjectTree* tree, int block, vtkDataObject* object)
-{
-  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-  leaf->SkipEmptyNodesOff();
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    if (static_cast<int>(leaf->GetCurrentFlatIndex()) == block)
-    {
-      tree->SetDataSet(leaf, object);
-      return;
-    }
-  }
-}
-
-/**
  * Optimizes the meshes that all ranks have: one, or one in each block. If it is not built for this
  * input and request, an obstacle says why, and what has been done does not count.
  */
@@ -455,7 +408,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
   {
     here.push_back(task.Block);
   }
-  const std::vector<int> places = tree ? ListPlaces(tree) : here;
+  const std::vector<int> places = tree ? vtkMeshBridge::ListPlaces(tree) : here;
   if (!bridge::ListBlocks(controller, here, places, blocks))
   {
     obstacle = "the blocks of the ranks differ";
@@ -490,7 +443,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
       {
         if (tree && std::find(here.begin(), here.end(), done) == here.end())
         {
-          SetLeaf(tree, done, nullptr);
+          vtkMeshBridge::SetLeaf(tree, done, nullptr);
         }
       }
       for (const Task& task : tasks)
@@ -502,7 +455,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
     }
     if (!isHere && output->GetNumberOfCells() > 0)
     {
-      SetLeaf(tree, block, output);
+      vtkMeshBridge::SetLeaf(tree, block, output);
     }
     // The rows are the same on all ranks: one table will do.
     if (controller->GetLocalProcessId() == 0)

@@ -4,7 +4,7 @@ import os
 import sys
 
 import numpy as np
-from meshoptimize import vtkMeshOptimizeFilter, vtkSolutionMetricFilter, vtkThermoelasticFilter
+from meshoptimize import vtkMeshOptimizeFilter
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkVariantArray
 from vtkmodules.vtkCommonDataModel import VTK_VERTEX, vtkMultiBlockDataSet
@@ -171,28 +171,6 @@ def test_slide():
             check(f.GetOutputDataObject(0).GetNumberOfElements(1) == 0, f"slide, {name}: cells come out")
             check(len(told) == (rank == 0 or not everywhere), f"slide, {name}: {told}")
             check(all("Slide needs the whole mesh in one piece" in text for text in told), f"slide, {name}: {told}")
-
-
-def test_other_filters():
-    """Thermoelastic: an error on every rank that has cells. Solution Metric: a warning, and none where it works alone."""
-    mesh = Mesh(n=4)
-    mesh.points["square"] = (mesh.x ** 2).sum(axis=1)
-    empty = mesh.grid(np.zeros(len(mesh.cells), bool))
-    f = vtkThermoelasticFilter()
-    f.SetInputData(mesh.piece())
-    told = tell(f)
-    f.UpdatePiece(rank, ranks, 0)
-    check(f.GetErrorCode() != 0 and f.GetOutput().GetNumberOfCells() == 0, "thermoelastic: no error")
-    check(len(told) == 1 and f"spread over {ranks} processes" in told[0], f"thermoelastic: {told}")
-    for name, grid, in_pieces, warnings in (("pieces", mesh.piece(), True, 1), ("no piece", empty, True, 0),
-                                            ("alone", mesh.whole(), False, 0)):
-        f = vtkSolutionMetricFilter()
-        f.SetInputData(grid)
-        f.SetSolutionArray("square")
-        told = tell(f)
-        f.UpdatePiece(rank, ranks, 0) if in_pieces else f.Update()
-        check(f.GetErrorCode() == 0 and len(told) == warnings, f"metric, {name}: {told}")
-        check(all("Aggregate Dataset" in text for text in told), f"metric, {name}: {told}")
 
 
 run_tests(globals())
