@@ -73,6 +73,16 @@ def test_switches():
     check(len(after) == len(before) and points_of(after) != points_of(before), "motion alone: cells")
 
 
+def test_paper():
+    """The algorithm of 1996, in pieces and bands."""
+    mesh = Mesh()
+    kept = run(mesh.piece(), False, Algorithm=0)
+    serial, f = alone(mesh, Algorithm=0), run(mesh.piece(), Algorithm=0)
+    compare("paper", f, corners(mesh.whole()), serial)
+    check(f.GetWorstQualityAfter() >= 0.6 > 2 * kept.GetWorstQualityAfter(),
+          f"paper: {f.GetWorstQualityAfter()}, with the borders kept {kept.GetWorstQualityAfter()}")
+
+
 def test_threads():
     """0 threads are those of the computer, divided by its ranks: the same bits as with one."""
     mesh = Mesh()
@@ -132,8 +142,6 @@ def test_kept():
             ("one size", plain, {"Beta": 1.0, "DesiredSize": 0.25}, "sizes or a metric"),
             ("sizes", plain, {"Beta": 1.0, **array("Size")}, "sizes or a metric"),
             ("metric", plain, {"Beta": 1.0, "DesiredSize": 1.0, **array("Metric")}, "sizes or a metric"),
-            ("below", plain, {"OptimizeBelow": 0.3}, "OptimizeBelow"),
-            ("paper", plain, {"Algorithm": 0}, "Paper1996"),
             ("vertex", with_a_vertex, {}, "other cells"),
             ("array", with_an_array_on_one_rank, {}, "different arrays"),
             ("variants", with_variants, {}, "cannot be sent")):

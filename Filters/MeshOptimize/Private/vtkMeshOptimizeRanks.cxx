@@ -33,9 +33,7 @@ namespace
  */
 std::string FindObstacle(const Request& request)
 {
-  return request.OptimizeBelow > 0.0                              ? "OptimizeBelow is set"
-    : request.Options.algorithm != meshopt::Algorithm::WorstFirst ? "the algorithm is Paper1996"
-    : request.UsesSizes() || vtkMeshBridge::IsWanted(request.Filter, MetricArray)
+  return request.UsesSizes() || vtkMeshBridge::IsWanted(request.Filter, MetricArray)
     ? "sizes or a metric are used"
     : "";
 }
