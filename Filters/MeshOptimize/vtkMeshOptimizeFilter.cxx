@@ -19,6 +19,7 @@
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
+#include "vtkGenericCell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
@@ -383,14 +384,59 @@ bool HasTetrahedra(vtkUnstructuredGrid* grid)
   return c < grid->GetNumberOfCells();
 }
 
+bool HasVolumes(vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkGenericCell> cell;
+  int last = VTK_EMPTY_CELL; // neighbours mostly are of one type
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const int type = grid->GetCellType(c);
+    if (type != last)
+    {
+      cell->SetCellType(type);
+      if (cell->GetCellDimension() == 3)
+      {
+        return true;
+      }
+      last = type;
+    }
+  }
+  return false;
+}
+
 /**
- * Whether all ranks have been asked for their pieces of one mesh, and its borders take part.
+ * Whether all ranks have been asked for their pieces of one mesh.
+ */
+bool HasPieces(vtkMeshOptimizeFilter* filter, const Ports& ports)
+{
+  vtkMultiProcessController* controller = filter->GetController();
+  return controller && controller->GetNumberOfProcesses() > 1 &&
+    ports.NumberOfPieces == controller->GetNumberOfProcesses();
+}
+
+/**
+ * The same, and the borders of the pieces take part.
  */
 bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
 {
-  vtkMultiProcessController* controller = filter->GetController();
-  return filter->GetOptimizeBorders() && controller && controller->GetNumberOfProcesses() > 1 &&
-    ports.NumberOfPieces == controller->GetNumberOfProcesses();
+  return filter->GetOptimizeBorders() && HasPieces(filter, ports);
+}
+
+/**
+ * Of each task, whether its triangles alone are no mesh, since other ranks have volumes.
+ */
+std::vector<char> FindPiecesOfVolumes(
+  vtkMeshOptimizeFilter* filter, const Ports& ports, const std::vector<Task>& tasks)
+{
+  std::vector<int> blocks;
+  std::vector<char> volumes;
+  for (const Task& task : tasks)
+  {
+    blocks.push_back(task.Block);
+    volumes.push_back(HasPieces(filter, ports) && HasVolumes(task.Input));
+  }
+  return HasPieces(filter, ports) ? bridge::FindVolumes(filter->GetController(), blocks, volumes)
+                                  : volumes;
 }
 
 /**
@@ -499,6 +545,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
         filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
     }
   }
+  const std::vector<char> volumes = FindPiecesOfVolumes(filter, ports, tasks);
   std::string error = CheckRequest(request, tasks);
   if (!error.empty())
   {
@@ -516,6 +563,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
     request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
     request.Surface.locked = locked[i];
+    request.IsPieceOfVolume = volumes[i] != 0;
     const Task& task = tasks[i];
     const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import vtkStringArray, vtkVariantArray
 from vtkmodules.vtkCommonDataModel import VTK_VERTEX, vtkMultiBlockDataSet
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # pvbatch does not
-from ranks_case import Mesh, add, check, compare, corners, history, rank, ranks, run, run_tests, tell
+from ranks_case import Mesh, add, check, compare, corners, history, make_grid, rank, ranks, run, run_tests, tell
 
 
 def alone(mesh, **options):
@@ -154,6 +154,35 @@ def test_kept():
         check(0 < count == off.GetOutput().GetNumberOfCells(), f"kept, {name}: {count} cells")
         check(np.array_equal(vtk_to_numpy(f.GetOutput().GetPoints().GetData()),
                              vtk_to_numpy(off.GetOutput().GetPoints().GetData())), f"kept, {name}: other points")
+
+
+def test_faces_alone():
+    """A rank that has got nothing but faces of the mesh leaves them as they are, whatever the switch is: they are no plane mesh."""
+    mesh = Mesh(n=5)
+    face = mesh.cells[:, [0, 1, 2]][(mesh.node[mesh.cells[:, [0, 1, 2]]][:, :, 2] == 0).all(axis=1)]
+    face = np.concatenate([face, [[0, 1, 7]]]) if len(face) == 0 else face
+    grid = make_grid(mesh.x, face) if rank == 1 else mesh.whole()
+    for everywhere in (True, False):
+        f = run(grid, everywhere) if everywhere else filter_on_pieces(grid)
+        check(f.GetErrorCode() == 0, f"faces alone: {f.told}")
+        check(all("borders between the ranks' pieces are kept" in text for text in f.told), f"faces alone: {f.told}")
+        if rank == 1:
+            out = f.GetOutput()
+            same = np.array_equal(vtk_to_numpy(out.GetPoints().GetData()), mesh.x) and out.GetNumberOfCells() == len(face)
+            check(same, f"faces alone: {len(face)} cells, then {out.GetNumberOfCells()}, and other points")
+            check(np.isnan(vtk_to_numpy(out.GetCellData().GetArray("MeshQuality"))).all(), "faces alone: they have been measured")
+        else:
+            check(f.GetWorstQualityAfter() > 0.5, f"faces alone: {f.GetWorstQualityAfter()}")
+
+
+def filter_on_pieces(grid):
+    """With the switch off, but asked for pieces."""
+    f = vtkMeshOptimizeFilter()
+    f.SetOptimizeBorders(False)
+    f.SetInputData(grid)
+    f.told = tell(f)
+    f.UpdatePiece(rank, ranks, 0)
+    return f
 
 
 def test_slide():

@@ -186,6 +186,39 @@ bool ListBlocks(vtkMultiProcessController* controller, const std::vector<int>& h
 }
 
 //------------------------------------------------------------------------------
+std::vector<char> FindVolumes(vtkMultiProcessController* controller, const std::vector<int>& here,
+  const std::vector<char>& volumes)
+{
+  const Ranks ranks(controller);
+  std::vector<char> all = volumes;
+  // Without an answer, for want of memory, each rank is left with what it knows.
+  ranks.Together(
+    [&]()
+    {
+      std::vector<int> mine;
+      for (std::size_t i = 0; i < here.size(); ++i)
+      {
+        if (volumes[i])
+        {
+          mine.push_back(here[i]);
+        }
+      }
+      Bytes bytes;
+      PutAll(bytes, mine);
+      for (const Bytes& one : ranks.Gather(bytes))
+      {
+        const std::vector<int> theirs = Reader(one).TakeAll<int>();
+        for (std::size_t i = 0; i < here.size(); ++i)
+        {
+          all[i] |= std::count(theirs.begin(), theirs.end(), here[i]) > 0;
+        }
+      }
+      return std::string();
+    });
+  return all;
+}
+
+//------------------------------------------------------------------------------
 std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& request,
   const std::function<std::string()>& check, vtkUnstructuredGrid* input,
   vtkUnstructuredGrid* output, Outcome& outcome, std::string& obstacle)
