@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 from meshoptimize import vtkMeshOptimizeFilter
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkVariantArray
 from vtkmodules.vtkCommonDataModel import VTK_VERTEX, vtkMultiBlockDataSet
 
@@ -131,6 +131,13 @@ def test_kept():
             add(grid.GetCellData(), "here", np.zeros(grid.GetNumberOfCells()))
         return grid
 
+    def with_ids():
+        grid = mesh.whole()  # of points only: an id of a cell on two ranks is an error
+        ids = numpy_to_vtkIdTypeArray(np.arange(len(mesh.x)), deep=1)
+        ids.SetName("ids")
+        grid.GetPointData().SetGlobalIds(ids)
+        return grid
+
     def with_variants():
         grid, values = mesh.piece(), vtkVariantArray()
         values.SetName("anything")
@@ -143,6 +150,8 @@ def test_kept():
             ("sizes", plain, {"Beta": 1.0, **array("Size")}, "sizes or a metric"),
             ("metric", plain, {"Beta": 1.0, "DesiredSize": 1.0, **array("Metric")}, "sizes or a metric"),
             ("vertex", with_a_vertex, {}, "other cells"),
+            ("copies", mesh.whole, {}, "lie on each other"),
+            ("copies with ids", with_ids, {}, "lie on each other"),
             ("array", with_an_array_on_one_rank, {}, "different arrays"),
             ("variants", with_variants, {}, "cannot be sent")):
         f = run(make(), **options)

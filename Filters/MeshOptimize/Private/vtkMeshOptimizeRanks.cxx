@@ -242,7 +242,11 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
       }
       Rounds rounds(ranks, request, outcome);
       // Without any cells the dimension does not matter.
-      rounds.Read(input, cells.Simplices, dimension == 0 ? 3 : dimension);
+      obstacle = rounds.Read(input, cells.Simplices, dimension == 0 ? 3 : dimension);
+      if (!obstacle.empty())
+      {
+        return std::string();
+      }
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();
       rounds.OptimizeBorders();

@@ -108,7 +108,7 @@ Rounds::Rounds(const Ranks& ranks, const Request& request, Outcome& outcome)
 {
 }
 
-void Rounds::Read(
+std::string Rounds::Read(
   vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension)
 {
   InputArrays arrays;
@@ -156,6 +156,11 @@ void Rounds::Read(
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
   Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), this->Ids, this->Mine);
   this->FirstNewPoint = this->Ids.NextPoint;
+  // As one mesh, copies would have their whole surface in common, and none left that is kept.
+  if (DoPiecesCoincide(this->All, this->Mine, this->Normal))
+  {
+    return "the pieces of the ranks lie on each other, as if each had read the whole mesh";
+  }
   this->Divide();
   this->Mine.Home.assign(this->Mine.CellIds.size(), this->All.GetRank());
   const Shared shared = FindShared(this->All, this->Mine);
@@ -167,6 +172,7 @@ void Rounds::Read(
   this->PointsAtFirst = Measure(this->All, this->Mine, shared, 0.0).Points;
   this->CellsInZone = this->CellsAtFirst;
   this->ShareGrowth();
+  return {};
 }
 
 /**
