@@ -3,6 +3,7 @@
 #include "vtkMeshOptimizeFilter.h"
 
 #include "vtkMeshBridgeArrays.h"
+#include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkMeshOptimizeHistory.h"
@@ -15,10 +16,10 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDataObjectTreeIterator.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkFieldData.h"
+#include "vtkGenericCell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
@@ -167,8 +168,7 @@ int vtkMeshOptimizeFilter::FillInputPortInformation(int port, vtkInformation* in
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
     return 1;
   }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObjectTree");
+  vtkMeshBridge::AcceptBlocks(info);
   return 1;
 }
 
@@ -184,19 +184,7 @@ int vtkMeshOptimizeFilter::FillOutputPortInformation(int port, vtkInformation* i
 int vtkMeshOptimizeFilter::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputVector, 0);
-  // Without an input the executive reports one error later; returning 0 here would add a second
-  // one.
-  const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
-  if (!output || !output->IsA(type))
-  {
-    // Of the very class of the input: a tree has several.
-    vtkSmartPointer<vtkDataObject> fresh = input
-      ? vtkSmartPointer<vtkDataObject>::Take(input->NewInstance())
-      : vtkSmartPointer<vtkDataObject>(vtkSmartPointer<vtkUnstructuredGrid>::New());
-    outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), fresh);
-  }
+  vtkMeshBridge::MakeOutputLikeInput(inputVector, outputVector);
   // All outputs are made here: the base class is not asked.
   if (!vtkTable::GetData(outputVector, 1))
   {
@@ -396,48 +384,59 @@ bool HasTetrahedra(vtkUnstructuredGrid* grid)
   return c < grid->GetNumberOfCells();
 }
 
+bool HasVolumes(vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkGenericCell> cell;
+  int last = VTK_EMPTY_CELL; // neighbours mostly are of one type
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const int type = grid->GetCellType(c);
+    if (type != last)
+    {
+      cell->SetCellType(type);
+      if (cell->GetCellDimension() == 3)
+      {
+        return true;
+      }
+      last = type;
+    }
+  }
+  return false;
+}
+
 /**
- * Whether all ranks have been asked for their pieces of one mesh, and its borders take part.
+ * Whether all ranks have been asked for their pieces of one mesh.
  */
-bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
+bool HasPieces(vtkMeshOptimizeFilter* filter, const Ports& ports)
 {
   vtkMultiProcessController* controller = filter->GetController();
-  return filter->GetOptimizeBorders() && controller && controller->GetNumberOfProcesses() > 1 &&
+  return controller && controller->GetNumberOfProcesses() > 1 &&
     ports.NumberOfPieces == controller->GetNumberOfProcesses();
 }
 
 /**
- * The leaves of a tree that are grids or nothing yet, by flat index.
+ * The same, and the borders of the pieces take part.
  */
-std::vector<int> ListPlaces(vtkDataObjectTree* tree)
+bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
 {
-  std::vector<int> places;
-  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-  // Also empty leaves: another rank may have a grid there.
-  leaf->SkipEmptyNodesOff();
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    vtkDataObject* object = leaf->GetCurrentDataObject();
-    if (!object || vtkUnstructuredGrid::SafeDownCast(object))
-    {
-      places.push_back(static_cast<int>(leaf->GetCurrentFlatIndex()));
-    }
-  }
-  return places;
+  return filter->GetOptimizeBorders() && HasPieces(filter, ports);
 }
 
-void SetLeaf(vtkDataObjectTree* tree, int block, vtkDataObject* object)
+/**
+ * Of each task, whether its triangles alone are no mesh, since other ranks have volumes.
+ */
+std::vector<char> FindPiecesOfVolumes(
+  vtkMeshOptimizeFilter* filter, const Ports& ports, const std::vector<Task>& tasks)
 {
-  auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
-  leaf->SkipEmptyNodesOff();
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  std::vector<int> blocks;
+  std::vector<char> volumes;
+  for (const Task& task : tasks)
   {
-    if (static_cast<int>(leaf->GetCurrentFlatIndex()) == block)
-    {
-      tree->SetDataSet(leaf, object);
-      return;
-    }
+    blocks.push_back(task.Block);
+    volumes.push_back(HasPieces(filter, ports) && HasVolumes(task.Input));
   }
+  return HasPieces(filter, ports) ? bridge::FindVolumes(filter->GetController(), blocks, volumes)
+                                  : volumes;
 }
 
 /**
@@ -455,7 +454,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
   {
     here.push_back(task.Block);
   }
-  const std::vector<int> places = tree ? ListPlaces(tree) : here;
+  const std::vector<int> places = tree ? vtkMeshBridge::ListPlaces(tree) : here;
   if (!bridge::ListBlocks(controller, here, places, blocks))
   {
     obstacle = "the blocks of the ranks differ";
@@ -490,7 +489,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
       {
         if (tree && std::find(here.begin(), here.end(), done) == here.end())
         {
-          SetLeaf(tree, done, nullptr);
+          vtkMeshBridge::SetLeaf(tree, done, nullptr);
         }
       }
       for (const Task& task : tasks)
@@ -502,7 +501,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
     }
     if (!isHere && output->GetNumberOfCells() > 0)
     {
-      SetLeaf(tree, block, output);
+      vtkMeshBridge::SetLeaf(tree, block, output);
     }
     // The rows are the same on all ranks: one table will do.
     if (controller->GetLocalProcessId() == 0)
@@ -546,6 +545,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
         filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
     }
   }
+  const std::vector<char> volumes = FindPiecesOfVolumes(filter, ports, tasks);
   std::string error = CheckRequest(request, tasks);
   if (!error.empty())
   {
@@ -563,6 +563,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
     request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
     request.Surface.locked = locked[i];
+    request.IsPieceOfVolume = volumes[i] != 0;
     const Task& task = tasks[i];
     const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
     bridge::Outcome one;

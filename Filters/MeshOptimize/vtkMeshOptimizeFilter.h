@@ -472,14 +472,14 @@ public:
    * Results are those of the whole on all ranks; the history is on the first. Filters/RANKS.md
    * says what each option then means, and which data are needed.
    *
-   * This is for tetrahedra, or triangles in one plane, with WorstFirst. In composite data the grids
-   * of all ranks with the same flat index are one mesh. With OptimizeBelow, sizes, a metric or
-   * other cells, one warning says that the borders are kept. Ghost cells of the input are dropped.
-   * BoundaryMode Slide on several pieces is an error.
+   * This is for tetrahedra, or triangles in one plane. In composite data the grids of all ranks
+   * with the same flat index are one mesh. With sizes, a metric or other cells, one warning says
+   * that the borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide on several
+   * pieces is an error.
    *
    * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
    * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.
-   * Default: off.
+   * Default: on.
    */
   vtkSetMacro(OptimizeBorders, bool);
   vtkGetMacro(OptimizeBorders, bool);
@@ -619,7 +619,7 @@ private:
   bool KeepFeatures = true;
   double SurfaceTolerance = 1e-3;
   bool ToleranceIsAbsolute = false;
-  bool OptimizeBorders = false;
+  bool OptimizeBorders = true;
   int NumberOfGhostLevels = 0;
   vtkMultiProcessController* Controller = nullptr;
 

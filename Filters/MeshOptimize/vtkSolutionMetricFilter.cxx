@@ -2,22 +2,30 @@
 // Properties and errors; the work is done in Private/vtkSolutionMetricRun.
 #include "vtkSolutionMetricFilter.h"
 
-#include "vtkSolutionMetricRun.h"
+#include "vtkMeshBridgeBlocks.h"
+#include "vtkMeshOptimizeRanks.h"
+#include "vtkSolutionMetricRanks.h"
 
 #include "vtkDataObject.h"
+#include "vtkDataObjectTree.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkSolutionMetricFilter);
+vtkCxxSetObjectMacro(vtkSolutionMetricFilter, Controller, vtkMultiProcessController);
 
 namespace bridge = vtkSolutionMetricBridge;
 
@@ -26,9 +34,10 @@ vtkSolutionMetricFilter::vtkSolutionMetricFilter()
 {
   this->SetSolutionArray(nullptr);
   this->SetErrorIndicatorArray(nullptr);
+  this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
-vtkSolutionMetricFilter::~vtkSolutionMetricFilter() = default;
+vtkSolutionMetricFilter::~vtkSolutionMetricFilter() { this->SetController(nullptr); }
 
 //------------------------------------------------------------------------------
 void vtkSolutionMetricFilter::PrintSelf(ostream& os, vtkIndent indent)
@@ -46,6 +55,7 @@ void vtkSolutionMetricFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DesiredErrorFraction: " << this->DesiredErrorFraction << "\n";
   os << indent << "ConvergenceOrder: " << this->ConvergenceOrder << "\n";
   os << indent << "ComputeSizeTensor: " << this->ComputeSizeTensor << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
   os << indent << "DesiredSize: " << this->DesiredSize << "\n";
   os << indent << "PredictedNumberOfElements: " << this->PredictedNumberOfElements << "\n";
   os << indent << "TotalError: " << this->TotalError << "\n";
@@ -84,8 +94,28 @@ void vtkSolutionMetricFilter::SetErrorIndicatorArray(const char* name)
 //------------------------------------------------------------------------------
 int vtkSolutionMetricFilter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  vtkMeshBridge::AcceptBlocks(info);
   return 1;
+}
+
+int vtkSolutionMetricFilter::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+/**
+ * The base class would always make a grid as output; the input may also be a tree.
+ */
+vtkTypeBool vtkSolutionMetricFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    vtkMeshBridge::MakeOutputLikeInput(input, output);
+    return 1;
+  }
+  return this->Superclass::ProcessRequest(request, input, output);
 }
 
 //------------------------------------------------------------------------------
@@ -121,52 +151,82 @@ bridge::Request MakeRequest(vtkSolutionMetricFilter* filter)
   return request;
 }
 
-std::string Compute(
-  vtkSolutionMetricFilter* filter, vtkUnstructuredGrid* grid, bridge::Outcome& outcome)
+/**
+ * Adds the arrays to a grid; with a controller to the mesh of which it is this rank's piece.
+ */
+std::string Compute(vtkSolutionMetricFilter* filter, vtkMultiProcessController* controller,
+  vtkUnstructuredGrid* grid, bridge::Outcome& outcome)
 {
   bridge::Request request = MakeRequest(filter);
-  const std::string error = bridge::FindArray(filter, grid, request);
-  return error.empty() ? bridge::AddArrays(grid, request, outcome) : error;
+  if (controller)
+  {
+    return bridge::AddArraysOnRanks(controller, filter, grid, request, outcome);
+  }
+  try
+  {
+    const std::string error = bridge::FindArray(filter, grid, request);
+    return error.empty() ? bridge::AddArrays(grid, request, outcome) : error;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return "Not enough memory to compute the metric of this mesh.";
+  }
 }
 
 /**
  * What is no error, but hardly what the caller wanted.
  */
-void Warn(vtkSolutionMetricFilter* filter, const bridge::Outcome& outcome)
+void Warn(vtkSolutionMetricFilter* filter, const std::string& title, const bridge::Outcome& outcome)
 {
   if (outcome.IsEven)
   {
     const bool isMetric = filter->GetCriterion() == vtkSolutionMetricFilter::Hessian;
-    vtkWarningWithObjectMacro(
-      filter, << (isMetric
-                  ? "The solution is linear to within its precision: there is nothing to adapt to. "
-                    "The metric is the Euclidean one."
-                  : "The error is 0 in all cells: there is nothing to adapt to. The size is the "
-                    "same everywhere."));
+    vtkWarningWithObjectMacro(filter,
+      << title
+      << (isMetric ? "The solution is linear to within its precision: there is nothing to adapt "
+                     "to. The metric is the Euclidean one."
+                   : "The error is 0 in all cells: there is nothing to adapt to. The size is the "
+                     "same everywhere."));
   }
   if (!outcome.IsCountReached)
   {
     vtkWarningWithObjectMacro(
-      filter, << "The limits on the size do not allow the wanted number of elements. There will "
-              << "be about " << std::round(outcome.PredictedCount) << ".");
+      filter, << title << "The limits on the size do not allow the wanted number of elements. "
+              << "There will be about " << std::round(outcome.PredictedCount) << ".");
   }
 }
 
-// Not asked of the other processes whether they have cells: blocks of composite data come one by
-// one, and not as many on each process.
-void WarnOfPieces(vtkSolutionMetricFilter* filter, vtkInformation* outInfo)
+/**
+ * The blocks that some rank has, in the same order on all ranks: those that are not here get an
+ * empty grid. Returns an error, the same on all ranks.
+ */
+std::string CompleteBlocks(vtkMultiProcessController* controller, vtkDataObject* input,
+  std::vector<vtkMeshBridge::Block>& blocks)
 {
-  const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
-  if (outInfo->Has(pieces) && outInfo->Get(pieces) > 1)
+  auto tree = vtkDataObjectTree::SafeDownCast(input);
+  std::vector<int> here, all;
+  for (const vtkMeshBridge::Block& block : blocks)
   {
-    vtkWarningWithObjectMacro(filter, << "This process works by itself, as one of "
-                                      << outInfo->Get(pieces)
-                                      << ". If others have cells of the mesh, too, the metric near "
-                                         "the borders of the pieces is not that of the whole, and "
-                                         "each piece gets the wanted number of elements. Bring the "
-                                         "mesh together first (in ParaView: the filter Aggregate "
-                                         "Dataset).");
+    here.push_back(block.Index);
   }
+  const std::vector<int> places = tree ? vtkMeshBridge::ListPlaces(tree) : here;
+  if (!vtkMeshOptimizeBridge::ListBlocks(controller, here, places, all))
+  {
+    return "The blocks of the ranks differ. Give all ranks the same blocks, empty where a rank has "
+           "no part of one; or bring the mesh together first (in ParaView: the filter Aggregate "
+           "Dataset).";
+  }
+  std::vector<vtkMeshBridge::Block> complete;
+  for (const int index : all)
+  {
+    const auto mine = std::find_if(blocks.begin(), blocks.end(),
+      [index](const vtkMeshBridge::Block& block) { return block.Index == index; });
+    complete.push_back(mine != blocks.end()
+        ? *mine
+        : vtkMeshBridge::Block{ nullptr, vtkSmartPointer<vtkUnstructuredGrid>::New(), index });
+  }
+  blocks.swap(complete);
+  return {};
 }
 
 } // namespace
@@ -175,42 +235,51 @@ void WarnOfPieces(vtkSolutionMetricFilter* filter, vtkInformation* outInfo)
 int vtkSolutionMetricFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector);
-  if (!input) // a block of another type in a composite data set: the executive does not check it
-  {
-    vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " was skipped: it is not a vtkUnstructuredGrid.");
-    output->Initialize();
-    return 1;
-  }
-  // The output shares mesh and arrays with the input; new arrays are added to it alone.
-  output->ShallowCopy(input);
-  bridge::Outcome outcome;
-  std::string error;
-  try
-  {
-    error = Compute(this, output, outcome);
-  }
-  catch (const std::bad_alloc&)
-  {
-    error = "Not enough memory to compute the metric of this mesh.";
-  }
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  std::vector<vtkMeshBridge::Block> blocks = vtkMeshBridge::ListBlocks(
+    this, input, vtkDataObject::GetData(outputVector, 0));
+  const int processes = this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
+  const bool areMany = vtkMeshBridge::AsksForPieces(
+    outputVector->GetInformationObject(0), processes);
+  // What all ranks know is told by the first.
+  const bool isTold = areMany && this->Controller->GetLocalProcessId() > 0;
+  std::string error = areMany ? CompleteBlocks(this->Controller, input, blocks) : std::string();
   this->SetErrorCode(error.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError);
-  if (!error.empty())
+  if (!error.empty() && !isTold)
   {
-    // Returning 0 would make the executive add an error of its own.
     vtkErrorMacro(<< error);
-    output->Initialize();
+  }
+  bridge::Outcome outcome;
+  for (std::size_t i = 0; i < blocks.size() && error.empty(); ++i)
+  {
+    const vtkMeshBridge::Block& block = blocks[i];
+    // The output shares mesh and arrays with the input; new arrays are added to it alone.
+    if (block.Input)
+    {
+      block.Output->ShallowCopy(block.Input);
+    }
     outcome = bridge::Outcome();
+    const std::string title = vtkMeshBridge::TitleOf(input, block);
+    const std::string problem = Compute(
+      this, areMany ? this->Controller : nullptr, block.Output, outcome);
+    if (!problem.empty())
+    {
+      // Returning 0 would make the executive add an error of its own.
+      this->SetErrorCode(vtkErrorCode::UserError);
+      if (!isTold)
+      {
+        vtkErrorMacro(<< title << problem);
+      }
+      block.Output->Initialize();
+      outcome = bridge::Outcome();
+    }
+    if (!isTold)
+    {
+      Warn(this, title, outcome);
+    }
   }
   this->DesiredSize = outcome.DesiredSize;
   this->PredictedNumberOfElements = outcome.PredictedCount;
   this->TotalError = outcome.TotalError;
-  Warn(this, outcome);
-  if (error.empty() && input->GetNumberOfCells() > 0)
-  {
-    WarnOfPieces(this, outputVector->GetInformationObject(0));
-  }
   return 1;
 }

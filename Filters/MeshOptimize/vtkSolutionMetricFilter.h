@@ -40,8 +40,12 @@
  * <b>Input</b>: a vtkUnstructuredGrid whose cells of the greatest dimension are all linear
  * tetrahedra, or all linear triangles in one plane. Cells of lower dimension (faces, lines,
  * vertices) pass through. Ghost cells are ignored; they, and points that only other cells use, get
- * meaningless values. Blocks of composite data and pieces of distributed data are treated
- * separately; the wanted number applies to each.
+ * meaningless values. Blocks of composite data are treated separately; the wanted number applies to
+ * each.
+ *
+ * <b>Distributed data</b>: where the pipeline asks for one piece on each process of the controller,
+ * values and figures are those of the whole mesh, the same on all processes. Points, cells and the
+ * array come to the first process for that, which needs the memory; see Filters/RANKS.md.
  *
  * <b>Input arrays</b>, by SetInputArrayToProcess() or the setters below:
  * - 0, points: the solution, any number of components. Default: the active scalars.
@@ -66,6 +70,8 @@
 
 #include "vtkFiltersMeshOptimizeModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
+
+class vtkMultiProcessController;
 
 class VTKFILTERSMESHOPTIMIZE_EXPORT vtkSolutionMetricFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -224,11 +230,24 @@ public:
   vtkGetMacro(TotalError, double);
   ///@}
 
+  ///@{
+  /**
+   * The controller whose processes each have a piece of the mesh. Default: the global controller.
+   * Null: this process only. All its processes must update together, with UpdatePiece().
+   */
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  vtkTypeBool ProcessRequest(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
 protected:
   vtkSolutionMetricFilter();
   ~vtkSolutionMetricFilter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
@@ -247,6 +266,7 @@ private:
   double DesiredErrorFraction = 0.0;
   double ConvergenceOrder = 1.0;
   bool ComputeSizeTensor = false;
+  vtkMultiProcessController* Controller = nullptr;
 
   double DesiredSize = 0.0;
   double PredictedNumberOfElements = 0.0;

@@ -2,6 +2,7 @@
 // Properties, ports and errors; the work is done in Private.
 #include "vtkThermoelasticFilter.h"
 
+#include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkThermoelasticArrays.h"
@@ -9,16 +10,22 @@
 
 #include "vtkCommunicator.h"
 #include "vtkDataObject.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <new>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkThermoelasticFilter);
 vtkCxxSetObjectMacro(vtkThermoelasticFilter, Controller, vtkMultiProcessController);
@@ -148,14 +155,42 @@ const char* vtkThermoelasticFilter::GetStopReasonAsString()
 //------------------------------------------------------------------------------
 int vtkThermoelasticFilter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
-  // One grid, not a composite: the executive calls the filter for each block.
+  vtkMeshBridge::AcceptBlocks(info);
   return 1;
 }
 
-int vtkThermoelasticFilter::FillOutputPortInformation(int port, vtkInformation* info)
+int vtkThermoelasticFilter::FillOutputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkTable");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+/**
+ * A grid and a table; for a tree of grids a tree like it, and one of tables.
+ */
+vtkTypeBool vtkThermoelasticFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  if (!request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->Superclass::ProcessRequest(request, input, output);
+  }
+  vtkMeshBridge::MakeOutputLikeInput(input, output);
+  const bool isTree = vtkDataObjectTree::GetData(input[0]) != nullptr;
+  vtkDataObject* history = vtkDataObject::GetData(output, 1);
+  if (!history || !history->IsA(isTree ? "vtkMultiBlockDataSet" : "vtkTable"))
+  {
+    vtkSmartPointer<vtkDataObject> fresh;
+    if (isTree)
+    {
+      fresh = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+    }
+    else
+    {
+      fresh = vtkSmartPointer<vtkTable>::New();
+    }
+    output->GetInformationObject(1)->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
   return 1;
 }
 
@@ -190,21 +225,29 @@ bridge::Request MakeRequest(vtkThermoelasticFilter* filter)
 }
 
 /**
- * All processes of the controller must call this.
+ * Whether some block has cells on several processes: then an error, the same on all. All processes
+ * of the controller must call this.
  */
-std::string CheckDistribution(vtkMultiProcessController* controller, bool hasCells)
+std::string CheckDistribution(
+  vtkMultiProcessController* controller, const std::vector<vtkMeshBridge::Block>& blocks)
 {
-  if (!controller || controller->GetNumberOfProcesses() == 1)
+  // Blocks may not be the same ones on all processes; flat indices are what they have in common.
+  int mine = 0, most = 0;
+  for (const vtkMeshBridge::Block& block : blocks)
   {
-    return {};
+    mine = std::max(mine, block.Index);
   }
-  // Collective: a process that left before this call would make the others wait for ever.
-  const int mine = hasCells ? 1 : 0;
-  int all = 0;
-  controller->AllReduce(&mine, &all, 1, vtkCommunicator::SUM_OP);
-  // Only ranks with cells have an error: the others have nothing to solve, and nothing to say.
-  return all <= 1 || !hasCells ? std::string()
-                               : "The mesh is spread over " + std::to_string(all) +
+  controller->AllReduce(&mine, &most, 1, vtkCommunicator::MAX_OP);
+  std::vector<int> here(most + 1, 0), all(most + 1, 0);
+  for (const vtkMeshBridge::Block& block : blocks)
+  {
+    here[block.Index] = block.Input->GetNumberOfCells() > 0 ? 1 : 0;
+  }
+  controller->AllReduce(
+    here.data(), all.data(), static_cast<vtkIdType>(all.size()), vtkCommunicator::SUM_OP);
+  const int processes = *std::max_element(all.begin(), all.end());
+  return processes <= 1 ? std::string()
+                        : "The mesh is spread over " + std::to_string(processes) +
       " processes, but the equations are solved on one. Bring it together first (in ParaView: the "
       "filter Aggregate Dataset).";
 }
@@ -239,40 +282,72 @@ void vtkThermoelasticFilter::StoreResults(const Results& results)
 int vtkThermoelasticFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkUnstructuredGrid* input = vtkUnstructuredGrid::GetData(inputVector[0]);
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
-  vtkTable* history = vtkTable::GetData(outputVector, 1);
-  if (!input) // a block of another type: the executive does not check it
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  const std::vector<vtkMeshBridge::Block> blocks = vtkMeshBridge::ListBlocks(
+    this, input, vtkDataObject::GetData(outputVector, 0));
+  auto histories = vtkMultiBlockDataSet::GetData(outputVector, 1);
+  if (histories)
   {
-    vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
-                    << " was skipped: it is not a vtkUnstructuredGrid.");
-    output->Initialize();
-    history->Initialize();
-    return 1;
+    histories->Initialize();
   }
+  const int processes = this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
+  const bool areMany = vtkMeshBridge::AsksForPieces(
+    outputVector->GetInformationObject(0), processes);
+  // Before anything that could fail on one process only.
+  const std::string error = areMany ? CheckDistribution(this->Controller, blocks) : std::string();
+  this->ErrorCode = error.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
+  // What all processes know is told by the first.
+  if (!error.empty() && this->Controller->GetLocalProcessId() == 0)
+  {
+    // Returning 0 would make the executive add an error of its own.
+    vtkErrorMacro(<< error);
+  }
+  this->StoreResults(Results());
+  for (const vtkMeshBridge::Block& block : blocks)
+  {
+    vtkSmartPointer<vtkTable> history = vtkTable::GetData(outputVector, 1);
+    if (histories)
+    {
+      history = vtkSmartPointer<vtkTable>::New();
+      histories->SetBlock(histories->GetNumberOfBlocks(), history);
+    }
+    if (error.empty())
+    {
+      this->Solve(vtkMeshBridge::TitleOf(input, block), block.Input, block.Output, history);
+    }
+    else
+    {
+      block.Output->Initialize();
+      history->Initialize();
+    }
+  }
+  return 1;
+}
+
+/**
+ * Solves on one grid. What it stores are the results of this grid.
+ */
+void vtkThermoelasticFilter::Solve(const std::string& title, vtkUnstructuredGrid* input,
+  vtkUnstructuredGrid* output, vtkTable* history)
+{
   bridge::Request request = MakeRequest(this);
   Results results;
   bridge::Outcome& outcome = results.Outcome;
   const int threads = vtkMeshBridge::ResolveNumberOfThreads(this->NumberOfThreads);
   request.Control = vtkMeshBridge::MakeControl(this, threads, 0.0, 1.0);
-  // Before anything that could fail on one process only.
-  std::string error = CheckDistribution(this->Controller, input->GetNumberOfCells() > 0);
+  std::string error;
   try
   {
-    if (error.empty())
-    {
-      error = bridge::SolveGrid(input, request, output, history, outcome);
-    }
+    error = bridge::SolveGrid(input, request, output, history, outcome);
   }
   catch (const std::bad_alloc&)
   {
     error = "Not enough memory to solve on this mesh.";
   }
-  this->ErrorCode = error.empty() ? vtkErrorCode::NoError : vtkErrorCode::UserError;
   if (!error.empty())
   {
-    // Returning 0 would make the executive add an error of its own.
-    vtkErrorMacro(<< error);
+    this->ErrorCode = vtkErrorCode::UserError;
+    vtkErrorMacro(<< title << error);
     output->Initialize();
     history->Initialize();
     // Results of an earlier run must not stay beside an error.
@@ -287,10 +362,9 @@ int vtkThermoelasticFilter::RequestData(
   // A warning, not an error: what has been found so far is in the output.
   if (this->StopReason == IterationLimit || this->StopReason == Breakdown)
   {
-    vtkWarningMacro(<< "The solver has not converged: after " << this->NumberOfSolverIterations
-                    << " steps the relative residual is " << this->RelativeResidual
-                    << ", wanted was " << this->Tolerance
+    vtkWarningMacro(<< title << "The solver has not converged: after "
+                    << this->NumberOfSolverIterations << " steps the relative residual is "
+                    << this->RelativeResidual << ", wanted was " << this->Tolerance
                     << ". Very flat elements are the usual reason.");
   }
-  return 1;
 }

@@ -54,7 +54,11 @@
  * does not reach its tolerance gives a warning, and GetStopReason() says so. After an abort outputs
  * are empty and GetStopReason() is Aborted.
  *
- * <b>Distributed data</b>: the body must be on one process; other processes may have empty pieces.
+ * <b>Composite data</b>: each grid is a body of its own; results are those of the last one, and
+ * output port 1 has a table for each.
+ *
+ * <b>Distributed data</b>: a body must be on one process; others may have empty pieces. Otherwise
+ * there is an error on all processes.
  *
  * The same input gives the same output, bit for bit, for any number of threads.
  *
@@ -72,7 +76,10 @@
 #include "vtkFiltersThermoelasticModule.h" // for export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
+#include <string>
+
 class vtkMultiProcessController;
+class vtkTable;
 
 class VTKFILTERSTHERMOELASTIC_EXPORT vtkThermoelasticFilter : public vtkUnstructuredGridAlgorithm
 {
@@ -375,11 +382,15 @@ public:
   ///@{
   /**
    * The controller that tells whether the body is spread over several processes. Default: the
-   * global controller. Null: this process only. All its processes must update together.
+   * global controller. Null: this process only. Asked with UpdatePiece() for one piece on each of
+   * its processes, all must update together; asked for the whole, a process works alone.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
+
+  vtkTypeBool ProcessRequest(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 protected:
   vtkThermoelasticFilter();
@@ -395,6 +406,8 @@ private:
 
   struct Results;
   void StoreResults(const Results& results);
+  void Solve(const std::string& title, vtkUnstructuredGrid* input, vtkUnstructuredGrid* output,
+    vtkTable* history);
   void ChooseArray(int index, bool onCells, const char* name);
 
   int TemperatureMode = PointArray;

@@ -31,7 +31,6 @@ int main(int argc, char* argv[])
   reader->SetFileName(name.c_str());
   vtkNew<vtkMeshOptimizeFilter> optimizer;
   optimizer->SetInputConnection(reader->GetOutputPort());
-  optimizer->OptimizeBordersOn();
   vtkNew<vtkXMLPUnstructuredGridWriter> writer;
   writer->SetController(controller);
   writer->SetInputConnection(optimizer->GetOutputPort());

@@ -69,6 +69,8 @@ class Case:
         self.owner, how = divide(random, mesh, ranks) if len(mesh["cells"]) else (np.zeros(0, int), "nothing")
         self.options, self.arrays = choose(random, mesh)
         self.ids = random.random() < 0.6
+        if random.random() < 0.15:
+            self.options.update(OptimizeBelow=float(random.choice([0.1, 0.3])), NumberOfLayers=int(random.integers(4)))
         self.text += f", {how}, {'ids' if self.ids else 'no ids'}, {self.options}, {self.arrays}"
 
     def grid(self, chosen):

@@ -4,13 +4,13 @@ import os
 import sys
 
 import numpy as np
-from meshoptimize import vtkMeshOptimizeFilter, vtkSolutionMetricFilter, vtkThermoelasticFilter
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from meshoptimize import vtkMeshOptimizeFilter
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkVariantArray
 from vtkmodules.vtkCommonDataModel import VTK_VERTEX, vtkMultiBlockDataSet
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # pvbatch does not
-from ranks_case import Mesh, add, check, compare, corners, history, rank, ranks, run, run_tests, tell
+from ranks_case import Mesh, add, check, compare, corners, history, make_grid, rank, ranks, run, run_tests, tell
 
 
 def alone(mesh, **options):
@@ -73,6 +73,16 @@ def test_switches():
     check(len(after) == len(before) and points_of(after) != points_of(before), "motion alone: cells")
 
 
+def test_paper():
+    """The algorithm of 1996, in pieces and bands."""
+    mesh = Mesh()
+    kept = run(mesh.piece(), False, Algorithm=0)
+    serial, f = alone(mesh, Algorithm=0), run(mesh.piece(), Algorithm=0)
+    compare("paper", f, corners(mesh.whole()), serial)
+    check(f.GetWorstQualityAfter() >= 0.6 > 2 * kept.GetWorstQualityAfter(),
+          f"paper: {f.GetWorstQualityAfter()}, with the borders kept {kept.GetWorstQualityAfter()}")
+
+
 def test_threads():
     """0 threads are those of the computer, divided by its ranks: the same bits as with one."""
     mesh = Mesh()
@@ -121,6 +131,13 @@ def test_kept():
             add(grid.GetCellData(), "here", np.zeros(grid.GetNumberOfCells()))
         return grid
 
+    def with_ids():
+        grid = mesh.whole()  # of points only: an id of a cell on two ranks is an error
+        ids = numpy_to_vtkIdTypeArray(np.arange(len(mesh.x)), deep=1)
+        ids.SetName("ids")
+        grid.GetPointData().SetGlobalIds(ids)
+        return grid
+
     def with_variants():
         grid, values = mesh.piece(), vtkVariantArray()
         values.SetName("anything")
@@ -132,9 +149,9 @@ def test_kept():
             ("one size", plain, {"Beta": 1.0, "DesiredSize": 0.25}, "sizes or a metric"),
             ("sizes", plain, {"Beta": 1.0, **array("Size")}, "sizes or a metric"),
             ("metric", plain, {"Beta": 1.0, "DesiredSize": 1.0, **array("Metric")}, "sizes or a metric"),
-            ("below", plain, {"OptimizeBelow": 0.3}, "OptimizeBelow"),
-            ("paper", plain, {"Algorithm": 0}, "Paper1996"),
             ("vertex", with_a_vertex, {}, "other cells"),
+            ("copies", mesh.whole, {}, "lie on each other"),
+            ("copies with ids", with_ids, {}, "lie on each other"),
             ("array", with_an_array_on_one_rank, {}, "different arrays"),
             ("variants", with_variants, {}, "cannot be sent")):
         f = run(make(), **options)
@@ -146,6 +163,35 @@ def test_kept():
         check(0 < count == off.GetOutput().GetNumberOfCells(), f"kept, {name}: {count} cells")
         check(np.array_equal(vtk_to_numpy(f.GetOutput().GetPoints().GetData()),
                              vtk_to_numpy(off.GetOutput().GetPoints().GetData())), f"kept, {name}: other points")
+
+
+def test_faces_alone():
+    """A rank that has got nothing but faces of the mesh leaves them as they are, whatever the switch is: they are no plane mesh."""
+    mesh = Mesh(n=5)
+    face = mesh.cells[:, [0, 1, 2]][(mesh.node[mesh.cells[:, [0, 1, 2]]][:, :, 2] == 0).all(axis=1)]
+    face = np.concatenate([face, [[0, 1, 7]]]) if len(face) == 0 else face
+    grid = make_grid(mesh.x, face) if rank == 1 else mesh.whole()
+    for everywhere in (True, False):
+        f = run(grid, everywhere) if everywhere else filter_on_pieces(grid)
+        check(f.GetErrorCode() == 0, f"faces alone: {f.told}")
+        check(all("borders between the ranks' pieces are kept" in text for text in f.told), f"faces alone: {f.told}")
+        if rank == 1:
+            out = f.GetOutput()
+            same = np.array_equal(vtk_to_numpy(out.GetPoints().GetData()), mesh.x) and out.GetNumberOfCells() == len(face)
+            check(same, f"faces alone: {len(face)} cells, then {out.GetNumberOfCells()}, and other points")
+            check(np.isnan(vtk_to_numpy(out.GetCellData().GetArray("MeshQuality"))).all(), "faces alone: they have been measured")
+        else:
+            check(f.GetWorstQualityAfter() > 0.5, f"faces alone: {f.GetWorstQualityAfter()}")
+
+
+def filter_on_pieces(grid):
+    """With the switch off, but asked for pieces."""
+    f = vtkMeshOptimizeFilter()
+    f.SetOptimizeBorders(False)
+    f.SetInputData(grid)
+    f.told = tell(f)
+    f.UpdatePiece(rank, ranks, 0)
+    return f
 
 
 def test_slide():
@@ -171,28 +217,6 @@ def test_slide():
             check(f.GetOutputDataObject(0).GetNumberOfElements(1) == 0, f"slide, {name}: cells come out")
             check(len(told) == (rank == 0 or not everywhere), f"slide, {name}: {told}")
             check(all("Slide needs the whole mesh in one piece" in text for text in told), f"slide, {name}: {told}")
-
-
-def test_other_filters():
-    """Thermoelastic: an error on every rank that has cells. Solution Metric: a warning, and none where it works alone."""
-    mesh = Mesh(n=4)
-    mesh.points["square"] = (mesh.x ** 2).sum(axis=1)
-    empty = mesh.grid(np.zeros(len(mesh.cells), bool))
-    f = vtkThermoelasticFilter()
-    f.SetInputData(mesh.piece())
-    told = tell(f)
-    f.UpdatePiece(rank, ranks, 0)
-    check(f.GetErrorCode() != 0 and f.GetOutput().GetNumberOfCells() == 0, "thermoelastic: no error")
-    check(len(told) == 1 and f"spread over {ranks} processes" in told[0], f"thermoelastic: {told}")
-    for name, grid, in_pieces, warnings in (("pieces", mesh.piece(), True, 1), ("no piece", empty, True, 0),
-                                            ("alone", mesh.whole(), False, 0)):
-        f = vtkSolutionMetricFilter()
-        f.SetInputData(grid)
-        f.SetSolutionArray("square")
-        told = tell(f)
-        f.UpdatePiece(rank, ranks, 0) if in_pieces else f.Update()
-        check(f.GetErrorCode() == 0 and len(told) == warnings, f"metric, {name}: {told}")
-        check(all("Aggregate Dataset" in text for text in told), f"metric, {name}: {told}")
 
 
 run_tests(globals())

@@ -19,7 +19,7 @@ NOT_OFFERED = {
     ("MeshOptimize", "QualityMeasure"): {"MinimumDihedralAngle"},
 }
 NOT_IN_XML = {"MeshOptimize": {"Controller", "GeometryData"}, "MeshQualityMinMax": {"Controller"},
-              "Thermoelastic": {"Controller"},
+              "SolutionMetric": {"Controller"}, "Thermoelastic": {"Controller"},
               "TetGen": {"InteriorPointsData"}}
 
 # What a script calls the proxy, where the label says more than the name.

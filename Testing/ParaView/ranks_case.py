@@ -162,8 +162,8 @@ def figures_of(f):
             "NumberOfEvaluations")]
 
 
-def compare(name, f, before, serial=None):
-    """Surface bit for bit, no facet of three cells, volume, figures; worst like serial's. Returns all cells."""
+def compare(name, f, before, serial=None, works=True):
+    """Surface bit for bit, no facet of three cells, volume, figures; worst like serial's. `works`: something was tried. Returns all cells."""
     tets = np.concatenate(gather(tets=corners(f.GetOutput()))["tets"])
     check(f.told == [], f"{name}: {f.told}")
     if rank > 0:
@@ -175,7 +175,7 @@ def compare(name, f, before, serial=None):
     check(abs(volume(tets) / volume(before) - 1) < 1e-12, f"{name}: another volume")
     check(len({tuple(row) for row in gather(figures=figures_of(f))["figures"]}) == 1, f"{name}: figures differ by rank")
     isLate = f.GetStopReason() == vtkMeshOptimizeFilter.TimeLimitReached
-    check(isLate or f.GetNumberOfEvaluations() > f.GetNumberOfOperations(), f"{name}: {f.GetNumberOfEvaluations()} evaluations")
+    check(isLate or not works or f.GetNumberOfEvaluations() > f.GetNumberOfOperations(), f"{name}: {f.GetNumberOfEvaluations()} evaluations")
     if serial:
         check(f.GetWorstQualityAfter() >= 0.98 * serial.GetWorstQualityAfter(),
               f"{name}: worst {f.GetWorstQualityAfter()}, alone {serial.GetWorstQualityAfter()}")

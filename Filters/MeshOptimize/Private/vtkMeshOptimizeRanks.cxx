@@ -33,9 +33,7 @@ namespace
  */
 std::string FindObstacle(const Request& request)
 {
-  return request.OptimizeBelow > 0.0                              ? "OptimizeBelow is set"
-    : request.Options.algorithm != meshopt::Algorithm::WorstFirst ? "the algorithm is Paper1996"
-    : request.UsesSizes() || vtkMeshBridge::IsWanted(request.Filter, MetricArray)
+  return request.UsesSizes() || vtkMeshBridge::IsWanted(request.Filter, MetricArray)
     ? "sizes or a metric are used"
     : "";
 }
@@ -188,6 +186,39 @@ bool ListBlocks(vtkMultiProcessController* controller, const std::vector<int>& h
 }
 
 //------------------------------------------------------------------------------
+std::vector<char> FindVolumes(vtkMultiProcessController* controller, const std::vector<int>& here,
+  const std::vector<char>& volumes)
+{
+  const Ranks ranks(controller);
+  std::vector<char> all = volumes;
+  // Without an answer, for want of memory, each rank is left with what it knows.
+  ranks.Together(
+    [&]()
+    {
+      std::vector<int> mine;
+      for (std::size_t i = 0; i < here.size(); ++i)
+      {
+        if (volumes[i])
+        {
+          mine.push_back(here[i]);
+        }
+      }
+      Bytes bytes;
+      PutAll(bytes, mine);
+      for (const Bytes& one : ranks.Gather(bytes))
+      {
+        const std::vector<int> theirs = Reader(one).TakeAll<int>();
+        for (std::size_t i = 0; i < here.size(); ++i)
+        {
+          all[i] |= std::count(theirs.begin(), theirs.end(), here[i]) > 0;
+        }
+      }
+      return std::string();
+    });
+  return all;
+}
+
+//------------------------------------------------------------------------------
 std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& request,
   const std::function<std::string()>& check, vtkUnstructuredGrid* input,
   vtkUnstructuredGrid* output, Outcome& outcome, std::string& obstacle)
@@ -211,7 +242,11 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
       }
       Rounds rounds(ranks, request, outcome);
       // Without any cells the dimension does not matter.
-      rounds.Read(input, cells.Simplices, dimension == 0 ? 3 : dimension);
+      obstacle = rounds.Read(input, cells.Simplices, dimension == 0 ? 3 : dimension);
+      if (!obstacle.empty())
+      {
+        return std::string();
+      }
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();
       rounds.OptimizeBorders();

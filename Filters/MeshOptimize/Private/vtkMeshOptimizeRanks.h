@@ -26,6 +26,13 @@ bool ListBlocks(vtkMultiProcessController* controller, const std::vector<int>& h
   const std::vector<int>& places, std::vector<int>& blocks);
 
 /**
+ * Which blocks have cells of dimension three on some rank. `here` are the blocks of this rank, by
+ * flat index, `volumes` tells it of each for this rank; so does the result for all. Collective.
+ */
+std::vector<char> FindVolumes(vtkMultiProcessController* controller, const std::vector<int>& here,
+  const std::vector<char>& volumes);
+
+/**
  * Optimizes the mesh whose piece on this rank is `input`. First
  * `check` looks at what is on this rank, and returns an error or an empty string.
  *

@@ -19,8 +19,6 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
-#include "WorstFirst/Constants.h"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -43,6 +41,8 @@ constexpr int MostRounds = 4;
 constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
 /// The part of what may still grow that a round uses; the last may use all.
 constexpr double ShareOfRound = 0.75;
+/// If a rank has more than this times the mean, the mesh is divided anew.
+constexpr double MostOfMeanAtFirst = 1.5;
 /// The part of the progress that the pieces take.
 constexpr double PiecesDone = 0.7;
 
@@ -108,7 +108,7 @@ Rounds::Rounds(const Ranks& ranks, const Request& request, Outcome& outcome)
 {
 }
 
-void Rounds::Read(
+std::string Rounds::Read(
   vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension)
 {
   InputArrays arrays;
@@ -156,6 +156,11 @@ void Rounds::Read(
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
   Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), this->Ids, this->Mine);
   this->FirstNewPoint = this->Ids.NextPoint;
+  // As one mesh, copies would have their whole surface in common, and none left that is kept.
+  if (DoPiecesCoincide(this->All, this->Mine, this->Normal))
+  {
+    return "the pieces of the ranks lie on each other, as if each had read the whole mesh";
+  }
   this->Divide();
   this->Mine.Home.assign(this->Mine.CellIds.size(), this->All.GetRank());
   const Shared shared = FindShared(this->All, this->Mine);
@@ -165,11 +170,9 @@ void Rounds::Read(
     this->Mine.Flags[p] |= shared.Has(p) ? Waiting : 0;
   }
   this->PointsAtFirst = Measure(this->All, this->Mine, shared, 0.0).Points;
-  // By the whole mesh: pieces share what it may grow.
-  this->Growth = meshopt::growthOf(
-    this->Wanted.Options, static_cast<long>(this->CellsAtFirst), dimension);
-  this->Shrink = static_cast<long>(
-    meshopt::worstfirst::ShrinkBudget * static_cast<double>(this->CellsAtFirst));
+  this->CellsInZone = this->CellsAtFirst;
+  this->ShareGrowth();
+  return {};
 }
 
 /**
@@ -201,16 +204,19 @@ Signature Rounds::Sign() const { return vtkMeshRanks::Sign(this->All, this->Mine
 void Rounds::Divide()
 {
   const std::vector<vtkIdType> counts = this->All.Gather(this->Mine.GetNumberOfCells());
+  const vtkIdType most = *std::max_element(counts.begin(), counts.end());
   // All cells on one rank, as a reader without pieces leaves them.
-  const bool isOnOne = *std::max_element(counts.begin(), counts.end()) == this->CellsAtFirst;
-  if (!isOnOne || this->CellsAtFirst == 0)
+  const bool isOnOne = most == this->CellsAtFirst;
+  const double mean = static_cast<double>(this->CellsAtFirst) / this->All.GetCount();
+  if (static_cast<double>(most) <= MostOfMeanAtFirst * mean)
   {
     return;
   }
+  const std::vector<int> target = isOnOne ? vtkMeshRanks::Divide(this->Mine, this->All.GetCount())
+                                          : vtkMeshRanks::DivideAnew(this->All, this->Mine);
   const Signature before = this->Sign();
   std::vector<char> isMoved;
-  Move(this->All, vtkMeshRanks::Divide(this->Mine, this->All.GetCount()), this->Points, this->Cells,
-    this->Mine, isMoved);
+  Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
   const std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(
     problem.empty() ? "" : "After the mesh was divided among the ranks " + problem + ".");
@@ -247,25 +253,32 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   request.Control = vtkMeshBridge::MakeControl(
     request.Filter, request.NumberOfThreads, this->First, this->Last);
   std::string error;
-  if (!part.CellIds.empty())
+  std::vector<Part> parts; // the zone, and what is outside of it
+  if (this->HasZone)
   {
-    const auto grid = MakeGrid(part, this->Points, this->Cells);
+    parts = Split(part, std::vector<int>(part.Kept.begin(), part.Kept.end()), 2, 0);
+  }
+  Part& zone = this->HasZone ? parts[0] : part;
+  if (!zone.CellIds.empty())
+  {
+    const auto grid = MakeGrid(zone, this->Points, this->Cells);
     InputArrays arrays;
     error = FindInputArrays(request.Filter, grid, arrays);
     // A mask of the part as it is now: at moved points an interpolated array has fractions.
-    const auto mask = MaskOf(part); // the array itself is interpolated at moved points
+    const auto mask = MaskOf(zone); // the array itself is interpolated at moved points
     arrays.FixedPoints = mask;
     vtkNew<vtkUnstructuredGrid> after;
     error = error.empty() ? OptimizeGrid(grid, arrays, request, after, outcome) : error;
     if (error.empty())
     {
       // After the first run data have been interpolated once already.
-      part = ReadGrid(after, part, this->First > 0.0);
+      zone = ReadGrid(after, zone, this->First > 0.0);
     }
   }
   // Also ranks without cells: they wait for the errors of the others.
   this->All.Agree(error);
-  this->NumberNew(part);
+  this->NumberNew(zone);
+  this->All.Agree(this->HasZone ? Join(parts, part) : "");
   this->IsShort = this->All.IsAny(outcome.Report.stopReason == StopReason::GrowthLimit);
 }
 
@@ -307,13 +320,8 @@ void Rounds::UndoConflicts(const Part& before, Outcome& run)
     if (goesOn)
     {
       Part part = undoes ? before : MakePart(before.Corners, this->Points, this->Cells);
-      const Request wanted = this->Wanted;
-      meshopt::Options& options = this->Wanted.Options;
-      // A run that may do nothing: it measures the qualities, and takes no growth.
-      options.moveNodes = options.reconnect = options.insertNodes = options.removeNodes = false;
       Outcome idle;
-      this->Optimize(part, 0.0, 0.0, idle);
-      this->Wanted = wanted;
+      this->RunIdle(part, idle);
       if (undoes)
       {
         run = std::move(idle);
@@ -326,31 +334,34 @@ void Rounds::UndoConflicts(const Part& before, Outcome& run)
 
 void Rounds::OptimizePieces()
 {
+  this->FindZone();
   // What is at a border cannot get much better now: its share is left for the rounds.
   double inside = 0.0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
     const vtkIdType* ids = this->Mine.GetCell(c);
-    inside += std::none_of(ids, ids + this->Mine.Corners,
-      [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
+    inside += !this->Mine.Kept[c] &&
+      std::none_of(ids, ids + this->Mine.Corners,
+        [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
   }
   Outcome run;
   this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
   const Part before = this->IsTangled ? this->Mine : Part(); // shares the arrays
   this->Last = PiecesDone;
   this->Optimize(
-    this->Mine, inside / static_cast<double>(std::max<vtkIdType>(this->CellsAtFirst, 1)), 1.0, run);
+    this->Mine, inside / static_cast<double>(std::max<vtkIdType>(this->CellsInZone, 1)), 1.0, run);
   if (this->IsTangled)
   {
     this->UndoConflicts(before, run);
   }
-  this->Result.NumberOfSimplices = this->All.Sum(run.NumberOfSimplices);
-  this->Result.NumberOfCellsBefore = this->All.Sum(run.NumberOfCellsBefore);
-  this->Result.NumberOfReorientedCells = this->All.Sum(run.NumberOfReorientedCells);
+  const Outcome& atFirst = this->HasZone ? this->AtFirst : run; // of all cells
+  this->Result.NumberOfSimplices = this->All.Sum(atFirst.NumberOfSimplices);
+  this->Result.NumberOfCellsBefore = this->All.Sum(atFirst.NumberOfCellsBefore);
+  this->Result.NumberOfReorientedCells = this->All.Sum(atFirst.NumberOfReorientedCells);
   this->Result.NumberOfOperations = this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations = this->All.Sum(run.Report.evaluations);
-  this->Result.Overlap = FirstOf(this->All, run.Overlap);
-  this->RecordInput(run);
+  this->Result.Overlap = FirstOf(this->All, atFirst.Overlap);
+  this->RecordInput(atFirst);
   this->Record("pieces", run);
   this->MustStop(run);
 }
@@ -418,9 +429,10 @@ void Rounds::Round(int round)
   Outcome run;
   const Part band = this->IsTangled ? parts[1] : Part(); // shares the arrays
   // Growth is shared out by cells.
-  const double mine = static_cast<double>(parts[1].GetNumberOfCells());
-  const double bands = static_cast<double>(this->All.Sum(parts[1].GetNumberOfCells()));
-  this->Result.NumberOfCellsInBands += static_cast<vtkIdType>(bands);
+  const vtkIdType free = std::count(parts[1].Kept.begin(), parts[1].Kept.end(), 0);
+  const double mine = static_cast<double>(free);
+  const double bands = static_cast<double>(this->All.Sum(free));
+  this->Result.NumberOfCellsInBands += this->All.Sum(parts[1].GetNumberOfCells());
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
   this->All.Agree(Join(parts, this->Mine));

@@ -31,14 +31,16 @@ public:
   Rounds(const vtkMeshRanks::Ranks& ranks, const Request& request, Outcome& outcome);
 
   /**
-   * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if all
-   * of it is on one rank. `simplices`: the cells that are the mesh; all others are copies of those
-   * of other ranks, and are dropped. `dimension` is that of the cells of all ranks.
+   * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if one
+   * rank has all of it, or far more than the others. `simplices`: the cells that are the mesh; all others are copies of those
+   * of other ranks, and are dropped. `dimension` is that of the cells of all ranks. Returns why
+   * borders cannot take part, or an empty string.
    */
-  void Read(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension);
+  std::string Read(
+    vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension);
 
   /**
-   * Optimizes the piece of each rank with its border kept.
+   * Finds the zone that may change, and optimizes the piece of each rank with its border kept.
    */
   void OptimizePieces();
 
@@ -64,6 +66,9 @@ private:
   void FindPlane(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& triangles);
   vtkMeshRanks::Signature Sign() const;
   void Divide();
+  void FindZone();
+  void ShareGrowth();
+  void RunIdle(vtkMeshRanks::Part& part, Outcome& idle);
   void Optimize(vtkMeshRanks::Part& part, double weight, double share, Outcome& outcome);
   void UndoConflicts(const vtkMeshRanks::Part& before, Outcome& run);
   void NumberNew(vtkMeshRanks::Part& part);
@@ -89,6 +94,11 @@ private:
   vtkMeshRanks::Part Mine;
   vtkIdType CellsAtFirst = 0, PointsAtFirst = 0; ///< of all ranks
   long Growth = 0, Shrink = 0;    ///< how many cells all ranks may gain and lose, from CellsAtFirst
+  bool HasZone = false;           ///< some cells may not change: those that are Kept
+  vtkIdType CellsInZone = 0;      ///< of all ranks, at first
+  vtkIdType BelowOutside = 0;     ///< cells outside of the zone that are under the target
+  double WorstOutside = 1.0;      ///< of the cells outside of the zone, if there is one
+  Outcome AtFirst;                ///< of a run that has measured only, if there is a zone
   double First = 0.0, Last = 1.0; ///< the part of the progress that runs now
   meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
   vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state

@@ -92,14 +92,29 @@ void Rounds::RecordInput(const Outcome& run)
 }
 
 /**
- * The region of each cell; empty without regions.
+ * The region of each cell; empty without regions. The hull of a zone is kept like an interface.
  */
 std::vector<long long> Rounds::ReadRegions() const
 {
   const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
   InputArrays arrays;
   FindInputArrays(this->Wanted.Filter, grid, arrays); // has been checked
-  return arrays.Region ? vtkMeshBridge::ReadIntegers(arrays.Region) : std::vector<long long>();
+  std::vector<long long> regions;
+  if (arrays.Region)
+  {
+    regions = vtkMeshBridge::ReadIntegers(arrays.Region);
+  }
+  else if (this->HasZone)
+  {
+    regions.assign(this->Mine.CellIds.size(), 0);
+  }
+  for (std::size_t c = 0; c < regions.size() && this->HasZone; ++c)
+  {
+    // Without a sign, since the product may be too large.
+    regions[c] = static_cast<long long>(
+      2 * static_cast<unsigned long long>(regions[c]) + (this->Mine.Kept[c] ? 1 : 0));
+  }
+  return regions;
 }
 
 /**
@@ -133,7 +148,7 @@ void Rounds::Record(const char* stage, const Outcome& run)
   vtkIdType capped = 0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
-    capped += this->Surface.IsCapped[c] && this->Mine.Quality[c] < target;
+    capped += this->Surface.IsCapped[c] && this->Mine.Quality[c] < target && !this->Mine.Kept[c];
   }
   meshopt::Report& report = this->Result.Report;
   row.pass = static_cast<int>(report.history.size());
@@ -144,7 +159,9 @@ void Rounds::Record(const char* stage, const Outcome& run)
   row.cells = static_cast<long>(now.Cells);
   row.points = static_cast<long>(now.Points);
   report.invertedAfter = static_cast<long>(now.NotPositive);
-  report.bound = this->Surface.Bound;
+  // What is outside of a zone stays: nothing can lift the whole above its worst.
+  report.bound = std::min(this->Surface.Bound,
+    this->HasZone ? this->WorstOutside : std::numeric_limits<double>::infinity());
   report.cappedCells = static_cast<long>(this->All.Sum(capped));
   report.history.push_back(row);
   this->Result.NumberOfCells = now.Cells;
@@ -154,7 +171,7 @@ void Rounds::Record(const char* stage, const Outcome& run)
 StopReason Rounds::FindReason() const
 {
   const meshopt::Report& report = this->Result.Report;
-  const long below = report.history.back().belowTarget;
+  const long below = report.history.back().belowTarget - static_cast<long>(this->BelowOutside);
   // In the order of a run on one rank: the first that applies is the reason.
   return this->CellsAtFirst == 0          ? StopReason::NothingToDo
     : this->Stopped != StopReason::NotRun ? this->Stopped

@@ -45,6 +45,7 @@ bool Rounds::IsDone()
     const vtkIdType* ids = this->Mine.GetCell(c);
     isWaiting = isWaiting ||
       (this->Mine.Quality[c] < this->GetGoal() && !this->Surface.IsCapped[c] &&
+        !this->Mine.Kept[c] &&
         std::any_of(ids, ids + this->Mine.Corners,
           [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; }));
   }
@@ -60,7 +61,7 @@ void Rounds::WaitWhereStuck()
 {
   const double target = this->Wanted.Options.targetQuality;
   const auto isStuck = [&](vtkIdType c, double most)
-  { return this->Mine.Quality[c] < most && !this->Surface.IsCapped[c]; };
+  { return this->Mine.Quality[c] < most && !this->Surface.IsCapped[c] && !this->Mine.Kept[c]; };
   // Of what is stuck; the target, if nothing is.
   vtkIdType stuck = 0;
   double worst = target;

@@ -272,7 +272,7 @@ std::string OptimizeGrid(vtkUnstructuredGrid* input, const InputArrays& arrays,
   outcome.NumberOfGhostSimplices = cells.NumberOfGhostSimplices;
   outcome.NumberOfSurfaceTriangles = cells.NumberOfSurfaceTriangles;
   outcome.NumberOfQuadraticSimplices = cells.NumberOfQuadraticSimplices;
-  if (cells.Simplices.empty())
+  if (cells.Simplices.empty() || (cells.Dimension == 2 && request.IsPieceOfVolume))
   {
     PassThrough(input, output, outcome);
   }

@@ -5,6 +5,8 @@
 #include "Base/Scramble.h"
 #include "Mesh/SimplexGeometry.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -179,6 +181,53 @@ bool HasOverusedFacet(const Ranks& ranks, const Part& part)
   }
   const std::vector<Bytes> told = ranks.Exchange(std::move(answers));
   return std::any_of(told.begin(), told.end(), [](const Bytes& bytes) { return bytes[0] != 0; });
+}
+
+/**
+ * 1 or -1: on which side of the facet, whose nodes come in the order of their ids, its cell lies.
+ */
+int SideOf(const Part& part, const CellFacet& facet, const std::array<double, 3>& normal)
+{
+  const auto point = [&part](vtkIdType p)
+  { return Eigen::Map<const Eigen::Vector3d>(part.GetPoint(p)); };
+  const Eigen::Vector3d from = point(facet.Nodes[0]);
+  const Eigen::Vector3d a = point(facet.Nodes[1]) - from;
+  const Eigen::Vector3d b = part.Corners == 4
+    ? Eigen::Vector3d(point(facet.Nodes[2]) - from)
+    : Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(normal.data()));
+  const Eigen::Vector3d apex = point(part.GetCell(facet.Cell)[facet.Local]) - from;
+  return a.cross(b).dot(apex) < 0.0 ? -1 : 1;
+}
+
+bool DoPiecesCoincide(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal)
+{
+  std::vector<std::uint64_t> hashes(part.PointIds.size());
+  std::transform(part.PointIds.begin(), part.PointIds.end(), hashes.begin(),
+    [](vtkIdType id) { return meshopt::scramble(static_cast<std::uint64_t>(id)); });
+  const auto count = static_cast<std::uint64_t>(ranks.GetCount());
+  std::vector<Bytes> out(ranks.GetCount());
+  for (const CellFacet& facet : FindOpenFacets(part, Flagged(part, Skin)))
+  {
+    const std::uint64_t hash = HashOfFacet(facet.Nodes, part.Corners - 1, hashes);
+    // Each facet is looked at by one rank, the same for all.
+    Bytes& bytes = out[meshopt::scramble(hash) % count];
+    Put(bytes, hash);
+    Put(bytes, SideOf(part, facet, normal));
+  }
+  std::unordered_map<std::uint64_t, int> sides;
+  vtkIdType excess = 0; // of pairs on one side over pairs on both
+  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+  {
+    for (Reader reader(bytes); !reader.IsAtEnd();)
+    {
+      const auto hash = reader.Take<std::uint64_t>();
+      const int side = reader.Take<int>();
+      const auto known = sides.emplace(hash, side);
+      excess += known.second ? 0 : known.first->second * side;
+    }
+  }
+  // Most, not any: cells that lie on each other may be on the wrong side here and there.
+  return ranks.Sum(excess) > 0;
 }
 
 std::string Compare(const Signature& before, const Signature& after, bool cells, bool isTangled)

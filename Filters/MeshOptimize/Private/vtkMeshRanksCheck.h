@@ -61,6 +61,12 @@ bool HasNotPositive(const Part& part, const std::array<double, 3>& normal);
 bool HasOverusedFacet(const Ranks& ranks, const Part& part);
 
 /**
+ * Whether pieces of different ranks lie on each other: of the facets that two of them have, most
+ * have both cells on one side. So it is where each rank has read the whole mesh. Collective.
+ */
+bool DoPiecesCoincide(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
+
+/**
  * An error if `after` is not of the same mesh as `before`; `cells` says whether the cells must be
  * the same, too, by number and ids. Volumes may differ by rounding;
  * with `isTangled` they are not compared, since cells may be turned.

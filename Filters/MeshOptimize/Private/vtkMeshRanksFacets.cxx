@@ -275,6 +275,29 @@ Shared FindShared(const Ranks& ranks, const Part& part)
   return shared;
 }
 
+//------------------------------------------------------------------------------
+std::vector<char> AnyOf(const Ranks& ranks, const Shared& shared, std::vector<char> marks)
+{
+  std::vector<Bytes> out(ranks.GetCount());
+  for (std::size_t k = 0; k < shared.Neighbors.size(); ++k)
+  {
+    for (const vtkIdType p : shared.Points[k])
+    {
+      out[shared.Neighbors[k]].push_back(marks[p]);
+    }
+  }
+  const std::vector<Bytes> in = ranks.Exchange(std::move(out));
+  for (std::size_t k = 0; k < shared.Neighbors.size(); ++k)
+  {
+    const Bytes& theirs = in[shared.Neighbors[k]];
+    for (std::size_t i = 0; i < theirs.size(); ++i)
+    {
+      marks[shared.Points[k][i]] |= theirs[i];
+    }
+  }
+  return marks;
+}
+
 std::vector<std::pair<CellFacet, long long>> FindBorder(const Ranks& ranks, const Part& part,
   const Shared& shared, const std::vector<CellFacet>& open, const std::vector<long long>& values)
 {

@@ -71,6 +71,11 @@ struct Shared
 Shared FindShared(const Ranks& ranks, const Part& part);
 
 /**
+ * One value for each point: whether any rank that has it has a mark there. Collective.
+ */
+std::vector<char> AnyOf(const Ranks& ranks, const Shared& shared, std::vector<char> marks);
+
+/**
  * The facets of this part on borders between ranks: those that a cell of another rank has, too,
  * with the value that the other rank gave to that cell. `open` are all that may be. Collective.
  */

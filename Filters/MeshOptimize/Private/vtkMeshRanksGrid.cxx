@@ -81,6 +81,7 @@ void ReadCells(vtkUnstructuredGrid* grid, Part& part)
   auto home = vtkIntArray::SafeDownCast(grid->GetCellData()->GetArray(HomeName));
   part.Origin.assign(origin->GetPointer(0), origin->GetPointer(0) + n);
   part.Home.assign(home->GetPointer(0), home->GetPointer(0) + n);
+  part.Kept.assign(n, 0); // it has taken part in one
   part.Cells.reserve(n * part.Corners);
   for (vtkIdType c = 0; c < n; ++c)
   {
@@ -140,6 +141,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
   }
   part.Quality.assign(simplices.size(), 0.0);
   part.Home.assign(simplices.size(), 0);
+  part.Kept.assign(simplices.size(), 0);
   part.Hint.assign(part.PointIds.size(), -1);
   const auto choose = [](vtkDataSetAttributes* data, const Schema& schema,
                         const std::vector<vtkIdType>& chosen, Arrays& arrays)

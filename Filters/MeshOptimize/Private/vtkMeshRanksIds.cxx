@@ -113,7 +113,8 @@ bool MakeOpenFacet(const Part& part, const CellFacet& facet, OpenFacet& open)
 /**
  * Tells each rank which of its facets are also another's.
  */
-std::vector<Bytes> Match(const std::vector<Bytes>& facets, int n, std::string& error)
+std::vector<Bytes> Match(
+  const std::vector<Bytes>& facets, int n, const Numbering& numbering, std::string& error)
 {
   std::vector<Entry> entries;
   for (std::size_t r = 0; r < facets.size(); ++r)
@@ -138,9 +139,10 @@ std::vector<Bytes> Match(const std::vector<Bytes>& facets, int n, std::string& e
     }
     if (j - i > 2)
     {
-      error = "Facets of more than two cells lie on each other where pieces meet, as at a crack "
-              "of doubled nodes. Which cells are neighbours is not known without global point ids: "
-              "give the points global ids, or switch OptimizeBorders off.";
+      error = std::string("Facets of more than two cells lie on each other where pieces meet, as "
+                          "at a crack of doubled nodes. Which cells are neighbours is not known "
+                          "without global point ids: give the points global ids") +
+        numbering.Else + ".";
       continue;
     }
     for (int k = 0; k < 2; ++k)
@@ -160,7 +162,8 @@ std::vector<Bytes> Match(const std::vector<Bytes>& facets, int n, std::string& e
 /**
  * Links to each rank, found by facets with the same corners.
  */
-std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part)
+std::vector<std::vector<Link>> FindLinks(
+  const Ranks& ranks, const Part& part, const Numbering& numbering)
 {
   std::vector<Bytes> out(ranks.GetCount());
   const std::vector<char> all(part.PointIds.size(), 1);
@@ -174,7 +177,8 @@ std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part)
     }
   }
   std::string error;
-  std::vector<Bytes> answers = Match(ranks.Exchange(std::move(out)), part.Corners - 1, error);
+  std::vector<Bytes> answers = Match(
+    ranks.Exchange(std::move(out)), part.Corners - 1, numbering, error);
   ranks.Agree(error);
   std::vector<std::vector<Link>> links(ranks.GetCount());
   for (const Bytes& bytes : ranks.Exchange(std::move(answers)))
@@ -242,17 +246,18 @@ vtkIdType FirstOf(const Ranks& ranks, std::size_t count, vtkIdType& end)
   return std::accumulate(counts.begin(), counts.begin() + ranks.GetRank(), vtkIdType(0));
 }
 
-void MakePointIds(const Ranks& ranks, Part& part, vtkIdType& end)
+void MakePointIds(const Ranks& ranks, Numbering& numbering, Part& part)
 {
-  const std::vector<std::vector<Link>> links = FindLinks(ranks, part);
-  const vtkIdType first = FirstOf(ranks, part.PointIds.size(), end);
+  const std::vector<std::vector<Link>> links = FindLinks(ranks, part, numbering);
+  const vtkIdType first = FirstOf(ranks, part.PointIds.size(), numbering.NextPoint);
   std::iota(part.PointIds.begin(), part.PointIds.end(), first);
   Spread(ranks, links, part.PointIds);
   // Two points of one piece that got the same id would become one.
   ranks.Agree(HasTwins(part.PointIds)
-      ? "A crack of doubled nodes runs into the border of a piece, so that points at the same "
-        "place cannot be told apart without global ids: give the points global ids, or switch "
-        "OptimizeBorders off."
+      ? std::string("A crack of doubled nodes runs into the border of a piece, so that points at "
+                    "the same place cannot be told apart without global ids: give the points "
+                    "global ids") +
+        numbering.Else + "."
       : "");
 }
 
@@ -264,19 +269,20 @@ vtkIdType EndOf(const Ranks& ranks, const std::vector<vtkIdType>& ids)
   return *std::max_element(all.begin(), all.end()) + 1;
 }
 
-void CheckIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const char* what)
+void CheckIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const char* what,
+  const Numbering& numbering)
 {
   const bool isNegative = std::any_of(ids.begin(), ids.end(), [](vtkIdType id) { return id < 0; });
   ranks.Agree(isNegative || HasTwins(ids) ? std::string("The global ids of ") + what +
-        " are negative or occur twice in one piece. Remove the array, give unique ids, or switch "
-        "OptimizeBorders off."
+        " are negative or occur twice in one piece. Remove the array, or give unique ids" +
+        numbering.Else + "."
                                           : "");
 }
 
 /**
  * Cells are on one rank each, so that an id on two ranks is an error.
  */
-void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids)
+void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const Numbering& numbering)
 {
   std::vector<std::vector<vtkIdType>> lists(ranks.GetCount());
   for (const vtkIdType id : ids)
@@ -294,8 +300,9 @@ void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids)
     const std::vector<vtkIdType> some = Reader(bytes).TakeAll<vtkIdType>();
     all.insert(all.end(), some.begin(), some.end());
   }
-  ranks.Agree(HasTwins(all) ? "A global cell id occurs on two ranks. Ghost cells must be "
-                              "marked by vtkGhostType; or switch OptimizeBorders off."
+  ranks.Agree(HasTwins(all) ? std::string("A global cell id occurs on two ranks. Ghost cells must "
+                                          "be marked by vtkGhostType") +
+        numbering.Else + "."
                             : "");
 }
 
@@ -318,18 +325,18 @@ void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
 {
   if (numbering.HasPointIds)
   {
-    CheckIds(ranks, gridPointIds, "points");
+    CheckIds(ranks, gridPointIds, "points", numbering);
     part.PointIds = gridPointIds;
     numbering.NextPoint = EndOf(ranks, part.PointIds);
   }
   else
   {
-    MakePointIds(ranks, part, numbering.NextPoint);
+    MakePointIds(ranks, numbering, part);
   }
   if (numbering.HasCellIds)
   {
-    CheckIds(ranks, gridCellIds, "cells");
-    CheckCellIds(ranks, gridCellIds);
+    CheckIds(ranks, gridCellIds, "cells", numbering);
+    CheckCellIds(ranks, gridCellIds, numbering);
     part.CellIds = gridCellIds;
     numbering.NextCell = EndOf(ranks, part.CellIds);
   }

@@ -18,8 +18,9 @@ namespace vtkMeshRanks
  */
 struct Numbering
 {
-  bool HasPointIds = false, HasCellIds = false; ///< those of the input are used
-  vtkIdType NextPoint = 0, NextCell = 0;        ///< above all that exist
+  bool HasPointIds = false, HasCellIds = false;         ///< those of the input are used
+  vtkIdType NextPoint = 0, NextCell = 0;                ///< above all that exist
+  const char* Else = ", or switch OptimizeBorders off"; ///< ends errors: what else would help
 };
 
 /**

@@ -128,6 +128,7 @@ std::string JoinCells(
     result.Quality.push_back(part.Quality[o.Index]);
     result.Origin.push_back(part.Origin[o.Index]);
     result.Home.push_back(part.Home[o.Index]);
+    result.Kept.push_back(part.Kept[o.Index]);
   }
   Collect(parts, sources, &Part::CellArrays, result.CellArrays);
   return {};

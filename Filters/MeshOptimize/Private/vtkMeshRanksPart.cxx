@@ -68,6 +68,7 @@ Part Extract(const Part& part, const std::vector<vtkIdType>& points,
   result.Quality = Chosen(part.Quality, cells);
   result.Origin = Chosen(part.Origin, cells);
   result.Home = Chosen(part.Home, cells);
+  result.Kept = Chosen(part.Kept, cells);
   result.Hint = Chosen(part.Hint, points);
   for (vtkIdType& p : result.Cells)
   {
@@ -327,6 +328,7 @@ Bytes Pack(const Part& part)
   PutAll(bytes, part.Quality);
   PutAll(bytes, part.Origin);
   PutAll(bytes, part.Home);
+  PutAll(bytes, part.Kept);
   PutAll(bytes, part.Hint);
   // In the same order as in Unpack(), without any marks: both sides are this file.
   for (const Arrays* arrays : { &part.PointArrays, &part.CellArrays })
@@ -355,6 +357,7 @@ Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema&
   part.Quality = reader.TakeAll<double>();
   part.Origin = reader.TakeAll<vtkIdType>();
   part.Home = reader.TakeAll<int>();
+  part.Kept = reader.TakeAll<char>();
   part.Hint = reader.TakeAll<vtkIdType>();
   for (Arrays* arrays : { &part.PointArrays, &part.CellArrays })
   {

@@ -77,7 +77,8 @@ struct Part
   std::vector<double> Quality;     ///< of each cell; 0 before the first run
   /// The cell of the input that each cell comes from: numbered over all ranks (see Origins).
   std::vector<vtkIdType> Origin;
-  std::vector<int> Home; ///< the rank that each cell, or its parent, had at first
+  std::vector<int> Home;  ///< the rank that each cell, or its parent, had at first
+  std::vector<char> Kept; ///< of each cell: takes part in no run
   /// -1: the data of the point are those of the input at its place. Else a cell of the input near
   /// it, numbered like Origin: its data have been interpolated more than once.
   std::vector<vtkIdType> Hint;

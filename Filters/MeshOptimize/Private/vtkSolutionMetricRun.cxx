@@ -124,7 +124,7 @@ std::string CheckCells(vtkUnstructuredGrid* grid, const bridge::Cells& cells)
         "first.";
     }
   }
-  return cells.Dimension == 0 ? "The input has neither triangles nor tetrahedra." : std::string();
+  return {};
 }
 
 std::string ReadSolution(
@@ -360,9 +360,8 @@ std::string AddArraysIn(
 
 } // namespace
 
-std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome& outcome)
+std::string CheckInput(vtkUnstructuredGrid* grid, const Request& request, bridge::Cells& cells)
 {
-  bridge::Cells cells;
   std::string error = bridge::ClassifyCells(grid, cells);
   if (error.empty() && grid->GetNumberOfCells() > 0)
   {
@@ -371,6 +370,23 @@ std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome
   if (!error.empty() || cells.Simplices.empty())
   {
     return error;
+  }
+  std::vector<double> values;
+  return request.UseErrors ? ReadErrors(request.Values, cells, values)
+                           : ReadSolution(request.Values, cells, values);
+}
+
+std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome& outcome)
+{
+  bridge::Cells cells;
+  const std::string error = CheckInput(grid, request, cells);
+  if (!error.empty() || grid->GetNumberOfCells() == 0 || cells.Dimension == 0)
+  {
+    return error.empty() && grid->GetNumberOfCells() > 0 ? NoSimplices : error;
+  }
+  if (cells.Simplices.empty())
+  {
+    return {}; // ghosts alone
   }
   return cells.Dimension == 3 ? AddArraysIn<3>(grid, cells, request, outcome)
                               : AddArraysIn<2>(grid, cells, request, outcome);

@@ -5,6 +5,8 @@
 #ifndef vtkSolutionMetricRun_h
 #define vtkSolutionMetricRun_h
 
+#include "vtkMeshBridgeCells.h"
+
 #include "Metric/ErrorIndicator.h"
 #include "Metric/SolutionMetric.h"
 
@@ -43,6 +45,16 @@ struct Outcome
  * request.UseErrors. Returns a sentence if it does not exist or cannot be used.
  */
 std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& request);
+
+/// The error about cells among which there is no simplex.
+constexpr const char* NoSimplices = "The input has neither triangles nor tetrahedra.";
+
+/**
+ * Classifies the cells of `grid`. Returns a sentence about the first cell that is no simplex but
+ * should be one, or the first value that cannot be used. A grid without cells is fine.
+ */
+std::string CheckInput(
+  vtkUnstructuredGrid* grid, const Request& request, vtkMeshBridge::Cells& cells);
 
 /**
  * Adds the arrays to `grid`. Returns an empty string, or one sentence about what makes the grid or
