@@ -66,7 +66,7 @@ public:
     if (this->IsOn && type == VTK_CHAR && length > 1000)
     {
       std::memcpy(&points, bytes, 8);
-      if (points > 8 && length > 16 + 32 * points)
+      if (points > 8 && points < length / 33 && length > 16 + 32 * points)
       {
         std::memcpy(&coordinates, bytes + 8 + 8 * points, 8);
       }

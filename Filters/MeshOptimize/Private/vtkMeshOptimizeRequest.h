@@ -46,8 +46,8 @@ struct Request
   bool ToleranceIsAbsolute = false; ///< Surface.tolerance is a length, not a fraction
   int NumberOfGhostLevels = 0;      ///< on many ranks: layers of ghost cells in the output
   vtkPolyData* Geometry = nullptr;  ///< source of the curves; nullptr: the mesh itself
-  /// The grid is a piece of a mesh that has cells of dimension three on other ranks: triangles alone
-  /// are then a surface, not a mesh.
+  /// The grid is a piece of a mesh that has cells of dimension three on other ranks: triangles
+  /// alone are then a surface, not a mesh.
   bool IsPieceOfVolume = false;
   /// The plane of the triangles, if they are a part of a mesh; nullptr: they say themselves.
   const vtkMeshBridge::Frame<2>* Plane = nullptr;

@@ -32,9 +32,9 @@ public:
 
   /**
    * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if one
-   * rank has all of it, or far more than the others. `simplices`: the cells that are the mesh; all others are copies of those
-   * of other ranks, and are dropped. `dimension` is that of the cells of all ranks. Returns why
-   * borders cannot take part, or an empty string.
+   * rank has all of it, or far more than the others. `simplices`: the cells that are the mesh; all
+   * others are copies of those of other ranks, and are dropped. `dimension` is that of the cells of
+   * all ranks. Returns why borders cannot take part, or an empty string.
    */
   std::string Read(
     vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension);

@@ -100,7 +100,7 @@ def optimize(
     metric_array: str | None = None,
     corner_array: str | None = None,
     patch_array: str | None = None,
-    optimize_borders: bool = False,
+    optimize_borders: bool = True,
     number_of_ghost_levels: int = 0,
 ) -> tuple[_Mesh, OptimizeReport]: ...
 
