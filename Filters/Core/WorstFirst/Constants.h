@@ -14,8 +14,8 @@ namespace meshopt
 namespace worstfirst
 {
 /// Targets of the stages. Steps get smaller where gains cost more.
-inline constexpr double Stages[] = { 0.30, 0.45, 0.60, 0.64, 0.67, 0.69, 0.705, 0.72, 0.73,
-  0.74, 0.75, 0.76 };
+inline constexpr double Stages[] = { 0.30, 0.45, 0.60, 0.64, 0.67, 0.69, 0.705, 0.72, 0.73, 0.74,
+  0.75, 0.76 };
 /// More of them for the best effort where the surface of tetrahedra takes part.
 inline constexpr double StagesOfSliding[] = { 0.77, 0.78, 0.79, 0.80 };
 inline constexpr double SameTarget = 1e-9;    // targets that differ by less are the same
@@ -31,10 +31,10 @@ inline constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of the borders, in tur
 inline constexpr long HeldUpPart = 3;
 /// A stage ends with a pass in which fewer than 1 in HardlyAny of the bad cells gain.
 inline constexpr long HardlyAny = 2000;
-/// Where the cost model rules: the least gain of a change, by effort, and the most steps of a
-/// search for the place of one node. The first steps bring most, and the node is tried again when
-/// its neighbours have moved.
-inline constexpr double ThriftyGain[] = { 2e-2, 1e-2, 1e-2 };
+/// Where the cost model rules: the least gain of a change, and the most steps of a search for the
+/// place of one node. The first steps bring most, and the node is tried again when its neighbours
+/// have moved.
+inline constexpr double ThriftyGain = 1e-2;
 inline constexpr int ThriftySteps = 4;
 /// How many of the worst cells are polished together: at first, and at most.
 inline constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;

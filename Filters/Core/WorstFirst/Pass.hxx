@@ -126,8 +126,7 @@ template <int D, class Shape>
 void Schedule<D, Shape>::demand(Judge<D, Shape>& judge, const Task& task, bool creeps) const
 {
   const bool isThrifty = this->isThrifty(task.target, task.below);
-  const double thrifty = ThriftyGain[static_cast<int>(this->options_.effort)];
-  const double least = std::max(isThrifty ? thrifty : 0.0, creeps ? CoarseGain : 0.0);
+  const double least = std::max(isThrifty ? ThriftyGain : 0.0, creeps ? CoarseGain : 0.0);
   judge.setGain(std::max(this->gain_, least), isThrifty ? ThriftySteps : StarSteps);
 }
 
