@@ -22,7 +22,7 @@ namespace
 constexpr double GrowthAfterSizes = 0.05;
 /// Inverted cells are worked on until the worst cell has this quality: cells that are only just
 /// positive soon become inverted again.
-constexpr double UntangledQuality = 0.3;
+constexpr double UntangledQuality = 0.1;
 /// A worst quality above minus this is rounding: such a cell is flat, and the mesh need not be
 /// tangled.
 constexpr double FlatQuality = 1e-9;

@@ -26,9 +26,6 @@ inline constexpr int BadCellsPerChunk = 32;   // with fewer, a chunk does not pa
 inline constexpr int PolishedPerChunk = 4;    // the same for polishing, where each cell takes long
 inline constexpr int MaximumChunks = 256;
 inline constexpr double Shifts[] = { 0.0, 0.3, -0.3 }; // of the borders, in turn
-/// Up to the target: if borders hold up more than 1 in HeldUpPart of a pass's bad cells, these get
-/// a second pass without borders.
-inline constexpr long HeldUpPart = 3;
 /// A stage ends with a pass in which fewer than 1 in HardlyAny of the bad cells gain.
 inline constexpr long HardlyAny = 2000;
 /// Where the cost model rules: the least gain of a change, and the most steps of a search for the

@@ -17,7 +17,7 @@ long Schedule<D, Shape>::fewCells() const
   return std::max({ FewestCells, std::min(FewCells, cells / FewCellsPart), cells / FewOfMany });
 }
 
-/// A drain by chunks, and one without borders for what these have held up.
+/// Drains by chunks, and one without borders for what these have held up.
 template <int D, class Shape>
 void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
 {
@@ -28,20 +28,42 @@ void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
   this->done_.fill(0);
   this->surface_.fill(0);
   this->drain(task, bad, MaximumChunks);
-  // Cells that are long compared with a chunk lie across some border in every pass and must not
-  // wait for better borders. Past the target they may wait: there are many stages, and a pass
-  // without borders uses one thread only.
+  // Past the target they may wait: there are many stages. Before it the next pass would spend more
+  // on them than they need. When polishing, it is the same again.
   const bool past = this->guard_ && task.target > this->options_.targetQuality;
-  const std::vector<Index>& heldUp = this->chunks_.heldUp();
-  const bool many = this->guard_ && heldUp.size() > bad.size() / HeldUpPart;
-  if (!heldUp.empty() && !past && (many || this->hardlyAny(bad)))
+  const bool mayWait = past || (!this->guard_ && !this->hardlyAny(bad));
+  if (mayWait || this->chunks_.heldUp().empty())
   {
-    // The first drain may have improved or removed cells that it held up earlier.
-    std::vector<Index> rest;
-    std::copy_if(heldUp.begin(), heldUp.end(), std::back_inserter(rest),
-      [&](Index c) { return this->mesh().isAlive(c) && this->mesh().quality(c) < task.target; });
+    return;
+  }
+  // With other borders most of them are inside a chunk.
+  std::vector<Index> rest = this->stillBad(task.target);
+  for (std::size_t k = 1; k < std::size(Shifts); ++k)
+  {
+    if (this->numberOfChunks(rest.size(), MaximumChunks) > 1)
+    {
+      this->drain(task, rest, MaximumChunks);
+      rest = this->stillBad(task.target);
+    }
+  }
+  // Cells that are long compared with a chunk lie across some border in every drain and must not
+  // wait for better ones. This takes one thread only.
+  if (!rest.empty())
+  {
     this->drain(task, rest, 1);
   }
+}
+
+/// Those that are left of cells that borders have held up: others may have improved or removed
+/// them.
+template <int D, class Shape>
+std::vector<Index> Schedule<D, Shape>::stillBad(double target) const
+{
+  const std::vector<Index>& heldUp = this->chunks_.heldUp();
+  std::vector<Index> result;
+  std::copy_if(heldUp.begin(), heldUp.end(), std::back_inserter(result),
+    [&](Index c) { return this->mesh().isAlive(c) && this->mesh().quality(c) < target; });
+  return result;
 }
 
 /// Shares out the bad cells and tries each, until no queue has a cell left.

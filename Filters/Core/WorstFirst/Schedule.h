@@ -79,6 +79,7 @@ private:
   long collect(double target, int level, std::vector<Index>& bad) const;
   void pass(const Task& task, const std::vector<Index>& bad);
   void drain(const Task& task, const std::vector<Index>& bad, int mostChunks);
+  std::vector<Index> stillBad(double target) const;
   int numberOfChunks(std::size_t numberOfBadCells, int most) const;
   void instruct(const Task& task);
   void demand(Judge<D, Shape>& judge, const Task& task, bool creeps) const;
