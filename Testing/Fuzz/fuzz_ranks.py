@@ -103,23 +103,27 @@ class Case:
 
 
 def cells_of(grid):
-    """Corners [m, D + 1, 3], and regions or zeros."""
+    """Corners [m, D + 1, 4]: places, and global ids or -1; and regions or zeros."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     n = grid.GetNumberOfCells()
     if n == 0:
         return None, None
     x = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
-    region = grid.GetCellData().GetArray("region")
+    ids, region = grid.GetPointData().GetGlobalIds(), grid.GetCellData().GetArray("region")
+    x = np.c_[x, vtk_to_numpy(ids) if ids else np.full(len(x), -1.0)]
     return (x[vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(n, -1)],
             vtk_to_numpy(region).astype(np.int64) if region else np.zeros(n, np.int64))
 
 
 def kept_of(cells, regions):
-    """The facets that have one cell, or cells of two regions, by the bits of their corners, sorted; the most cells of a facet."""
+    """
+    The facets that have one cell, or cells of two regions, sorted; the most cells of a facet. By the bits of their corners, and by
+    ids where there are any: by places alone the sides of a crack are one facet.
+    """
     n = cells.shape[1]
     local = [[k for k in range(n) if k != i] for i in range(n)]
-    facets = np.ascontiguousarray(cells[:, local].reshape(-1, n - 1, 3) + 0.0)
-    facets = np.sort(facets.view("f8,f8,f8").reshape(-1, n - 1), axis=1).view(f"V{24 * (n - 1)}").ravel()
+    facets = np.ascontiguousarray(cells[:, local].reshape(-1, n - 1, 4) + 0.0)
+    facets = np.sort(facets.view("f8,f8,f8,f8").reshape(-1, n - 1), axis=1).view(f"V{32 * (n - 1)}").ravel()
     unique, inverse, count = np.unique(facets, return_inverse=True, return_counts=True)
     low, high = np.full(len(unique), 2 ** 62), np.full(len(unique), -2 ** 62)
     np.minimum.at(low, inverse, np.repeat(regions, n))
@@ -128,7 +132,7 @@ def kept_of(cells, regions):
 
 
 def volume_of(cells):
-    edges = cells[:, 1:] - cells[:, :1]
+    edges = cells[:, 1:, :3] - cells[:, :1, :3]
     if cells.shape[1] == 4:
         return np.abs(np.linalg.det(edges)).sum() / 6
     return np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum() / 2

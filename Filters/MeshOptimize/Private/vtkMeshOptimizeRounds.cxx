@@ -154,10 +154,18 @@ std::string Rounds::Read(
   vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
   this->Ids.HasPointIds = this->All.IsAny(pointIds && count > 0);
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
-  Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), this->Ids, this->Mine);
-  this->FirstNewPoint = this->Ids.NextPoint;
+  const std::vector<CellFacet> open = FindOpenFacets(
+    this->Mine, std::vector<char>(this->Mine.PointIds.size(), 1));
+  // Before points are joined: copies would look like cracks then. Ids of cells say more of them.
+  const bool coincide = DoPiecesCoincide(this->All, this->Mine, open, this->Normal);
+  if (!coincide || this->Ids.HasCellIds)
+  {
+    Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), open, this->Ids,
+      this->Mine);
+    this->FirstNewPoint = this->Ids.NextPoint;
+  }
   // As one mesh, copies would have their whole surface in common, and none left that is kept.
-  if (DoPiecesCoincide(this->All, this->Mine, this->Normal))
+  if (coincide)
   {
     return "the pieces of the ranks lie on each other, as if each had read the whole mesh";
   }
