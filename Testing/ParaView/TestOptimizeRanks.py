@@ -212,6 +212,12 @@ def test_budget():
         f = run(mesh.piece(), GrowthBudget=budget)
         cells = len(compare(f"budget {budget}", f, corners(mesh.whole())))
         check(cells <= (1 + budget) * len(mesh.cells), f"budget {budget}: {len(mesh.cells)} cells, then {cells}")
+    # Where it is what stops the run, the rounds leave little of it.
+    mesh, budget = Mesh(n=5, jitter=0.4), 0.04
+    f = run(mesh.piece(), GrowthBudget=budget, TargetQuality=0.8)
+    share = (len(compare("short", f, corners(mesh.whole()))) / len(mesh.cells) - 1) / budget
+    check(f.GetStopReason() == vtkMeshOptimizeFilter.GrowthLimit, f"short: {f.GetStopReasonAsString()}")
+    check(0.8 < share <= 1, f"short: {share} of the budget")
 
 
 class PlaneMesh:

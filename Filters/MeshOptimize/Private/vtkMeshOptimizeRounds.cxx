@@ -441,8 +441,10 @@ void Rounds::Round(int round)
   const double mine = static_cast<double>(free);
   const double bands = static_cast<double>(this->All.Sum(free));
   this->Result.NumberOfCellsInBands += this->All.Sum(parts[1].GetNumberOfCells());
+  // What is kept back for later rounds goes to the one after a round that was short of cells.
+  this->MayTakeAll = round + 1 == MostRounds || (round > 0 && this->IsShort);
   this->Optimize(
-    parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
+    parts[1], bands > 0.0 ? mine / bands : 0.0, this->MayTakeAll ? 1.0 : ShareOfRound, run);
   this->All.Agree(Join(parts, this->Mine));
   // As in UndoConflicts(): one rank takes back its band, which may bring up another fault.
   for (bool goesOn = this->IsTangled, isUndone = false; goesOn;)
