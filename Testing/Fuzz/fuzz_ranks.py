@@ -200,6 +200,7 @@ def run_seeds(opt, first, last, report):
     command = ["mpirun.openmpi", "--oversubscribe", "-np", opt.ranks, "pvbatch", "--symmetric", __file__, "--worker",
                first, last - first, report]
     environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                   "OMPI_MCA_mpi_yield_when_idle": "1",  # ranks that wait take the time of those that work, where cores are few
                    "MESHOPTIMIZE_OUTPUT": str(report.parent)}
     with open(report.parent / "said", "wb") as said:
         process = subprocess.Popen(list(map(str, command)), env=environment, stdout=said, stderr=said)

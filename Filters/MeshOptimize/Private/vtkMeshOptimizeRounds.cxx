@@ -342,6 +342,8 @@ void Rounds::UndoConflicts(const Part& before, Outcome& run)
 
 void Rounds::OptimizePieces()
 {
+  // Before any run, which may turn cells.
+  this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
   this->FindZone();
   // What is at a border cannot get much better now: its share is left for the rounds.
   double inside = 0.0;
@@ -353,7 +355,6 @@ void Rounds::OptimizePieces()
         [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
   }
   Outcome run;
-  this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
   const Part before = this->IsTangled ? this->Mine : Part(); // shares the arrays
   this->Last = PiecesDone;
   this->Optimize(
