@@ -22,6 +22,7 @@ set(MESHOPTIMIZE_TEST_ENVIRONMENT
   "PYTHONPATH=path_list_prepend:${CMAKE_BINARY_DIR}/${MESHOPTIMIZE_PYTHON_DIR}"
   "OMPI_ALLOW_RUN_AS_ROOT=set:1"
   "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=set:1"
+  "OMPI_MCA_mpi_yield_when_idle=set:1"  # more ranks than cores: those that wait must not keep the others from working
   "ASAN_OPTIONS=set:detect_leaks=1"
   "LSAN_OPTIONS=set:suppressions=${_suppressions}/lsan.txt"
   "UBSAN_OPTIONS=set:print_stacktrace=1:suppressions=${_suppressions}/ubsan.txt"

@@ -55,10 +55,11 @@
  * <b>Composite data</b>: each vtkUnstructuredGrid is optimized separately; other leaves pass
  * through. Surfaces are kept, so neighbouring blocks still fit together. Results cover all blocks.
  *
- * <b>Distributed data</b>: each process optimizes its own piece and keeps the piece's surface, so
- * pieces still fit together. Ghost cells stay as they are, but their originals may have changed:
- * generate ghost cells afterwards, not before. The results below are those of the piece. With
- * SetOptimizeBorders() borders take part, and results are those of the whole.
+ * <b>Distributed data</b>: the borders between the pieces of the ranks take part, and results are
+ * those of the whole; ghost cells of the input are dropped, and made on request. See
+ * SetOptimizeBorders(). With it off, each process optimizes its own piece and keeps the piece's
+ * surface, so pieces still fit together. Ghost cells then stay as they are, but their originals may
+ * have changed: generate ghost cells afterwards, not before. Results are then those of the piece.
  *
  * <b>Errors.</b> An unusable input, array or option gives one error message that says what is wrong
  * and where; the outputs are then empty and GetErrorCode() is not 0. Unusable are a point id out of

@@ -18,7 +18,7 @@ with socket.socket() as probe:  # a free port
     port = probe.getsockname()[1]
 # What MPI has set for the client is not for the server, which would take itself for a part of the client's run.
 environment = {k: v for k, v in os.environ.items() if k != "PV_PLUGIN_PATH" and not k.startswith(("OMPI_", "PMIX_", "ORTE_"))}
-environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1")
 command = [os.environ.get("MESHOPTIMIZE_MPIRUN", "mpirun.openmpi"), "--oversubscribe", "-np", str(ranks),
            "pvserver", f"--server-port={port}", "--disable-xdisplay-test"]
 server = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)

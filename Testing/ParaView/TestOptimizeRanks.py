@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 from meshoptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkCommand
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkMultiBlockDataSet, vtkUnstructuredGrid
 
@@ -212,6 +212,12 @@ def test_budget():
         f = run(mesh.piece(), GrowthBudget=budget)
         cells = len(compare(f"budget {budget}", f, corners(mesh.whole())))
         check(cells <= (1 + budget) * len(mesh.cells), f"budget {budget}: {len(mesh.cells)} cells, then {cells}")
+    # Where it is what stops the run, the rounds leave little of it.
+    mesh, budget = Mesh(n=5, jitter=0.4), 0.04
+    f = run(mesh.piece(), GrowthBudget=budget, TargetQuality=0.8)
+    share = (len(compare("short", f, corners(mesh.whole()))) / len(mesh.cells) - 1) / budget
+    check(f.GetStopReason() == vtkMeshOptimizeFilter.GrowthLimit, f"short: {f.GetStopReasonAsString()}")
+    check(0.8 < share < 1 + 1e-9, f"short: {share} of the budget")
 
 
 class PlaneMesh:
@@ -436,6 +442,56 @@ def test_below():
     f = run(mesh.piece(), OptimizeBelow=1e-9, NumberOfLayers=5)
     tets = compare("below 0", f, before, None, False)
     check(f.GetNumberOfOperations() == 0 and len(tets) == len(before), "below 0: something has changed")
+
+
+def test_below_renumbered():
+    """Cells that were numbered the wrong way round may change, as on one rank; what is outside keeps the order of its nodes."""
+    mesh = Mesh(n=5, jitter=0.3)
+    turned = np.flatnonzero(mesh.centers()[:, 1] < 0.6)
+    mesh.cells[turned] = mesh.cells[turned][:, [1, 0, 2, 3]]
+    before = corners(mesh.whole())
+    options = {"OptimizeBelow": 1e-6, "NumberOfLayers": 0}
+    serial, f = (run(mesh.whole(), False, **options) if rank == 0 else None), run(mesh.piece(), **options)
+    tets = np.concatenate(gather(tets=corners(f.GetOutput()))["tets"])
+    check(f.GetErrorCode() == 0, f"renumbered: {f.told}")
+    if rank == 0:
+        for name in ("WorstQualityBefore", "MeanQualityBefore", "QualityBound"):
+            a, b = getattr(f, "Get" + name)(), getattr(serial, "Get" + name)()
+            check(abs(a - b) < 1e-6, f"renumbered: {name} {a}, alone {b}")
+        check(f.GetWorstQualityAfter() >= 0.98 * serial.GetWorstQualityAfter(), f"renumbered: worst {f.GetWorstQualityAfter()}")
+        check(f.GetNumberOfOperations() > 0, "renumbered: nothing has changed")
+        after = {cell.tobytes() for cell in tets}
+        lost = [k for k in range(len(before)) if before[k].tobytes() not in after]
+        check(set(lost) <= set(turned), f"renumbered: {len(set(lost) - set(turned))} cells outside have changed")
+
+
+def test_folded():
+    """A mesh that is folded where the pieces meet: neighbours on two ranks lie on one side, but are no copies of each other."""
+    mesh = Mesh(n=6)
+    at, slopes = mesh.x[:, 0].copy(), (1.0, -0.7, 0.5)
+    mesh.x[:, 0] = sum(slopes[k] * np.clip(at - k / ranks, 0.0, 1.0 / ranks) for k in range(ranks))
+    for ids, options in ((False, {}), (10, {}), (10, {"OptimizeBelow": 0.3, "NumberOfLayers": 1})):
+        mesh.ids = ids
+        f = run(mesh.piece(), **options)
+        check(f.GetErrorCode() == 0 and not any("borders" in text for text in f.told), f"folded {ids} {options}: {f.told}")
+        rows = {tuple(row) for row in gather(figures=figures_of(f))["figures"]}
+        check(len(rows) == 1, f"folded {ids} {options}: figures differ by rank")
+        check(rank > 0 or "borders" in history(f)["Stage"], f"folded {ids} {options}: no rounds")
+
+
+def test_copies():
+    """Each rank has a mesh of the whole body, with ids or without, or one of its own: no pieces of one mesh. Their borders are kept."""
+    for name in ("same", "with ids", "with other cells"):
+        mesh = Mesh(n=4, jitter=0.2 + 0.1 * rank if name == "with other cells" else 0.3)
+        grid = mesh.whole()
+        if name == "with ids":  # of points only: an id of a cell on two ranks is an error
+            ids = numpy_to_vtkIdTypeArray(np.arange(len(mesh.x)), deep=1)
+            ids.SetName("ids")
+            grid.GetPointData().SetGlobalIds(ids)
+        f = run(grid)
+        told = [text for text in f.told if "as if each had read the whole mesh" in text]
+        check(f.GetErrorCode() == 0 and len(told) == (rank == 0), f"copies, {name}: {f.told}")
+        check(f.GetWorstQualityAfter() >= 0.5, f"copies, {name}: worst {f.GetWorstQualityAfter()}")
 
 
 def test_stops():

@@ -154,10 +154,18 @@ std::string Rounds::Read(
   vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
   this->Ids.HasPointIds = this->All.IsAny(pointIds && count > 0);
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
-  Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), this->Ids, this->Mine);
-  this->FirstNewPoint = this->Ids.NextPoint;
+  const std::vector<CellFacet> open = FindOpenFacets(
+    this->Mine, std::vector<char>(this->Mine.PointIds.size(), 1));
+  // Before points are joined: copies would look like cracks then. Ids of cells say more of them.
+  const bool coincide = DoPiecesCoincide(this->All, this->Mine, open, this->Normal);
+  if (!coincide || this->Ids.HasCellIds)
+  {
+    Number(this->All, ReadIds(pointIds, points), ReadIds(cellIds, simplices), open, this->Ids,
+      this->Mine);
+    this->FirstNewPoint = this->Ids.NextPoint;
+  }
   // As one mesh, copies would have their whole surface in common, and none left that is kept.
-  if (DoPiecesCoincide(this->All, this->Mine, this->Normal))
+  if (coincide)
   {
     return "the pieces of the ranks lie on each other, as if each had read the whole mesh";
   }
@@ -334,6 +342,8 @@ void Rounds::UndoConflicts(const Part& before, Outcome& run)
 
 void Rounds::OptimizePieces()
 {
+  // Before any run, which may turn cells.
+  this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
   this->FindZone();
   // What is at a border cannot get much better now: its share is left for the rounds.
   double inside = 0.0;
@@ -345,7 +355,6 @@ void Rounds::OptimizePieces()
         [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
   }
   Outcome run;
-  this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
   const Part before = this->IsTangled ? this->Mine : Part(); // shares the arrays
   this->Last = PiecesDone;
   this->Optimize(
@@ -433,8 +442,10 @@ void Rounds::Round(int round)
   const double mine = static_cast<double>(free);
   const double bands = static_cast<double>(this->All.Sum(free));
   this->Result.NumberOfCellsInBands += this->All.Sum(parts[1].GetNumberOfCells());
+  // What is kept back for later rounds goes to the one after a round that was short of cells.
+  this->MayTakeAll = round + 1 == MostRounds || (round > 0 && this->IsShort);
   this->Optimize(
-    parts[1], bands > 0.0 ? mine / bands : 0.0, round + 1 < MostRounds ? ShareOfRound : 1.0, run);
+    parts[1], bands > 0.0 ? mine / bands : 0.0, this->MayTakeAll ? 1.0 : ShareOfRound, run);
   this->All.Agree(Join(parts, this->Mine));
   // As in UndoConflicts(): one rank takes back its band, which may bring up another fault.
   for (bool goesOn = this->IsTangled, isUndone = false; goesOn;)

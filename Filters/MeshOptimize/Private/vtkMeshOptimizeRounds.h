@@ -105,7 +105,8 @@ private:
   /// Cells of the input are flat or inverted, or numbered so: runs may turn cells, and what two of
   /// them make side by side may not fit together.
   bool IsTangled = false;
-  bool IsShort = false; ///< the last run on some rank needed more cells than it may add
+  bool IsShort = false;    ///< the last run on some rank needed more cells than it may add
+  bool MayTakeAll = false; ///< that run was allowed all that may still grow
 };
 
 } // namespace vtkMeshOptimizeBridge

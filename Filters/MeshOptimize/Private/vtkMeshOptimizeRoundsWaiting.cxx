@@ -79,7 +79,8 @@ void Rounds::WaitWhereStuck()
   const meshopt::PassRecord &now = rows.back(), &before = rows[rows.size() - 2];
   const bool isWorthIt = worst < NearBound * this->Surface.Bound ||
     now.worst > before.worst + LeastGain || (areFew && now.belowTarget < before.belowTarget);
-  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells() && isWorthIt && !this->IsShort; ++c)
+  const bool mayGrow = !this->IsShort || !this->MayTakeAll;
+  for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells() && isWorthIt && mayGrow; ++c)
   {
     if (isStuck(c, most))
     {

@@ -7,6 +7,7 @@
 #include "WorstFirst/Constants.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace vtkMeshOptimizeBridge
@@ -50,12 +51,17 @@ void Rounds::FindZone()
     return;
   }
   this->Wanted.OptimizeBelow = 0.0; // the runs get the zone alone
-  this->RunIdle(this->Mine, this->AtFirst);
+  const std::vector<vtkIdType> cells = this->Mine.Cells;
+  this->RunIdle(this->Mine, this->AtFirst); // leaves all cells in their order
   const Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isInside(this->Mine.CellIds.size());
   for (std::size_t c = 0; c < isInside.size(); ++c)
   {
-    isInside[c] = this->Mine.Quality[c] < threshold;
+    // As on one rank: what is outside stays as the input numbers it.
+    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(c) * this->Mine.Corners;
+    const bool isRenumbered = !std::equal(
+      first, first + this->Mine.Corners, this->Mine.GetCell(static_cast<vtkIdType>(c)));
+    isInside[c] = this->Mine.Quality[c] < threshold || isRenumbered;
   }
   for (int layer = 0; layer < this->Wanted.NumberOfLayers; ++layer)
   {

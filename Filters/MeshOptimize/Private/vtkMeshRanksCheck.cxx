@@ -183,51 +183,102 @@ bool HasOverusedFacet(const Ranks& ranks, const Part& part)
   return std::any_of(told.begin(), told.end(), [](const Bytes& bytes) { return bytes[0] != 0; });
 }
 
-/**
- * 1 or -1: on which side of the facet, whose nodes come in the order of their ids, its cell lies.
- */
-int SideOf(const Part& part, const CellFacet& facet, const std::array<double, 3>& normal)
+namespace
 {
-  const auto point = [&part](vtkIdType p)
-  { return Eigen::Map<const Eigen::Vector3d>(part.GetPoint(p)); };
-  const Eigen::Vector3d from = point(facet.Nodes[0]);
-  const Eigen::Vector3d a = point(facet.Nodes[1]) - from;
-  const Eigen::Vector3d b = part.Corners == 4
-    ? Eigen::Vector3d(point(facet.Nodes[2]) - from)
-    : Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(normal.data()));
-  const Eigen::Vector3d apex = point(part.GetCell(facet.Cell)[facet.Local]) - from;
-  return a.cross(b).dot(apex) < 0.0 ? -1 : 1;
+
+/**
+ * A facet that a rank has once, and the cell on it, as the ranks tell each other of them: by
+ * places, since there may be no ids yet.
+ */
+struct Lid
+{
+  std::uint64_t Facet, Apex; ///< hashes; the apex is the corner that is not on the facet
+  int Side;                  ///< 1 or -1: on which side of the facet the cell lies
+  int Rank;
+};
+
+Lid MakeLid(int rank, const Part& part, const CellFacet& facet, const Vector& up)
+{
+  const int n = part.Corners - 1;
+  const auto place = [&part](vtkIdType p)
+  {
+    const double* x = part.GetPoint(p);
+    return std::array<double, 3>{ { x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 } }; // -0 is 0
+  };
+  std::array<std::array<double, 3>, 4> places{};
+  for (int i = 0; i < n; ++i)
+  {
+    places[i] = place(facet.Nodes[i]);
+  }
+  // A side then means the same on all ranks.
+  for (int i = 0; i < n; ++i)
+  {
+    for (int k = 0; k + 1 < n - i; ++k)
+    {
+      if (places[k + 1] < places[k])
+      {
+        std::swap(places[k], places[k + 1]);
+      }
+    }
+  }
+  places[n] = place(part.GetCell(facet.Cell)[facet.Local]);
+  Lid lid{};
+  for (int i = 0; i <= n; ++i)
+  {
+    std::uint64_t& hash = i < n ? lid.Facet : lid.Apex;
+    for (const double x : places[i])
+    {
+      hash = meshopt::addToHash(hash, x);
+    }
+  }
+  const Vector from(places[0].data());
+  const Vector a = Vector(places[1].data()) - from, apex = Vector(places[n].data()) - from;
+  const Vector b = n == 3 ? Vector(Vector(places[2].data()) - from) : up;
+  lid.Side = a.cross(b).dot(apex) < 0.0 ? -1 : 1;
+  lid.Rank = rank;
+  return lid;
 }
 
-bool DoPiecesCoincide(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal)
+} // namespace
+
+bool DoPiecesCoincide(const Ranks& ranks, const Part& part, const std::vector<CellFacet>& open,
+  const std::array<double, 3>& normal)
 {
-  std::vector<std::uint64_t> hashes(part.PointIds.size());
-  std::transform(part.PointIds.begin(), part.PointIds.end(), hashes.begin(),
-    [](vtkIdType id) { return meshopt::scramble(static_cast<std::uint64_t>(id)); });
-  const auto count = static_cast<std::uint64_t>(ranks.GetCount());
   std::vector<Bytes> out(ranks.GetCount());
-  for (const CellFacet& facet : FindOpenFacets(part, Flagged(part, Skin)))
+  for (const CellFacet& facet : open)
   {
-    const std::uint64_t hash = HashOfFacet(facet.Nodes, part.Corners - 1, hashes);
+    const Lid lid = MakeLid(ranks.GetRank(), part, facet, Vector(normal.data()));
     // Each facet is looked at by one rank, the same for all.
-    Bytes& bytes = out[meshopt::scramble(hash) % count];
-    Put(bytes, hash);
-    Put(bytes, SideOf(part, facet, normal));
+    Put(out[meshopt::scramble(lid.Facet) % static_cast<std::uint64_t>(ranks.GetCount())], lid);
   }
-  std::unordered_map<std::uint64_t, int> sides;
-  vtkIdType excess = 0; // of pairs on one side over pairs on both
+  std::unordered_map<std::uint64_t, std::vector<Lid>> lids;
+  vtkIdType same = 0, oneSide = 0; // the same cell, or on one side, more often than not
   for (const Bytes& bytes : ranks.Exchange(std::move(out)))
   {
     for (Reader reader(bytes); !reader.IsAtEnd();)
     {
-      const auto hash = reader.Take<std::uint64_t>();
-      const int side = reader.Take<int>();
-      const auto known = sides.emplace(hash, side);
-      excess += known.second ? 0 : known.first->second * side;
+      const Lid lid = reader.Take<Lid>();
+      std::vector<Lid>& others = lids[lid.Facet]; // of ranks before, or of this one: a crack
+      const auto has = [&](const auto& fits)
+      {
+        return std::any_of(others.begin(), others.end(),
+          [&](const Lid& other) { return other.Rank != lid.Rank && fits(other); });
+      };
+      if (has([](const Lid&) { return true; }))
+      {
+        same += has([&](const Lid& other) { return other.Apex == lid.Apex; }) ? 1 : -1;
+        oneSide += has([&](const Lid& other) { return other.Side == lid.Side; }) ? 1 : -1;
+      }
+      others.push_back(lid);
     }
   }
-  // Most, not any: cells that lie on each other may be on the wrong side here and there.
-  return ranks.Sum(excess) > 0;
+  const bool hasSurface = ranks.IsAny(std::any_of(lids.begin(), lids.end(),
+    [](const auto& one) { return one.second.front().Rank == one.second.back().Rank; }));
+  // Most, not any: a cell may lie on another here and there. Where many cells are inverted,
+  // neighbours of different ranks lie on one side, too; but then the mesh has a surface that one
+  // rank alone knows. Copies of a whole mesh have theirs in common, whatever cells are inside.
+  const bool areOnOneSide = ranks.Sum(oneSide) > 0;
+  return ranks.Sum(same) > 0 || (areOnOneSide && !hasSurface);
 }
 
 std::string Compare(const Signature& before, const Signature& after, bool cells, bool isTangled)

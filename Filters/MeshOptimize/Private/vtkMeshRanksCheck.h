@@ -61,10 +61,13 @@ bool HasNotPositive(const Part& part, const std::array<double, 3>& normal);
 bool HasOverusedFacet(const Ranks& ranks, const Part& part);
 
 /**
- * Whether pieces of different ranks lie on each other: of the facets that two of them have, most
- * have both cells on one side. So it is where each rank has read the whole mesh. Collective.
+ * Whether pieces of different ranks lie on each other: most facets that two of them have belong to
+ * the same cell, or no facet is of one piece alone, and most have both cells on one side. So it is
+ * where each rank has read the whole mesh. By places, so that ids do not matter. `open`: all facets
+ * that have one cell in the part. Collective.
  */
-bool DoPiecesCoincide(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
+bool DoPiecesCoincide(const Ranks& ranks, const Part& part, const std::vector<CellFacet>& open,
+  const std::array<double, 3>& normal);
 
 /**
  * An error if `after` is not of the same mesh as `before`; `cells` says whether the cells must be

@@ -4,8 +4,6 @@
 // not do, since at a crack several lie at one place.
 #include "vtkMeshRanksIds.h"
 
-#include "vtkMeshRanksFacets.h"
-
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -162,12 +160,11 @@ std::vector<Bytes> Match(
 /**
  * Links to each rank, found by facets with the same corners.
  */
-std::vector<std::vector<Link>> FindLinks(
-  const Ranks& ranks, const Part& part, const Numbering& numbering)
+std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part,
+  const std::vector<CellFacet>& facets, const Numbering& numbering)
 {
   std::vector<Bytes> out(ranks.GetCount());
-  const std::vector<char> all(part.PointIds.size(), 1);
-  for (const CellFacet& facet : FindOpenFacets(part, all))
+  for (const CellFacet& facet : facets)
   {
     OpenFacet open;
     if (MakeOpenFacet(part, facet, open))
@@ -246,9 +243,10 @@ vtkIdType FirstOf(const Ranks& ranks, std::size_t count, vtkIdType& end)
   return std::accumulate(counts.begin(), counts.begin() + ranks.GetRank(), vtkIdType(0));
 }
 
-void MakePointIds(const Ranks& ranks, Numbering& numbering, Part& part)
+void MakePointIds(
+  const Ranks& ranks, const std::vector<CellFacet>& open, Numbering& numbering, Part& part)
 {
-  const std::vector<std::vector<Link>> links = FindLinks(ranks, part, numbering);
+  const std::vector<std::vector<Link>> links = FindLinks(ranks, part, open, numbering);
   const vtkIdType first = FirstOf(ranks, part.PointIds.size(), numbering.NextPoint);
   std::iota(part.PointIds.begin(), part.PointIds.end(), first);
   Spread(ranks, links, part.PointIds);
@@ -321,18 +319,10 @@ void Order(Part& part)
 
 //------------------------------------------------------------------------------
 void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
-  const std::vector<vtkIdType>& gridCellIds, Numbering& numbering, Part& part)
+  const std::vector<vtkIdType>& gridCellIds, const std::vector<CellFacet>& open,
+  Numbering& numbering, Part& part)
 {
-  if (numbering.HasPointIds)
-  {
-    CheckIds(ranks, gridPointIds, "points", numbering);
-    part.PointIds = gridPointIds;
-    numbering.NextPoint = EndOf(ranks, part.PointIds);
-  }
-  else
-  {
-    MakePointIds(ranks, numbering, part);
-  }
+  // Cells first: of cells that come twice their ids tell more than their points.
   if (numbering.HasCellIds)
   {
     CheckIds(ranks, gridCellIds, "cells", numbering);
@@ -345,9 +335,18 @@ void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
     const vtkIdType first = FirstOf(ranks, part.CellIds.size(), numbering.NextCell);
     std::iota(part.CellIds.begin(), part.CellIds.end(), first);
   }
+  if (numbering.HasPointIds)
+  {
+    CheckIds(ranks, gridPointIds, "points", numbering);
+    part.PointIds = gridPointIds;
+    numbering.NextPoint = EndOf(ranks, part.PointIds);
+  }
+  else
+  {
+    MakePointIds(ranks, open, numbering, part);
+  }
   // Points on the surface of the piece: all that other ranks may have.
-  const std::vector<char> all(part.PointIds.size(), 1);
-  for (const CellFacet& facet : FindOpenFacets(part, all))
+  for (const CellFacet& facet : open)
   {
     for (int i = 0; i < part.Corners - 1; ++i)
     {

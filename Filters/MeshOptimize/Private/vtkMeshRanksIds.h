@@ -5,7 +5,7 @@
 #ifndef vtkMeshRanksIds_h
 #define vtkMeshRanksIds_h
 
-#include "vtkMeshRanksPart.h"
+#include "vtkMeshRanksFacets.h"
 
 #include <string>
 #include <vector>
@@ -30,12 +30,14 @@ struct Numbering
  * the part; empty: there are none). Without them, points of different ranks are one if facets of
  * their pieces' surfaces have the same three corners, bit for bit; points of one rank never become
  * one. So a crack of doubled nodes stays open, unless it lies on the border of a piece all along.
+ * `open`: all facets that have one cell in the part.
  *
  * Fails for: ids that are not unique; facets of more than two cells;
  * points of one rank that would become one.
  */
 void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
-  const std::vector<vtkIdType>& gridCellIds, Numbering& numbering, Part& part);
+  const std::vector<vtkIdType>& gridCellIds, const std::vector<CellFacet>& open,
+  Numbering& numbering, Part& part);
 
 } // namespace vtkMeshRanks
 

@@ -123,7 +123,10 @@ Piece ReadPiece(const Ranks& ranks, vtkUnstructuredGrid* grid, const Request& re
   const bool lacksOne = !simplices.empty() &&
     ((numbering.HasPointIds && !pointIds) || (numbering.HasCellIds && !cellIds));
   ranks.Agree(lacksOne ? "Some ranks have global ids, this one has not." : "");
-  Number(ranks, ReadIds(pointIds, chosen), ReadIds(cellIds, simplices), numbering, piece.Mesh);
+  const std::vector<CellFacet> open = FindOpenFacets(
+    piece.Mesh, std::vector<char>(piece.Mesh.PointIds.size(), 1));
+  Number(
+    ranks, ReadIds(pointIds, chosen), ReadIds(cellIds, simplices), open, numbering, piece.Mesh);
   // Points of ghost cells have no place in the part, but their ids tell what they are copies of.
   piece.Wanted.assign(n, -1);
   if (pointIds)
