@@ -4,29 +4,17 @@
     pvpython TestClientServerRanks.py RANKS
 """
 import os
-import socket
-import subprocess
 import sys
-import threading
 
-from paraview import servermanager, simple
-from paraview_case import DATA, check, connect
+from paraview import simple
+from paraview_case import DATA, check, pvserver
 
 ranks = int(sys.argv[1])
-with socket.socket() as probe:  # a free port
-    probe.bind(("127.0.0.1", 0))
-    port = probe.getsockname()[1]
 # What MPI has set for the client is not for the server, which would take itself for a part of the client's run.
-environment = {k: v for k, v in os.environ.items() if k != "PV_PLUGIN_PATH" and not k.startswith(("OMPI_", "PMIX_", "ORTE_"))}
+environment = {k: v for k, v in os.environ.items() if not k.startswith(("OMPI_", "PMIX_", "ORTE_"))}
 environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1")
-command = [os.environ.get("MESHOPTIMIZE_MPIRUN", "mpirun.openmpi"), "--oversubscribe", "-np", str(ranks),
-           "pvserver", f"--server-port={port}", "--disable-xdisplay-test"]
-server = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
-watchdog = threading.Timer(240, lambda: (server.terminate(), print("FAILED: the server hangs", flush=True), os._exit(1)))
-watchdog.daemon = True
-watchdog.start()
-try:
-    connect(server, port)
+mpirun = os.environ.get("MESHOPTIMIZE_MPIRUN", "mpirun.openmpi")
+with pvserver(mpirun, "--oversubscribe", "-np", str(ranks), environment=environment):
     mesh = simple.XMLUnstructuredGridReader(FileName=[DATA + "/crack40.vtu"])
     optimized = simple.MeshOptimize(Input=mesh, OptimizeBorders=1)
     optimized.UpdatePipeline()
@@ -52,7 +40,3 @@ try:
     optimized.UpdatePipeline()
     check("vtkGhostType" in optimized.CellData.keys(), "no ghosts", optimized.CellData.keys())
     check(abs(measured.QualityBound - optimized.QualityBound) < 1e-6, "bound with ghosts", measured.QualityBound)
-    simple.Disconnect()
-finally:
-    server.terminate()
-    server.wait()

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the paraview tests share: the plugin, a mesh made in the script, and a check that speaks."""
+import contextlib
 import itertools
 import os
 import shutil
+import subprocess
+import threading
 
 from paraview import simple
 from vtkmodules.vtkCommonCore import vtkMinimalStandardRandomSequence, vtkPoints
@@ -23,15 +26,34 @@ def load_plugin():
     check(hasattr(simple, "MeshOptimize"), "the plugin is not loaded")
 
 
-def connect(server, port):
-    """Waits for a pvserver that has just been started, connects to it, and loads the plugin on both sides."""
-    for line in server.stdout:
-        if line.startswith("Accepting"):
+@contextlib.contextmanager
+def pvserver(*launcher, environment=None):
+    """Starts a pvserver, connects to it, and loads the plugin on both sides; at the end the server is gone."""
+    environment = {k: v for k, v in (environment or os.environ).items() if k != "PV_PLUGIN_PATH"}
+    server = None
+    for attempt in range(20):
+        # Below the ports that the system gives away by itself (from 32768): a free one of those may be taken, by MPI for
+        # its own talk or by another test, before the server has it.
+        port = 12000 + (os.getpid() * 20 + attempt) % 20000
+        server = subprocess.Popen([*launcher, "pvserver", f"--server-port={port}", "--disable-xdisplay-test"],
+                                  env=environment, stdout=subprocess.PIPE, text=True)
+        if any(line.startswith("Accepting") for line in server.stdout):
             break
-    check(simple.Connect("127.0.0.1", port) is not None, "no connection")
-    plugin = os.environ["MESHOPTIMIZE_PLUGIN"]
-    simple.LoadPlugin(plugin, remote=True, ns=simple.__dict__)
-    simple.LoadPlugin(plugin, remote=False, ns=simple.__dict__)
+        server.wait()  # it has ended: the port is taken
+    watchdog = threading.Timer(240, lambda: (server.terminate(), print("FAILED: the server hangs", flush=True), os._exit(1)))
+    watchdog.daemon = True
+    watchdog.start()
+    try:
+        check(server.poll() is None, "no server")
+        check(simple.Connect("127.0.0.1", port) is not None, "no connection")
+        plugin = os.environ["MESHOPTIMIZE_PLUGIN"]
+        simple.LoadPlugin(plugin, remote=True, ns=simple.__dict__)
+        simple.LoadPlugin(plugin, remote=False, ns=simple.__dict__)
+        yield
+        simple.Disconnect()
+    finally:
+        server.terminate()
+        server.wait()
 
 
 def random_mesh(points=300, seed=1996):
