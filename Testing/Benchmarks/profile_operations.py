@@ -28,6 +28,7 @@ ROWS = {
     "change of the boundary": ["BoundaryChange<"],
     "cluster motion": ["ClusterMotion<"],
     "retriangulation": ["Retriangulation<"],
+    "wide insertion": ["WideInsertion<"],
     "node insertion": ["NodeInsertion<", "Cavity<"],
     "surface motion": ["SurfaceMotion<"],
     "look-ahead": ["LookAhead<"],

@@ -64,11 +64,12 @@ public:
 
   // --- requirements
   /// The least gain over a worst quality q that makes a change worthwhile. It is smaller if all
-  /// qualities are tiny; and, down to a tenth of it, where less reaches the target. Not in a
+  /// qualities are tiny, where wide insertions may lift them as far as rounding allows; and, down to a tenth of it, where less reaches the target. Not in a
   /// metric: there each change costs more, and the many small ones ended lower.
   double gain(double q) const
   {
-    constexpr double nearTarget = 0.1, ofTiny = 1e-4; // of the least gain
+    constexpr double nearTarget = 0.1; // of the least gain
+    const double ofTiny = this->wide_ == None ? 1e-4 : 1e-8;
     const double near = std::max(nearTarget * this->gain_, this->target_ - q);
     const double least = this->model_->plain ? std::min(this->gain_, near) : this->gain_;
     return std::min(least, std::max(ofTiny * this->gain_, 2 * this->gain_ * std::fabs(q)));
@@ -90,6 +91,10 @@ public:
   /// are bad, most of their tries are in vain.
   void setThorough(bool on) { this->isThorough_ = on; }
   bool isThorough() const { return this->isThorough_; }
+  /// Switches wide insertions on (WideInsertion.h): the most nodes that may vanish in one. None:
+  /// off.
+  void setWide(int mostSwallowed) { this->wide_ = mostSwallowed; }
+  int wide() const { return this->wide_; }
   /// The least gain of a change, and how many steps the search for the best place of a node may
   /// take. With others, what has failed may succeed.
   void setGain(double gain, int steps = StarSteps)
@@ -239,6 +244,7 @@ private:
   int steps_ = StarSteps;
   double guard_ = -1.0;
   bool guardsAll_ = false, stampsStars_ = true, isThorough_ = true;
+  int wide_ = None;                 ///< see setWide()
   std::uint32_t failuresSince_ = 0; ///< older failures at a node were with another gain or steps
   long bad_ = 0;                    ///< badness() of all cells made, minus that of those removed
   bool tangled_ = false, inverted_ = false;

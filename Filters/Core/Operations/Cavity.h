@@ -35,6 +35,9 @@ public:
   {
     int cells = 80;    ///< greatest number of cells taken in
     int swallowed = 1; ///< most free points that may vanish; others never may
+    /// Growth ends after a detour: that many cells, and as many as the best prefix has, without a
+    /// better one.
+    int detour = 12;
   };
 
   /// The facet or edge of the surface in which a new node lies (D = 3).
@@ -68,10 +71,6 @@ public:
   const std::vector<Opened>& opened() const { return this->opened_; }
 
 private:
-  /// Growth ends after a detour: that many cells, and as many as the best prefix has, without a
-  /// better one.
-  static constexpr std::size_t Detour = 12;
-
   struct Front
   {
     double q;
@@ -340,7 +339,7 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
     // If the worst facet cannot be opened, no larger cavity can be better than the best so far.
     if (this->isWall(editor, top.cell, top.facet) ||
       static_cast<int>(this->cells_.size()) >= limits.cells ||
-      this->cells_.size() > 2 * bestSize + Detour)
+      this->cells_.size() > 2 * bestSize + limits.detour)
     {
       break;
     }

@@ -33,6 +33,7 @@ public:
     std::vector<Seed> seeds;
     NodeInsertion<D, Shape>::findAllSeeds(judge, t, seeds);
     const double old = judge.mesh().quality(t);
+    this->insertion_.setUsualLimits(judge);
     bool done = false;
     for (std::size_t k = 0; k < seeds.size() && !done; ++k)
     {

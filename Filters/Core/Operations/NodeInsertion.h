@@ -34,8 +34,17 @@ public:
 
   bool improve(Judge<D, Shape>& judge, Index t, int)
   {
-    this->seeds_.clear();
-    findAllSeeds(judge, t, this->seeds_);
+    std::vector<Seed> seeds;
+    findAllSeeds(judge, t, seeds);
+    return this->improve(judge, t, seeds, usualLimits(judge));
+  }
+
+  /// The same from given seeds, with given limits of the cavity.
+  bool improve(Judge<D, Shape>& judge, Index t, const std::vector<Seed>& seeds,
+    const typename Cavity<D, Shape>::Limits& limits)
+  {
+    this->seeds_ = seeds;
+    this->limits_ = limits;
     const auto mark = judge.begin();
     const Index p = judge.editor().addPoint(this->seeds_[0].x);
     bool done = false;
@@ -65,12 +74,20 @@ public:
   /// round starts at the new place. Returns the worst quality of the new cells; Never if there is
   /// no cavity. Call it within a transaction.
   double find(Judge<D, Shape>& judge, Index t, Index p, Seed& seed, bool needsGain);
+  void setUsualLimits(const Judge<D, Shape>& judge) { this->limits_ = usualLimits(judge); }
   /// The worst quality in the cavity of the last find().
   double oldWorst() const { return this->cavity_.oldWorst(); }
   /// Fills the cavity of the last find() from p at the seed's place, whether or not that gains.
   bool fill(Judge<D, Shape>& judge, Index p, const Seed& seed);
 
 private:
+  /// If no nodes may be removed, none may vanish inside the cavity either.
+  static typename Cavity<D, Shape>::Limits usualLimits(const Judge<D, Shape>& judge)
+  {
+    typename Cavity<D, Shape>::Limits limits;
+    limits.swallowed = judge.mayRemoveNodes() ? limits.swallowed : 0;
+    return limits;
+  }
   static void addSurfaceSeed(const Judge<D, Shape>& judge, const std::array<Index, 3>& ids,
     const std::vector<Index>& cells, std::vector<Seed>& seeds);
   double grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed);
@@ -91,6 +108,7 @@ private:
 
   Proposal<D> proposal_;
   Cavity<D, Shape> cavity_;
+  typename Cavity<D, Shape>::Limits limits_;
   StarProblem<D, Shape> problem_;
   std::vector<Seed> seeds_;
   std::vector<std::pair<double, std::size_t>> ranking_; ///< of the seeds: (-promise, number)
@@ -308,10 +326,7 @@ template <int D, class Shape>
 double NodeInsertion<D, Shape>::grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed)
 {
   judge.editor().movePoint(p, seed.x, judge.mesh().nodes(t)[0]);
-  typename Cavity<D, Shape>::Limits limits;
-  // If no nodes may be removed, none may vanish inside the cavity either.
-  limits.swallowed = judge.mayRemoveNodes() ? limits.swallowed : 0;
-  return this->cavity_.grow(judge.editor(), judge.model(), t, p, seed.x, limits,
+  return this->cavity_.grow(judge.editor(), judge.model(), t, p, seed.x, this->limits_,
     seed.isOnSurface() ? &seed.opening : nullptr);
 }
 

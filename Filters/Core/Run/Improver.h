@@ -16,6 +16,7 @@
 #include "Operations/Reconnect.h"
 #include "Operations/Retriangulation.h"
 #include "Operations/SurfaceMotion.h"
+#include "Operations/WideInsertion.h"
 
 #include <tuple>
 
@@ -30,7 +31,7 @@ namespace meshopt
 template <int D, class Shape>
 using OperationList = std::tuple<Reconnect<D, Shape>, NodeMotion<D, Shape>, NodeRemoval<D, Shape>,
   BoundaryChange<D, Shape>, ClusterMotion<D, Shape>, Retriangulation<D, Shape>,
-  NodeInsertion<D, Shape>, SurfaceMotion<D, Shape>, LookAhead<D, Shape>>;
+  NodeInsertion<D, Shape>, WideInsertion<D, Shape>, SurfaceMotion<D, Shape>, LookAhead<D, Shape>>;
 
 template <int D, class Shape>
 class Improver

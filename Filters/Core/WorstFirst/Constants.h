@@ -71,6 +71,11 @@ inline constexpr long Patience = 20, PatientTries = 200, PatientLooks = 40;
 inline constexpr long PatientPart = 5;
 /// Stop removing nodes once this fraction of the cells is gone (unless sizes are followed).
 inline constexpr double ShrinkBudget = 0.12;
+/// The most nodes that may vanish in one wide insertion; and the same once WideShrink times as many
+/// cells are gone. With 8 in place of 30 the worst cells of lattices that are hardly thrown end at
+/// a tenth; without the second limit half of the cells of a thin slab vanish.
+inline constexpr int MostSwallowed = 30, FewestSwallowed = 1;
+inline constexpr long WideShrink = 2;
 /// 1 in ReservedPart of the growth budget is reserved for polishing.
 inline constexpr long ReservedPart = 10;
 /// The growth budget counts as used up if at most this fraction of it plus one node's cells is
@@ -80,6 +85,8 @@ inline constexpr long OneNode = 10;
 /// Up to the target, look-ahead is for the worst few cells of a pass. "Few" is 1 in FewOfMany of
 /// all cells, but at least FewCells; in small meshes 1 in FewCellsPart, but at least FewestCells.
 inline constexpr long FewCells = 200, FewestCells = 20, FewCellsPart = 20, FewOfMany = 100;
+/// The most tries of polishing in a pass, for each of its cells: mostly it takes less than half.
+inline constexpr long MostPolishTries = 100;
 /// After this many tries per initially bad cell, nodes only creep. From then on a pass requires
 /// CoarseGain.
 inline constexpr long Creeping = 5;

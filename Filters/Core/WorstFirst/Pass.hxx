@@ -117,6 +117,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
   // the first stage.
   const bool many = onTheWay && task.level > 0 && task.below > few;
   const double guard = !this->guard_ ? -1.0 : many ? task.target : Stages[0];
+  const bool wide = !this->guard_ && !this->slides() && this->isFarBelowBound();
   // The shares are fixed before the pass: a chunk must not depend on what others use up meanwhile.
   const long reserve = this->guard_ ? this->reserve_ : 0;
   Growth share;
@@ -131,6 +132,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
     this->demand(judge, task, false);
     judge.setTarget(task.target);
     judge.setThorough(!this->model_.plain || (this->guard_ && task.below <= few));
+    judge.setWide(wide ? this->mostSwallowed() : None);
     judge.setGuard(guard, this->model_.weights || many);
     w.kept = w.tries = w.lifted = 0;
     w.creeps = false;
@@ -224,6 +226,7 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
   return w.isPatient ? level : std::min<int>(level, Level::Removal);
 }
 
+/// Polishing ends where its changes make ever more other cells bad.
 /// Nodes creep if many tries lift few cells above the target: the same ones move again and again
 /// by little. From then on a change must gain more, and where many cells are bad, each gets one try
 /// in a round.
@@ -233,6 +236,10 @@ void Schedule<D, Shape>::watch(Worker& w, const Task& task)
   ++w.tries;
   if (!this->guard_)
   {
+    if (w.tries >= MostPolishTries * w.given && !this->slides() && this->model_.plain)
+    {
+      w.queue = {};
+    }
     return;
   }
   const long window = std::max(CreepingTries, w.given / CreepingPart);

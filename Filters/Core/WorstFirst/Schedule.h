@@ -107,6 +107,11 @@ private:
     return (this->caps_.bound() < 1.0 || this->slides()) &&
       this->worst() < NearBound * this->caps_.bound();
   }
+  /// The most nodes that may vanish in one wide insertion.
+  int mostSwallowed() const
+  {
+    return this->growth_ < this->leanGrowth_ ? MostSwallowed : FewestSwallowed;
+  }
   /// Whether the many bad cells are left as they are from now on: the last pass over them crept,
   /// and the surface, that holds most of such cells, is kept. Only the worst get more effort.
   /// `badBefore`: before the pass that made them `bad`, 0 before the first one.
@@ -156,6 +161,7 @@ private:
   std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
   std::optional<bool> overlaps_;      ///< see mayOverlap(): known once no cell is inverted
   long growth_, mostGrowth_;          ///< see Growth
+  long leanGrowth_;                   ///< from here on, fewer nodes vanish in wide insertions
   long allowed_;                      ///< growth_ at the start
   long reserve_;                      ///< part of the growth reserved for polish()
   bool isShort_ = false;              ///< a change was left out for lack of growth budget
@@ -190,6 +196,7 @@ Schedule<D, Shape>::Schedule(Run<D>& run)
   const long shrink = run.options.mostShrink >= 0
     ? run.options.mostShrink
     : static_cast<long>(ShrinkBudget * this->mesh().countCells());
+  this->leanGrowth_ = run.growth + WideShrink * shrink;
   // If sizes are followed, any number of cells may vanish.
   this->mostGrowth_ = this->model_.plain ? run.growth + shrink : std::numeric_limits<long>::max();
 }

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file WideInsertion.h
+/// Inserts a node far from a cell that nothing near it helps: flat cells along an edge of the
+/// surface lie on each other in layers, and only a cavity that takes in all of them gains. For the
+/// few worst cells while they are far below their bound (Judge::setWide()): most that is bad about
+/// a mesh can be changed from nearby, at a hundredth of the cost.
+#ifndef meshopt_Operations_WideInsertion_h
+#define meshopt_Operations_WideInsertion_h
+
+#include "Operations/NodeInsertion.h"
+
+namespace meshopt
+{
+template <int D, class Shape>
+class WideInsertion
+{
+public:
+  static constexpr int level = Level::LongLookAhead;
+  static constexpr bool addsCells = false; // mostly fewer; else the judge asks the budget
+  static bool isOn(const Switches& switches) { return switches.insertNodes; }
+
+  bool improve(Judge<D, Shape>& judge, Index t, int)
+  {
+    if (judge.wide() == None)
+    {
+      return false;
+    }
+    this->findCells(judge.editor(), t);
+    this->findSeeds(judge.mesh());
+    typename Cavity<D, Shape>::Limits limits;
+    limits.cells = limits.detour = MostCells;
+    limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
+    return this->insertion_.improve(judge, t, this->seeds_, limits);
+  }
+
+private:
+  /// Of a cavity. Flat cells can lie in tens of layers.
+  static constexpr int MostCells = 400;
+  /// Cells that give seeds: BestCells of the first FirstCells around, and of each next group, which
+  /// has twice as many cells as all before it and FirstCells more.
+  static constexpr std::size_t BestCells = 2, FirstCells = 8;
+  /// Where the seeds of a cell lie on the way to it from the bad one. The nearer ones need smaller
+  /// cavities, in which fewer nodes vanish.
+  static constexpr double Parts[] = { 1.0, 0.5, 0.25 };
+
+  /// The cells around cell t, the nearest first, as far as the chunk reaches.
+  void findCells(MeshEditor<D>& editor, Index t)
+  {
+    const SimplexMesh<D>& mesh = editor.mesh();
+    const std::uint32_t mark = editor.newMark();
+    editor.setMark(t, mark);
+    this->cells_ = { t };
+    for (std::size_t k = 0; k < this->cells_.size() && this->cells_.size() < MostCells; ++k)
+    {
+      for (int i = 0; i <= D; ++i)
+      {
+        const Index h = mesh.adjacent(this->cells_[k], i);
+        const Index c = h == None || mesh.isKept(this->cells_[k], i) ? None : mesh.cellOf(h);
+        if (c != None && editor.owns(c) && !editor.isMarked(c, mark))
+        {
+          editor.setMark(c, mark);
+          this->cells_.push_back(c);
+        }
+      }
+    }
+  }
+
+  void findSeeds(const SimplexMesh<D>& mesh)
+  {
+    this->seeds_.clear();
+    const Vec<D> start = barycentre(mesh, this->cells_[0]);
+    for (std::size_t from = 1, to = 0; from < this->cells_.size(); from = to)
+    {
+      to = std::min(this->cells_.size(), 2 * from + FirstCells);
+      const auto first = this->cells_.begin() + from;
+      const auto last = first + std::min(BestCells, to - from);
+      std::partial_sort(first, last, this->cells_.begin() + to,
+        [&](Index a, Index b)
+        { return std::pair(-mesh.quality(a), a) < std::pair(-mesh.quality(b), b); });
+      for (auto c = first; c != last; ++c)
+      {
+        const Vec<D> x = barycentre(mesh, *c);
+        for (double part : Parts)
+        {
+          this->seeds_.push_back({ start + part * (x - start), {}, {} });
+        }
+      }
+    }
+  }
+
+  static Vec<D> barycentre(const SimplexMesh<D>& mesh, Index c)
+  {
+    Vec<D> sum = Vec<D>::Zero();
+    for (const Vec<D>& x : mesh.corners(c))
+    {
+      sum += x;
+    }
+    return sum / (D + 1);
+  }
+
+  NodeInsertion<D, Shape> insertion_;
+  std::vector<Index> cells_;
+  std::vector<typename NodeInsertion<D, Shape>::Seed> seeds_;
+};
+}
+
+#endif
