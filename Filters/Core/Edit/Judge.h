@@ -64,8 +64,9 @@ public:
 
   // --- requirements
   /// The least gain over a worst quality q that makes a change worthwhile. It is smaller if all
-  /// qualities are tiny, where wide insertions may lift them as far as rounding allows; and, down to a tenth of it, where less reaches the target. Not in a
-  /// metric: there each change costs more, and the many small ones ended lower.
+  /// qualities are tiny, where wide insertions are tried down to what rounding allows; and, down to
+  /// a tenth of it, where less reaches the target. Not in a metric: there each change costs more,
+  /// and the many small ones ended lower.
   double gain(double q) const
   {
     constexpr double nearTarget = 0.1; // of the least gain

@@ -30,7 +30,7 @@ public:
     typename Cavity<D, Shape>::Limits limits;
     limits.cells = limits.detour = MostCells;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
-    return this->insertion_.improve(judge, t, this->seeds_, limits);
+    return !this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits);
   }
 
 private:

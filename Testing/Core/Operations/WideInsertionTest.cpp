@@ -137,6 +137,17 @@ TYPED_TEST(InsertingFarAway, NoMoreNodesVanishThanMay)
   }
 }
 
+TYPED_TEST(InsertingFarAway, ACellAloneHasNothingAround)
+{
+  constexpr int D = TypeParam::dimension;
+  MeshInput<D> in = layers<D>(1);
+  in.cells.resize(1);
+  Bench<D> b(in);
+  b.judge.setWide(Layers);
+  WideInsertion<D, MeanEdgeShape<D>> wide;
+  expectRefused(b, [&] { return wide.improve(b.judge, 0, Level::LongLookAhead); });
+}
+
 /// The nodes of a layer are kept: the cavity cannot take them in.
 TYPED_TEST(InsertingFarAway, KeptNodesStay)
 {
