@@ -106,7 +106,7 @@ private:
   static constexpr double MostPerLifted[] = { 2e4, 5e4, 5e4 };
   /// Evaluations for each cell of the mesh until the worst must have risen, by effort; and at least
   /// so many in all, since in a small mesh one look-ahead takes 1e5.
-  static constexpr double MostPerRise[] = { 50.0, 75.0, 75.0 };
+  static constexpr double MostPerRise[] = { 50.0, 150.0, 150.0 };
   static constexpr double ClearRise = 0.05; ///< relative to the worst quality
   static constexpr double FewestPerRise = 3e5;
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries

@@ -90,9 +90,9 @@ TEST(CostModel, PolishingEndsUnlessTheWorstRises)
   constexpr long cells = 10000;
   CostModel costs(Effort::Default);
   costs.notePolish(1, 0.1); // the first worst is a rise over nothing
-  costs.notePolish(500000, 0.102);
+  costs.notePolish(1000000, 0.102);
   EXPECT_TRUE(costs.mayPolish(cells));
-  costs.notePolish(400000, 0.104);
+  costs.notePolish(800000, 0.104);
   EXPECT_FALSE(costs.mayPolish(cells));
   EXPECT_TRUE(costs.mayPolish(10 * cells)); // by the cells of the mesh
   costs.notePolish(1, 0.106);               // 0.1 + 5 % is passed: it starts again
