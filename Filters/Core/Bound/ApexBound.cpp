@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meshopt
@@ -17,6 +18,9 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 constexpr double shapeConstant = MeanEdgeShape<3>::constant;
+
+/// How well a maximum is known where it sets a bound: relative.
+constexpr double exactly = 1e-13;
 
 double cubed(double x) { return x * x * x; }
 
@@ -58,8 +62,8 @@ struct ApexProblem
   }
 
   /// Returns an upper bound of the maximum. Starts at p, which becomes the best place. Stops as
-  /// soon as `enough` is reached.
-  double maximize(Point& p, double enough) const
+  /// soon as `enough` is reached, or the bound is known to the relative `precision`.
+  double maximize(Point& p, double enough, double precision = exactly) const
   {
     double z = p[N - 1];
     double s = this->sum(p);
@@ -83,7 +87,7 @@ struct ApexProblem
       // z^(1/3) - lambda P is concave and 0 at p, so its maximum is at most the slope times a
       // distance. The best node is nearer to the given ones than their perimeter, and so is p.
       const double rest = slope.norm() * 2.0 * this->base / s;
-      if (rest <= 1e-13)
+      if (rest <= precision)
       {
         return std::cbrt(z) / s * (1.0 + rest);
       }
@@ -272,10 +276,10 @@ double EdgeView::cap(double phi, double enough) const
 {
   // The start: beside the centroid, about as far away as a regular apex.
   Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
-  return this->capFrom(phi, enough, p);
+  return this->capFrom(phi, enough, p, exactly);
 }
 
-double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p) const
+double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p, double precision) const
 {
   // In the half plane at angle phi: s along the edge, r away from it; V = off r sin(phi) / 6.
   const double sine = std::sin(phi), cosine = std::cos(phi);
@@ -291,25 +295,27 @@ double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p) const
     return 0.0;
   }
   const double target = std::isfinite(enough) ? lambdaOf(enough, area) : enough;
-  return shapeOf(problem.maximize(p, target), area);
+  return shapeOf(problem.maximize(p, target, precision), area);
 }
 
 bool EdgeView::level(double c, double& low, double& high, double width) const
 {
   // Each search starts from the best place of the one before.
-  const double exact = std::numeric_limits<double>::infinity();
+  const double most = std::numeric_limits<double>::infinity();
+  // What is left open makes the interval wider, never narrower.
+  const double precision = std::max(exactly, 1e-4 * width);
   Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
-  const auto value = [this, exact, &p](double phi) { return this->capFrom(phi, exact, p); };
-  const double most = value(this->best);
+  const auto value = [&](double phi) { return this->capFrom(phi, most, p, precision); };
+  const double atBest = value(this->best);
   // Not even at its best angle is the facet good enough.
-  if (most < c * (1.0 - 1e-12))
+  if (atBest < c * (1.0 - 1e-12))
   {
     return false;
   }
   const Eigen::Vector2d top = p;
-  low = crossing(0.0, 0.0, this->best, std::max(most, c), c, width, value);
+  low = crossing(0.0, 0.0, this->best, std::max(atBest, c), c, width, value);
   p = top;
-  high = crossing(pi, 0.0, this->best, std::max(most, c), c, width, value);
+  high = crossing(pi, 0.0, this->best, std::max(atBest, c), c, width, value);
   return true;
 }
 
@@ -335,20 +341,14 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
   }
   return false;
 }
-}
 
-/// From the cheapest test to the dearest: most edges forbid nothing and leave early.
-bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double slack, double width)
+/// Whether no filling by three or more tetrahedra has a worst S of c or more. `slack`, `width`: as
+/// for edgeCap().
+bool anglesForbid(
+  double c, double theta, const EdgeView& first, const EdgeView& last, double slack, double width)
 {
-  if (!first.usable || !last.usable || !std::isfinite(theta) || c <= 0.0 || spanned >= c)
-  {
-    return false;
-  }
-  // Filling by two: V at the other facet is wrong by slack times the distance of the node, and S by
-  // at most 1833 / 24 slack.
-  if (pairReaches(c * (1.0 - 8.0 * slack) - 100.0 * slack, theta, first, last) ||
-    fillsSimply(c, theta, first, last))
+  // The simple ones first: most edges forbid nothing.
+  if (c <= 0.0 || fillsSimply(c, theta, first, last))
   {
     return false;
   }
@@ -366,18 +366,42 @@ bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& 
   const double between = std::max(1.0, std::ceil((theta - slack - u1 - u2) / high));
   return l1 + l2 + between * low > theta + slack;
 }
+}
 
-/// Bisection between a level that is not forbidden and one that is. Only the forbidden end is
+/// First what one or two tetrahedra reach: mostly three or more cannot reach that, and it is the
+/// cap. Else bisection between it and the level that is forbidden. Only a forbidden level is
 /// returned, so that the result is certified.
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
   double spanned, double tolerance, double slack, double width)
 {
-  double low = std::max(0.0, spanned), high = above;
-  while (high - low > tolerance * high && high > 1e-12)
+  constexpr double rounding = 1e-12, nothing = 1.0;
+  if (!first.usable || !last.usable || !std::isfinite(theta) || above <= 0.0 || spanned >= above)
+  {
+    return nothing;
+  }
+  // Filling by two: V at the other facet is wrong by slack times the distance of the node, and S by
+  // at most 1833 / 24 slack.
+  const double pair = (pairCap(theta, first, last, tolerance, above) + 100.0 * slack) /
+    (1.0 - 8.0 * slack);
+  double low = (1.0 + rounding) * std::max({ 0.0, spanned, pair }), high = above;
+  const auto forbids = [&](double c) { return anglesForbid(c, theta, first, last, slack, width); };
+  if (low >= high || fillsSimply(high, theta, first, last))
+  {
+    return nothing;
+  }
+  if (forbids(low))
+  {
+    return low;
+  }
+  if (!forbids(high))
+  {
+    return nothing;
+  }
+  while (high - low > tolerance * high && high > rounding)
   {
     // While only a tiny low end is known, steps by a factor find the magnitude faster.
     const double middle = low > 0.1 * high ? 0.5 * (low + high) : 0.3 * high;
-    (edgeForbids(middle, theta, first, last, spanned, slack, width) ? high : low) = middle;
+    (forbids(middle) ? high : low) = middle;
   }
   return high;
 }

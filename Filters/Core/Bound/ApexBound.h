@@ -61,23 +61,19 @@ struct EdgeView
   bool level(double c, double& low, double& high, double width = 1e-9) const;
 
 private:
-  double capFrom(double phi, double enough, Eigen::Vector2d& place) const;
+  double capFrom(double phi, double enough, Eigen::Vector2d& place, double precision) const;
 };
 
-/// Whether a kept edge forbids a worst quality of c: true if no filling of the angle theta between
-/// its two kept facets has a worst S of c or more.
+/// How good the worst S can be at a kept edge, where the angle theta between its two kept facets is
+/// filled by tetrahedra: a certified bound if that is below `above`, else 1 (nothing is forbidden).
+/// It is rounded upwards by at most the relative tolerance; so near `above` it may be 1, too.
 ///
 /// The angle is filled by k >= 1 tetrahedra; the first and the last have a given facet. k = 1: the
 /// tetrahedron that both facets span, with quality `spanned` (about 0 or less if theta >= pi). k =
-/// 2: both have a node in common, see pairReaches(). k > 2: only the angles are used. c must not be
-/// above what both facets allow. theta is known up to `slack`, and values computed from the facets
+/// 2: both have a node in common, see pairCap(). k > 2: only the angles are used. `above` must not
+/// exceed what both facets allow. theta is known up to `slack`, and values computed from the facets
 /// up to that relative error. A greater `width` (of the levels) is faster, but more edges then seem
 /// to forbid nothing.
-bool edgeForbids(double c, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double slack = 0.0, double width = 1e-9);
-
-/// The lowest c that the edge forbids, for an edge that forbids c = `above`: its certified bound.
-/// It is rounded upwards by at most the relative tolerance.
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
   double spanned, double tolerance = 1e-7, double slack = 0.0, double width = 1e-9);
 }

@@ -32,7 +32,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
     if (surface.sideCaps[k] < limit)
     {
       // From either side of a facet the same: the cap depends on its shape only.
-      this->facets_[sortedIds(surface.sides[k].nodes)] = surface.sideCaps[k];
+      this->facets_.addLeast(sortedIds(surface.sides[k].nodes), surface.sideCaps[k]);
       if (surface.sideCaps[k] < Tiny)
       {
         this->isAtTiny_.resize(mesh.numberOfPointSlots(), 0);
@@ -50,8 +50,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
     if (e.cap < limit && e.b != None)
     {
       // An edge may have several wedges: the lowest of their caps counts.
-      double& cap = this->edges_.try_emplace(sortedIds(e.a, e.b), 1.0).first->second;
-      cap = std::min(cap, e.cap);
+      this->edges_.addLeast(sortedIds(e.a, e.b), e.cap);
       this->largest_ = std::max(this->largest_, e.cap);
     }
   }
@@ -60,10 +59,8 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
 template <int D>
 double Caps<D>::find(const Facet<D>& f) const
 {
-  const auto found = this->facets_.find(sortedIds(f));
-  return found == this->facets_.end() || found->second >= Tiny
-    ? 1.0
-    : this->full_ / std::max(found->second, Rounding);
+  const double* cap = this->facets_.find(sortedIds(f));
+  return cap && *cap < Tiny ? this->full_ / std::max(*cap, Rounding) : 1.0;
 }
 
 /// Facet i is the cell without its node i. The facet with the lowest cap decides.
@@ -95,8 +92,8 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
   {
     if (mesh.isKept(c, i))
     {
-      const auto found = this->facets_.find(sortedIds(mesh.facet(c, i)));
-      if (found != this->facets_.end() && q >= this->reached_ * found->second)
+      const double* cap = this->facets_.find(sortedIds(mesh.facet(c, i)));
+      if (cap && q >= this->reached_ * *cap)
       {
         return true;
       }
@@ -112,9 +109,8 @@ double Caps<D>::enough(const SimplexMesh<D>& mesh, Index c, int i) const
   {
     return -1.0;
   }
-  const auto found = this->facets_.find(sortedIds(mesh.facet(c, i)));
-  return found == this->facets_.end() ? -1.0
-                                      : std::max(mesh.quality(c), this->reached_ * found->second);
+  const double* cap = this->facets_.find(sortedIds(mesh.facet(c, i)));
+  return cap ? std::max(mesh.quality(c), this->reached_ * *cap) : -1.0;
 }
 
 /// In 2D no edge is stored: what has a cap there is a node.
@@ -131,16 +127,16 @@ bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
       {
         continue;
       }
-      const auto found = this->edges_.find(sortedIds(a, b));
-      if (found == this->edges_.end() || !(mesh.quality(c) >= this->reached_ * found->second))
+      const double* cap = this->edges_.find(sortedIds(a, b));
+      if (!cap || !(mesh.quality(c) >= this->reached_ * *cap))
       {
         continue;
       }
       // Some cell at the edge is at most the cap, but it is not known which. It is this one if all
       // others are better.
       mesh.ring(c, a, b, false, ring);
-      if (std::none_of(ring.begin(), ring.end(),
-            [&](Index o) { return o != c && mesh.quality(o) <= found->second; }))
+      if (std::none_of(
+            ring.begin(), ring.end(), [&](Index o) { return o != c && mesh.quality(o) <= *cap; }))
       {
         return true;
       }

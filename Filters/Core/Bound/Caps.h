@@ -5,9 +5,7 @@
 #define meshopt_Bound_Caps_h
 
 #include "Bound/SurfaceBound.h"
-#include "Mesh/Ids.h"
-
-#include <unordered_map>
+#include "Mesh/IdTable.h"
 
 namespace meshopt
 {
@@ -51,15 +49,6 @@ public:
   double enough(const SimplexMesh<D>& mesh, Index c, int i) const;
 
 private:
-  struct Hash
-  {
-    template <std::size_t N>
-    std::size_t operator()(const std::array<Index, N>& ids) const
-    {
-      return hashIds(ids);
-    }
-  };
-
   /// How many of the points lie at some facet with a tiny cap. Hardly any do: most facets and cells
   /// need no look into the table.
   template <std::size_t N>
@@ -82,8 +71,8 @@ private:
   double full_ = 1.0;     // see setFull()
   bool weighed_ = false;
   std::vector<std::uint8_t> isAtTiny_; ///< by point: it lies at a facet with a tiny cap
-  std::unordered_map<Facet<D>, double, Hash> facets_;
-  std::unordered_map<std::array<Index, 2>, double, Hash> edges_;
+  IdTable<D> facets_;
+  IdTable<2> edges_;
 };
 
 extern template class Caps<2>;

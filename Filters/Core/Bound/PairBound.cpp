@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The case in which the angle at an edge is filled by two cells. Both share one free node, so the
-// maximum is over a single place, for a weighted mean of both; bisection finds the weight.
+// maximum is over a single place, for a weighted mean of both; false position finds the weight.
 #include "Bound/PairBound.h"
 
 #include "Quality/Shape.h"
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meshopt
@@ -73,6 +74,14 @@ public:
     return this->first_.inward.dot(p) > 0.0 && this->last_.inward.dot(p) > 0.0;
   }
 
+  /// In the middle of the angle, about as far from the edge as a regular apex.
+  static Vec<3> start(double theta, const EdgeView& first, const EdgeView& last)
+  {
+    const double away = 0.13 * (first.perimeter + last.perimeter);
+    return { 0.25 + 0.25 * (first.along + last.along), away * std::cos(0.5 * theta),
+      away * std::sin(0.5 * theta) };
+  }
+
   /// S^(1/3) of the first and of the last tetrahedron.
   double first(const Vec<3>& p) const { return this->first_.root(p) / this->first_.sum(p); }
   double last(const Vec<3>& p) const { return this->last_.root(p) / this->last_.sum(p); }
@@ -84,8 +93,9 @@ public:
   }
 
   /// Moves p to the best place for the weighted mean. Returns an upper bound, as S^(1/3), on what
-  /// the worse of the two tetrahedra can reach anywhere.
-  double maximize(double weight, Vec<3>& p) const
+  /// the worse of the two tetrahedra can reach anywhere. Stops where that is known to the relative
+  /// `precision`.
+  double maximize(double weight, double precision, Vec<3>& p) const
   {
     double lambda = this->mean(p, weight);
     double rest = 0.0;
@@ -101,7 +111,7 @@ public:
       // mean() exceeds lambda by no more.
       const double radius = std::max(this->first_.base, this->last_.base);
       rest = g.norm() * (radius + (p - 0.5 * Vec<3>::UnitX()).norm());
-      if (rest <= 1e-11 * lambda || !this->advance(h.llt().solve(-g), weight, p, lambda))
+      if (rest <= precision * lambda || !this->advance(h.llt().solve(-g), weight, p, lambda))
       {
         break;
       }
@@ -132,34 +142,43 @@ private:
 };
 }
 
-bool pairReaches(double c, double theta, const EdgeView& first, const EdgeView& last)
+/// The weight is where both have the same quality. Their difference rises with the weight, so that
+/// false position finds it; the weight of an end that stays is halved (Illinois).
+double pairCap(
+  double theta, const EdgeView& first, const EdgeView& last, double tolerance, double enough)
 {
   const Pair pair(theta, first, last);
-  const double wanted = std::cbrt(c);
-  const double away = 0.13 * (first.perimeter + last.perimeter);
-  // The start: in the middle of the angle, about as far from the edge as a regular apex.
-  Vec<3> p(0.25 + 0.25 * (first.along + last.along), away * std::cos(0.5 * theta),
-    away * std::sin(0.5 * theta));
-  double low = 0.0, high = 1.0;
-  for (int halving = 0; halving < 40 && pair.isInside(p); ++halving)
+  const double wanted = std::cbrt(enough), precision = std::max(1e-11, 0.03 * tolerance);
+  Vec<3> p = Pair::start(theta, first, last);
+  double bound = 1.0, reached = 0.0; // as S^(1/3)
+  double low = 0.0, high = 1.0, atLow = 0.0, atHigh = 0.0, weight = 0.5;
+  for (int k = 0; k < 40 && pair.isInside(p); ++k)
   {
     const double s1 = pair.first(p), s2 = pair.last(p);
-    if (s1 >= wanted && s2 >= wanted)
+    reached = std::max(reached, std::min(s1, s2));
+    // S has three times the relative difference.
+    if (reached >= wanted || bound <= reached * (1.0 + tolerance / 3.0))
     {
-      return true; // such a place exists
+      break;
     }
-    if (halving > 0)
+    if (k > 0 && s1 < s2)
     {
-      // The worse of the two needs more weight.
-      (s1 < s2 ? low : high) = 0.5 * (low + high);
+      low = weight;
+      atLow = s1 - s2;
+      atHigh *= 0.5;
     }
-    if (pair.maximize(0.5 * (low + high), p) < wanted)
+    else if (k > 0)
     {
-      // This weighted mean stays below what is wanted everywhere: so does the worse of the two.
-      return false;
+      high = weight;
+      atHigh = s1 - s2;
+      atLow *= 0.5;
     }
+    // Until both signs are known, by halving.
+    const bool isBetween = atLow < 0.0 && atHigh > 0.0;
+    const double part = isBetween ? std::clamp(atLow / (atLow - atHigh), 0.01, 0.99) : 0.5;
+    weight = low + part * (high - low);
+    bound = std::min(bound, pair.maximize(weight, precision, p));
   }
-  // Not decided: the edge must then not be said to forbid anything.
-  return true;
+  return std::min(1.0, bound * bound * bound);
 }
 }

@@ -9,16 +9,16 @@
 
 namespace meshopt
 {
-/// Two facets have a common edge, at the angle theta in radians, 0 < theta < 2 pi. False if it is
-/// certain that no place of a fourth node gives the tetrahedra on both facets an S (2.3) of c or
-/// more. True if there is such a place, or if it takes too long to decide (which happens for c very
-/// near the best). c > 0; both views must be usable.
+/// Two facets have a common edge, at the angle theta in radians, 0 < theta < 2 pi. The greatest worst
+/// S (2.3) that the tetrahedra on both can have, in [0, 1]: a certified bound, rounded upwards by at
+/// most the relative `tolerance`, unless it takes too long to find. If `enough` is reached, the
+/// result may be any value from `enough` on, which is cheaper. Both views must be usable.
 ///
 /// The function of ApexBound.h for each facet, V^(1/3) - lambda P, is concave in the node, and so
-/// is a weighted mean of both. If no place gives the mean the value 0, none gives it to both.
-/// Bisection finds the weight for which the mean is most restrictive: there both qualities are the
-/// same.
-bool pairReaches(double c, double theta, const EdgeView& first, const EdgeView& last);
+/// is a weighted mean of both. What no place gives the mean, none gives to both. The search finds
+/// the weight for which the mean is most restrictive: there both qualities are the same.
+double pairCap(
+  double theta, const EdgeView& first, const EdgeView& last, double tolerance, double enough = 1.0);
 }
 
 #endif

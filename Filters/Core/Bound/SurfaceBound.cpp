@@ -391,18 +391,11 @@ double BoundBuilder<3>::wedgeCap(
   // Exact only for edges that set the bound: all others are for look-up.
   const bool exact = below <= this->result_.bound;
   const double width = exact ? 1e-9 : 1e-3 * std::min(1.0, theta);
-  if (!edgeForbids(below, theta, first, last, spanned, slack, width))
-  {
-    return 1.0;
-  }
   const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 1e-3, slack, width);
   // A coarse cap near the bound could hide that this edge sets it.
-  if (!exact && 0.9 * cap < this->result_.bound &&
-    edgeForbids(this->result_.bound, theta, first, last, spanned, slack))
-  {
-    return edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack);
-  }
-  return cap;
+  return !exact && 0.9 * cap < this->result_.bound
+    ? std::min(cap, edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack))
+    : cap;
 }
 }
 

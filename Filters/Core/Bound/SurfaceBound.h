@@ -5,7 +5,7 @@
 /// Every kept facet belongs to one cell on each side. The shape of that cell is at most that of the
 /// best element with this facet: its cap. At every kept edge (3D; in 2D a kept node) the angle
 /// between two kept facets has to be filled by some number of elements. The worst of them is at
-/// most what edgeForbids() leaves possible. Nothing else is used: the inside may be reconnected,
+/// most what edgeCap() leaves possible. Nothing else is used: the inside may be reconnected,
 /// even where all nodes of a cell are fixed.
 #ifndef meshopt_Bound_SurfaceBound_h
 #define meshopt_Bound_SurfaceBound_h
