@@ -21,6 +21,8 @@ constexpr double shapeConstant = MeanEdgeShape<3>::constant;
 
 /// How well a maximum is known where it sets a bound: relative.
 constexpr double exactly = 1e-13;
+/// The dihedral angle of the regular tetrahedron.
+const double bestAngle = std::acos(1.0 / 3.0);
 
 double cubed(double x) { return x * x * x; }
 
@@ -246,12 +248,14 @@ double crossing(double out, double fOut, double in, double fIn, double c, double
 }
 }
 
-void angleCapLevel(double c, double& low, double& high, double width)
+double lowestAngle(double c, double width)
 {
-  // The dihedral angle of the regular tetrahedron.
-  const double best = std::acos(1.0 / 3.0);
-  low = crossing(0.0, 0.0, best, 1.0, c, width, angleCap);
-  high = crossing(pi, 0.0, best, 1.0, c, width, angleCap);
+  return crossing(0.0, 0.0, bestAngle, 1.0, c, width, angleCap);
+}
+
+double highestAngle(double c, double width)
+{
+  return crossing(pi, 0.0, bestAngle, 1.0, c, width, angleCap);
 }
 
 /// In units of the edge, which both facets there share.
@@ -298,26 +302,23 @@ double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p, double p
   return shapeOf(problem.maximize(p, target, precision), area);
 }
 
-bool EdgeView::level(double c, double& low, double& high, double width) const
+/// Each search starts from the best place of the one before. What is left open makes the interval
+/// wider, never narrower.
+double EdgeView::limit(double c, double end, double width) const
 {
-  // Each search starts from the best place of the one before.
   const double most = std::numeric_limits<double>::infinity();
-  // What is left open makes the interval wider, never narrower.
-  const double precision = std::max(exactly, 1e-4 * width);
+  const double precision = std::max(exactly, 3e-3 * width);
   Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
   const auto value = [&](double phi) { return this->capFrom(phi, most, p, precision); };
   const double atBest = value(this->best);
   // Not even at its best angle is the facet good enough.
-  if (atBest < c * (1.0 - 1e-12))
-  {
-    return false;
-  }
-  const Eigen::Vector2d top = p;
-  low = crossing(0.0, 0.0, this->best, std::max(atBest, c), c, width, value);
-  p = top;
-  high = crossing(pi, 0.0, this->best, std::max(atBest, c), c, width, value);
-  return true;
+  return atBest < c * (1.0 - 1e-12)
+    ? -1.0
+    : crossing(end, 0.0, this->best, std::max(atBest, c), c, width, value);
 }
+
+double EdgeView::lowest(double c, double width) const { return this->limit(c, 0.0, width); }
+double EdgeView::highest(double c, double width) const { return this->limit(c, pi, width); }
 
 namespace
 {
@@ -342,35 +343,36 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
   return false;
 }
 
-/// Whether no filling by three or more tetrahedra has a worst S of c or more. `slack`, `width`: as
-/// for edgeCap().
-bool anglesForbid(
+/// By how much three or more tetrahedra with a worst S of c or more exceed the angle theta, at
+/// least: if it is above 0, there is no such filling. `slack`, `width`: as for edgeCap().
+double excess(
   double c, double theta, const EdgeView& first, const EdgeView& last, double slack, double width)
 {
-  // The simple ones first: most edges forbid nothing.
-  if (c <= 0.0 || fillsSimply(c, theta, first, last))
-  {
-    return false;
-  }
   // On the safe side: the views of the facets have this error.
   c *= 1.0 - 8.0 * slack;
-  double low, high;
-  angleCapLevel(c, low, high, width);
-  double l1, u1, l2, u2;
-  if (!first.level(c, l1, u1, width) || !last.level(c, l2, u2, width))
+  const double l1 = first.lowest(c, width), l2 = last.lowest(c, width);
+  if (l1 < 0.0 || l2 < 0.0)
   {
-    return false; // the best place is not known well enough
+    return -theta; // the best place is not known well enough
   }
-  // k - 2 >= 1 tetrahedra lie between the first and the last. Fewer than `between` do not reach
-  // theta; if that many already exceed it, all larger numbers do, too.
-  const double between = std::max(1.0, std::ceil((theta - slack - u1 - u2) / high));
-  return l1 + l2 + between * low > theta + slack;
+  // There are k - 2 >= 1 tetrahedra between the first and the last. At most edges that are convex,
+  // already one is too many.
+  const double low = lowestAngle(c, width);
+  const double byOne = l1 + l2 + low - theta - slack;
+  if (byOne > 0.0)
+  {
+    return byOne;
+  }
+  // Fewer than `between` do not reach theta; if that many exceed it, all larger numbers do, too.
+  const double u1 = first.highest(c, width), u2 = last.highest(c, width);
+  const double between = std::ceil((theta - slack - u1 - u2) / highestAngle(c, width));
+  return byOne + std::max(0.0, between - 1.0) * low;
 }
 }
 
 /// First what one or two tetrahedra reach: mostly three or more cannot reach that, and it is the
-/// cap. Else bisection between it and the level that is forbidden. Only a forbidden level is
-/// returned, so that the result is certified.
+/// cap. Else false position between it and the level that is forbidden (Illinois). Only a forbidden
+/// level is returned, so that the result is certified.
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
   double spanned, double tolerance, double slack, double width)
 {
@@ -384,24 +386,30 @@ double edgeCap(double above, double theta, const EdgeView& first, const EdgeView
   const double pair = (pairCap(theta, first, last, tolerance, above) + 100.0 * slack) /
     (1.0 - 8.0 * slack);
   double low = (1.0 + rounding) * std::max({ 0.0, spanned, pair }), high = above;
-  const auto forbids = [&](double c) { return anglesForbid(c, theta, first, last, slack, width); };
   if (low >= high || fillsSimply(high, theta, first, last))
   {
     return nothing;
   }
-  if (forbids(low))
+  const auto by = [&](double c) { return excess(c, theta, first, last, slack, width); };
+  double atLow = low > 0.0 ? by(low) : -theta;
+  if (atLow > 0.0)
   {
     return low;
   }
-  if (!forbids(high))
+  double atHigh = by(high);
+  if (!(atHigh > 0.0))
   {
     return nothing;
   }
   while (high - low > tolerance * high && high > rounding)
   {
     // While only a tiny low end is known, steps by a factor find the magnitude faster.
-    const double middle = low > 0.1 * high ? 0.5 * (low + high) : 0.3 * high;
-    (forbids(middle) ? high : low) = middle;
+    const double part = std::clamp(atLow / (atLow - atHigh), 0.02, 0.98);
+    const double middle = low > 0.1 * high ? low + part * (high - low) : 0.3 * high;
+    const double value = by(middle);
+    (value > 0.0 ? high : low) = middle;
+    (value > 0.0 ? atHigh : atLow) = value;
+    (value > 0.0 ? atLow : atHigh) *= 0.5;
   }
   return high;
 }

@@ -33,9 +33,10 @@ double angleCap(double phi);
 /// isosceles.
 double angleCap2(double phi);
 
-/// The interval in which angleCap() is at least c, 0 < c <= 1: all phi in [low, high]. It is
-/// rounded outwards by at most `width`.
-void angleCapLevel(double c, double& low, double& high, double width = 1e-9);
+/// The ends of the interval of angles at which angleCap() is at least c, 0 < c <= 1. Rounded outwards
+/// by at most `width`.
+double lowestAngle(double c, double width = 1e-9);
+double highestAngle(double c, double width = 1e-9);
 
 /// A facet seen from one of its edges, whose length is the unit of length. The third node is at
 /// `along` on the line of the edge, and `off` away from it.
@@ -56,12 +57,14 @@ struct EdgeView
   /// pi. For `enough` see facetCap().
   double cap(double phi, double enough = std::numeric_limits<double>::infinity()) const;
 
-  /// The interval in which cap() is at least c: all phi in [low, high], rounded outwards by at most
-  /// `width`. False if there is none.
-  bool level(double c, double& low, double& high, double width = 1e-9) const;
+  /// The ends of the interval of angles at which cap() is at least c. Rounded outwards by at most
+  /// `width`. Less than 0 if there is none.
+  double lowest(double c, double width = 1e-9) const;
+  double highest(double c, double width = 1e-9) const;
 
 private:
   double capFrom(double phi, double enough, Eigen::Vector2d& place, double precision) const;
+  double limit(double c, double end, double width) const;
 };
 
 /// How good the worst S can be at a kept edge, where the angle theta between its two kept facets is

@@ -391,7 +391,7 @@ double BoundBuilder<3>::wedgeCap(
   // Exact only for edges that set the bound: all others are for look-up.
   const bool exact = below <= this->result_.bound;
   const double width = exact ? 1e-9 : 1e-3 * std::min(1.0, theta);
-  const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 1e-3, slack, width);
+  const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 5e-3, slack, width);
   // A coarse cap near the bound could hide that this edge sets it.
   return !exact && 0.9 * cap < this->result_.bound
     ? std::min(cap, edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack))
