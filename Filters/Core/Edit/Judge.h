@@ -17,6 +17,7 @@
 #ifndef meshopt_Edit_Judge_h
 #define meshopt_Edit_Judge_h
 
+#include "Edit/FailureMemory.h"
 #include "Edit/Growth.h"
 #include "Edit/Operation.h"
 #include "Edit/Proposal.h"
@@ -97,11 +98,9 @@ public:
   void setWide(int mostSwallowed) { this->wide_ = mostSwallowed; }
   int wide() const { return this->wide_; }
   /// The least gain of a change, and how many steps the search for the best place of a node may
-  /// take. With others, what has failed may succeed.
+  /// take.
   void setGain(double gain, int steps = StarSteps)
   {
-    const bool isSame = gain == this->gain_ && steps == this->steps_;
-    this->failuresSince_ = isSame ? this->failuresSince_ : this->editor_->clock();
     this->gain_ = gain;
     this->steps_ = steps;
   }
@@ -124,6 +123,9 @@ public:
     this->pinched_ = &pinched;
   }
   bool hasInverted() const { return this->inverted_; }
+  Demand demand() const { return { this->gain_, this->steps_, this->guard_, this->guardsAll_ }; }
+  /// Only failures after this time count: before it, more may have been demanded (FailureMemory.h).
+  void setFailuresSince(std::uint32_t time) { this->failuresSince_ = time; }
   /// If on, all nodes of the moved cells are stamped after a move, since their stars have changed
   /// (MeshEditor::stamp()). If off, only the moved nodes are stamped.
   void setStampsStars(bool on) { this->stampsStars_ = on; }
@@ -245,9 +247,9 @@ private:
   int steps_ = StarSteps;
   double guard_ = -1.0;
   bool guardsAll_ = false, stampsStars_ = true, isThorough_ = true;
-  int wide_ = None;                 ///< see setWide()
-  std::uint32_t failuresSince_ = 0; ///< older failures at a node were with another gain or steps
-  long bad_ = 0;                    ///< badness() of all cells made, minus that of those removed
+  int wide_ = None; ///< see setWide()
+  std::uint32_t failuresSince_ = 0;
+  long bad_ = 0; ///< badness() of all cells made, minus that of those removed
   bool tangled_ = false, inverted_ = false;
   const std::vector<std::uint8_t>* pinched_ = nullptr; // only if tangled_
   std::vector<Index> changed_;

@@ -85,19 +85,16 @@ private:
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
     // the node must also lie among its neighbours.
     const bool better = now > judge.required(old) && (now > 0.0 || this->problem_.isAmidPoints(x));
-    judge.count(Operation::NodeMotion, better);
-    if (!better)
-    {
-      if (!judge.editor().inTransaction()) // after a rollback the star is another one
-      {
-        judge.editor().setMoveFailed(v, judge.editor().clock());
-      }
-      return false;
-    }
     this->proposal_.moves.push_back({ v, x, {} });
     this->proposal_.oldWorst = this->proposal_.least = old;
     this->proposal_.newWorst = now;
-    return judge.accept(this->proposal_);
+    const bool done = better && judge.accept(this->proposal_);
+    judge.count(Operation::NodeMotion, done);
+    if (!done && !judge.editor().inTransaction()) // after a rollback the star is another one
+    {
+      judge.editor().setMoveFailed(v, judge.editor().clock());
+    }
+    return done;
   }
 
   /// Moves a node of the surface in its tangent plane; if that goes too far for the surface, in the

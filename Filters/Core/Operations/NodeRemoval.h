@@ -46,14 +46,14 @@ private:
     {
       this->tryNeighbour(judge.model(), u);
     }
-    const bool found = !this->best_.cells.empty();
-    judge.count(Operation::EdgeContraction, found);
+    const bool done = !this->best_.cells.empty() && judge.accept(this->best_);
+    judge.count(Operation::EdgeContraction, done);
     // Within a look-ahead the mesh is another one: what fails there may succeed outside.
-    if (!found && !judge.editor().inTransaction())
+    if (!done && !judge.editor().inTransaction())
     {
       judge.editor().setRemoveFailed(v, judge.editor().clock());
     }
-    return found && judge.accept(this->best_);
+    return done;
   }
 
   /// Collects the facets opposite to v in its star, and their points.

@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <utility>
 
 namespace meshopt
@@ -20,9 +19,13 @@ namespace meshopt
 namespace worstfirst
 {
 /// Three rules, each with a memory of the whole run:
-///  - a pass that paid too much for each cell that it lifted is repeated for the worst few only;
+///  - a pass may spend a price for each cell that it lifts above its target. What is beyond that is
+///    wasted, and there is one allowance for all that is wasted in a run. No pass gets more than a
+///    share of what is left of it, so that later ones have their turn;
 ///  - insertion and look-ahead that hardly ever helped in a pass get fewer tries in the next one;
 ///  - polishing ends when it has spent too much since the worst cell last rose clearly.
+/// Allowances grow with the cells and with the free nodes: a mesh with hardly a node inside is held
+/// by its surface, and there more tries are in vain.
 class CostModel
 {
 public:
@@ -38,21 +41,26 @@ public:
     : effort_(static_cast<int>(effort))
   {
   }
-
-  /// A pass of this level towards this target has lifted so many cells above it.
-  void notePass(int level, double target, std::int64_t evaluations, long lifted)
+  /// To be called first.
+  void open(long cells, long freeNodes)
   {
-    double& price = this->prices_[{ level, target }];
-    const double paid = static_cast<double>(evaluations) /
-      static_cast<double>(std::max(1L, lifted));
-    // The dearest counts: cells that polishing has made worse are cheap to lift again, and would
-    // make the same pass over all others seem cheap.
-    price = std::max(price, paid);
+    this->cells_ = static_cast<double>(cells);
+    this->freeNodes_ = static_cast<double>(freeNodes);
+    this->waste_ = WastePerCell[this->effort_] * this->cells_ +
+      WastePerNode[this->effort_] * this->freeNodes_;
   }
-  bool isDear(int level, double target) const
+
+  /// Evaluations that a pass may spend, and as many more for each cell that it lifts.
+  double leftForPass() const
   {
-    const auto price = this->prices_.find({ level, target });
-    return price != this->prices_.end() && price->second > MostPerLifted[this->effort_];
+    return std::max(FewestPerPass * this->cells_, WasteShare * this->waste_);
+  }
+  double pricePerLifted() const { return PricePerLifted[this->effort_]; }
+  /// A pass has spent so much and lifted so many cells.
+  void notePass(std::int64_t evaluations, long lifted)
+  {
+    this->waste_ -= std::max(
+      0.0, static_cast<double>(evaluations) - this->pricePerLifted() * static_cast<double>(lifted));
   }
 
   /// How many tries of an operation a pass makes before it asks whether they help, if `usual` is
@@ -83,42 +91,49 @@ public:
     }
   }
 
-  /// A round of polishing has spent so much and ended with this worst quality.
+  /// A pass of polishing has spent so much and ended with this worst quality.
   void notePolish(std::int64_t evaluations, double worst)
   {
-    this->spent_ += evaluations;
+    this->spent_ += static_cast<double>(evaluations);
     if (worst > this->lastWorst_ + ClearRise * std::fabs(this->lastWorst_))
     {
       this->lastWorst_ = worst;
-      this->spent_ = 0;
+      this->spent_ = 0.0;
     }
   }
-  bool mayPolish(long cells) const
+  /// What the next one may spend; nothing if less than 0.
+  double leftForPolish() const
   {
-    return static_cast<double>(this->spent_) <=
-      std::max(FewestPerRise, MostPerRise[this->effort_] * static_cast<double>(cells));
+    const double allowed = PolishPerCell[this->effort_] * this->cells_ +
+      PolishPerNode[this->effort_] * this->freeNodes_;
+    return std::max(FewestPerRise, allowed) - this->spent_;
   }
 
 private:
   // All found by trying, on Delaunay meshes of random points and surfaces of CGAL (hard.py): what
-  // lowers the time most before the worst cells end lower.
-  /// Evaluations for each cell lifted, by effort. Where cells are not stuck, it is a few thousand.
-  static constexpr double MostPerLifted[] = { 2e4, 5e4, 5e4 };
-  /// Evaluations for each cell of the mesh until the worst must have risen, by effort; and at least
-  /// so many in all, since in a small mesh one look-ahead takes 1e5.
-  static constexpr double MostPerRise[] = { 50.0, 150.0, 150.0 };
-  static constexpr double ClearRise = 0.05; ///< relative to the worst quality
+  // lowers the time most before the worst cells end lower. In evaluations, by effort.
+  static constexpr double PricePerLifted[] = { 1500.0, 3000.0, 3000.0 };
+  static constexpr double WastePerCell[] = { 50.0, 100.0, 100.0 };
+  static constexpr double WastePerNode[] = { 1000.0, 2500.0, 2500.0 };
+  static constexpr double WasteShare = 0.3;    ///< of what is left, for one pass
+  static constexpr double FewestPerPass = 3.0; ///< for each cell
+  /// Until the worst must have risen by ClearRise, relatively; and at least so many in all, since in
+  /// a small mesh one look-ahead takes 1e5.
+  static constexpr double PolishPerCell[] = { 25.0, 80.0, 80.0 };
+  static constexpr double PolishPerNode[] = { 1000.0, 3000.0, 3000.0 };
   static constexpr double FewestPerRise = 3e5;
+  static constexpr double ClearRise = 0.05;
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries
   static constexpr int Step = 2; ///< each pass in vain divides the tries by 2^Step
   /// At most, in the first pass of a stage: with 2 turbine has half as many cells again under .45.
   static constexpr int FirstImpatience = 1;
 
   int effort_;
-  std::map<std::pair<int, double>, double> prices_; ///< by level and target
+  double cells_ = 0.0, freeNodes_ = 0.0;
+  double waste_ = 0.0; ///< that is still allowed; less than 0 if there was more
   std::array<int, NumberOfKinds> impatience_{};
-  double target_ = 0.0; ///< of the stage
-  std::int64_t spent_ = 0;
+  double target_ = 0.0;     ///< of the stage
+  double spent_ = 0.0;      ///< on polishing since lastWorst_
   double lastWorst_ = -1.0; ///< below all qualities
 };
 }

@@ -76,13 +76,7 @@ void Schedule<D, Shape>::drain(const Task& task, const std::vector<Index>& bad, 
   this->chunks_.open(n, n > 1 ? Shifts[this->variant_++ % std::size(Shifts)] : 0.0, bad);
   this->instruct(task);
   this->chunks_.run(
-    this->run_.control,
-    [&](Worker& w)
-    {
-      EvaluationCount count;
-      this->work(w, task);
-      w.evaluations += count.take();
-    },
+    this->run_.control, [&](Worker& w) { this->work(w, task); },
     [&] { return this->goesOn(task.target); });
   this->chunks_.close();
   this->gather();
@@ -112,12 +106,13 @@ void Schedule<D, Shape>::instruct(const Task& task)
   const bool polishes = !this->guard_ && !this->isPast(this->polishTarget_);
   const long looks = polishes ? std::max<long>(1, (this->mostLooks() - this->looks_) / n)
                               : std::numeric_limits<long>::max();
+  const double most = this->mostEvaluations(task) / n;
   // Where many cells are stuck, it does not pay to lift one of them by making others bad: all
   // changes are then guarded at the target. Otherwise the guard only keeps cells from falling below
   // the first stage.
   const bool many = onTheWay && task.level > 0 && task.below > few;
   const double guard = !this->guard_ ? -1.0 : many ? task.target : Stages[0];
-  const bool wide = !this->guard_ && !this->slides() && this->isFarBelowBound();
+  const bool wide = polishes && !this->slides() && this->isFarBelowBound();
   // The shares are fixed before the pass: a chunk must not depend on what others use up meanwhile.
   const long reserve = this->guard_ ? this->reserve_ : 0;
   Growth share;
@@ -129,17 +124,19 @@ void Schedule<D, Shape>::instruct(const Task& task)
     Judge<D, Shape>& judge = w.improver.judge();
     judge.growth = share;
     judge.setTangled(this->tangled_, this->inverted_, this->pinched_);
-    this->demand(judge, task, false);
     judge.setTarget(task.target);
     judge.setThorough(!this->model_.plain || (this->guard_ && task.below <= few));
     judge.setWide(wide ? this->mostSwallowed() : None);
     judge.setGuard(guard, this->model_.weights || many);
-    w.kept = w.tries = w.lifted = 0;
+    this->demand(judge, task, false);
+    w.demand = judge.demand();
+    w.kept = w.tries = w.lifted = w.liftedBefore = 0;
     w.creeps = false;
     w.round = 0;
     w.changed.clear();
     w.limit = limit;
     w.looks = looks;
+    w.most = most;
     w.isPatient = true;
   }
 }
@@ -152,6 +149,28 @@ void Schedule<D, Shape>::demand(Judge<D, Shape>& judge, const Task& task, bool c
   const bool isThrifty = this->isThrifty(task.target, task.below);
   const double least = std::max(isThrifty ? ThriftyGain : 0.0, creeps ? CoarseGain : 0.0);
   judge.setGain(std::max(this->gain_, least), isThrifty ? ThriftySteps : StarSteps);
+  judge.setFailuresSince(this->failures_.since(judge.demand()));
+}
+
+/// How many evaluations a pass may spend, beside what it earns by lifting cells: see CostModel. Any
+/// number past the target, in a metric, and where the surface takes part.
+template <int D, class Shape>
+double Schedule<D, Shape>::mostEvaluations(const Task& task) const
+{
+  const bool past = this->isPast(this->guard_ ? task.target : this->polishTarget_);
+  if (past || !this->model_.plain || this->slides())
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  return this->guard_ ? this->costs_.leftForPass() : this->costs_.leftForPolish();
+}
+
+template <int D, class Shape>
+bool Schedule<D, Shape>::isSpent(const Worker& w) const
+{
+  const double earned = this->guard_ ? this->costs_.pricePerLifted() * static_cast<double>(w.lifted)
+                                     : 0.0;
+  return static_cast<double>(w.evaluations) > w.most + earned;
 }
 
 /// Collects the counts of the workers and the growth that they have left.
@@ -164,6 +183,10 @@ void Schedule<D, Shape>::gather()
   {
     Worker& w = this->chunks_.worker(k);
     Judge<D, Shape>& judge = w.improver.judge();
+    for (const Demand& demand : { w.demand, judge.demand() }) // more, if it creeps
+    {
+      this->failures_.note(demand, this->run_.editor.clock());
+    }
     left += judge.growth.left;
     this->isShort_ |= judge.growth.isShort;
     this->kept_ += w.kept;
@@ -173,6 +196,10 @@ void Schedule<D, Shape>::gather()
       this->surface_[i] += std::exchange(judge.surfaceChanges[i], 0);
     }
     this->spent_ += w.evaluations;
+    if (this->guard_)
+    {
+      this->costs_.notePass(w.evaluations, w.lifted);
+    }
     this->run_.report.evaluations += std::exchange(w.evaluations, 0);
     this->looks_ += this->guard_ ? 0 : judge.tried[static_cast<int>(Operation::LookAhead)];
     for (int op = 0; op < NumberOfOperations; ++op)
@@ -246,8 +273,8 @@ void Schedule<D, Shape>::watch(Worker& w, const Task& task)
   if (w.tries % window == 0 && task.below > this->fewCells() && this->model_.plain)
   {
     const long lift = this->slides() ? CreepingLiftOfSliding : CreepingLift;
-    w.creeps = w.creeps || w.lifted * lift < window;
-    w.lifted = 0;
+    w.creeps = w.creeps || (w.lifted - w.liftedBefore) * lift < window;
+    w.liftedBefore = w.lifted;
   }
   if (w.creeps || w.tries > Creeping * w.given)
   {
@@ -281,8 +308,15 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
 {
   const SimplexMesh<D>& mesh = this->mesh();
   int level = task.level; // once patience has ended it stays low
+  EvaluationCount count;
   for (long tries = Tries[level]; tries > 0 && this->hasNext(w) && !this->run_.clock.isOutOfTime();)
   {
+    w.evaluations += count.take();
+    if (this->isSpent(w))
+    {
+      w.queue = {};
+      break;
+    }
     const auto [q, c] = w.queue.top();
     w.queue.pop();
     level = this->patientLevel(w, task, level);
@@ -325,6 +359,7 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
       w.heldUp.push_back(c);
     }
   }
+  w.evaluations += count.take();
 }
 }
 }

@@ -93,11 +93,8 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     // The target lies just above the last of these cells, so that the stage takes them and no
     // others.
     const bool isWide = !past && wanted > PolishedCells;
-    const std::int64_t evaluations = this->run_.report.evaluations;
     more = this->stage(std::nextafter(worst.back().first, 1.0));
-    this->costs_.notePolish(this->run_.report.evaluations - evaluations, this->worst());
-    if (!this->isPast(target) && this->model_.plain && !this->slides() &&
-      !this->costs_.mayPolish(this->mesh().countCells()))
+    if (this->mostEvaluations({ target, 0, 0 }) < 0.0)
     {
       break;
     }

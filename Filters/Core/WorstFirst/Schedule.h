@@ -40,12 +40,15 @@ private:
   struct Worker : ChunkWorker<D>
   {
     Improver<D, Shape> improver;
+    Demand demand; // of this pass, at first
     std::int64_t evaluations = 0;
     long kept = 0, tries = 0; // in this pass
     long limit = 0;           // of the tries above the lowest level
     long looks = 0;           // the most look-aheads
+    double most = 0.0;        // evaluations in this pass, beside those that it earns
     bool isPatient = true;    // insertion and look-ahead are still tried
-    long lifted = 0;          // cells, since watch() looked last
+    long lifted = 0;          // cells, in this pass
+    long liftedBefore = 0;    // when watch() looked last
     bool creeps = false;
     int round = 0;              // of a pass that creeps
     std::vector<Index> changed; // cells for the next round
@@ -53,6 +56,7 @@ private:
     Worker(const Run<D>& run, const QualityModel<D, Shape>& model, const Caps<D>& caps)
       : ChunkWorker<D>(run.editor)
       , improver(this->editor, model, run.options, run.surface, &caps)
+      , demand(this->improver.judge().demand())
     {
     }
   };
@@ -66,6 +70,7 @@ private:
   };
 
   void findTangle();
+  long countFreeNodes() const;
   std::vector<double> stages() const;
   int levelOf(int pass) const;
   int passesThatRise() const { return this->options_.effort == Effort::Quick ? 1 : 2; }
@@ -82,6 +87,8 @@ private:
   std::vector<Index> stillBad(double target) const;
   int numberOfChunks(std::size_t numberOfBadCells, int most) const;
   void instruct(const Task& task);
+  double mostEvaluations(const Task& task) const;
+  bool isSpent(const Worker& worker) const;
   void demand(Judge<D, Shape>& judge, const Task& task, bool creeps) const;
   void gather();
   void work(Worker& worker, const Task& task);
@@ -130,8 +137,6 @@ private:
     return this->guard_ && this->model_.plain && !this->slides() && !this->isPast(target) &&
       below > this->fewCells();
   }
-  void keepWorst(std::vector<Index>& bad) const;
-  void notePrice(const Task& task);
   /// How hard a try is, to compare with an earlier failure. Tries without guard are the hardest.
   int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }
   bool goesOn(double target);
@@ -170,6 +175,7 @@ private:
   bool creeps_ = false;               ///< the pass: see watch()
   bool leavesMany_ = false;           ///< see givesUpMany()
   CostModel costs_;
+  FailureMemory failures_;
   long looks_ = 0; ///< look-aheads of polish() up to now
   std::array<long, NumberOfOperations> tried_{}, done_{};
   std::array<long, 2> surface_{}; ///< the same for changes of the surface
@@ -217,6 +223,18 @@ void Schedule<D, Shape>::findTangle()
     summarize(this->mesh(), this->options_.targetQuality, &inverted);
   }
   this->setInverted(inverted);
+}
+
+/// Only those that some cell has.
+template <int D, class Shape>
+long Schedule<D, Shape>::countFreeNodes() const
+{
+  long n = 0;
+  for (Index p = 0; p < this->mesh().numberOfPointSlots(); ++p)
+  {
+    n += this->mesh().isFree(p) && this->mesh().cellOfPoint(p) != None;
+  }
+  return n;
 }
 
 /// The stages below the target, then the target. With the best effort also those above it, up to
@@ -276,6 +294,7 @@ void Schedule<D, Shape>::optimize()
     this->run_.metric.isTrivial() && !this->run_.surface);
   this->caps_.setFull(this->options_.targetQuality / TinyReached);
   this->run_.report.bound = this->caps_.bound();
+  this->costs_.open(this->mesh().countCells(), this->countFreeNodes());
   const std::vector<double> stages = this->stages();
   bool more = true;
   int idle = 0;

@@ -46,20 +46,15 @@ bool Schedule<D, Shape>::stage(double target)
       break;
     }
     const double before = this->worst();
-    const bool isThrifty = this->isThrifty(target, below);
-    if (isThrifty && this->costs_.isDear(level, target))
-    {
-      this->keepWorst(bad);
-    }
     if (bad.empty())
     {
       continue; // all have failed at this level: a higher one may help
     }
     this->pass({ target, level, below }, bad);
     this->record(target, pass);
-    if (isThrifty)
+    if (!this->guard_)
     {
-      this->notePrice({ target, level, below });
+      this->costs_.notePolish(this->spent_, this->worst());
     }
     if (!this->goesOn(target))
     {
@@ -71,7 +66,7 @@ bool Schedule<D, Shape>::stage(double target)
       break;
     }
     const bool isSpent = !this->guard_ && !this->isPast(this->polishTarget_) &&
-      this->looks_ >= this->mostLooks();
+      (this->looks_ >= this->mostLooks() || this->mostEvaluations({ target, level, below }) < 0.0);
     const bool leavesMany = this->givesUpMany(target, below, belowBefore);
     this->leavesMany_ |= leavesMany;
     if (isSpent || leavesMany)
@@ -80,15 +75,6 @@ bool Schedule<D, Shape>::stage(double target)
     }
   }
   return true;
-}
-
-/// What the last pass has paid for each cell that it lifted.
-template <int D, class Shape>
-void Schedule<D, Shape>::notePrice(const Task& task)
-{
-  std::vector<Index> rest;
-  const long lifted = task.below - this->collect(task.target, task.level, rest);
-  this->costs_.notePass(task.level, task.target, this->spent_, lifted);
 }
 
 /// A failed cell is tried again only with more effort, or after something has changed around it.
@@ -100,18 +86,6 @@ bool Schedule<D, Shape>::worthTrying(Index c, int level) const
   return data.stamp == 0 || data.level < this->rank(level) ||
     std::any_of(nodes.begin(), nodes.end(),
       [&](Index p) { return this->mesh().pointData(p).stamp > data.stamp; });
-}
-
-/// Leaves only the worst few of the cells, in the order of their numbers.
-template <int D, class Shape>
-void Schedule<D, Shape>::keepWorst(std::vector<Index>& bad) const
-{
-  const std::size_t few = std::min(bad.size(), static_cast<std::size_t>(this->fewCells()));
-  const auto isWorse = [&](Index a, Index b)
-  { return std::pair(this->mesh().quality(a), a) < std::pair(this->mesh().quality(b), b); };
-  std::nth_element(bad.begin(), bad.begin() + few, bad.end(), isWorse);
-  bad.resize(few);
-  std::sort(bad.begin(), bad.end());
 }
 
 /// Collects the cells under the target that are worth a try. Returns how many are under the target

@@ -127,30 +127,22 @@ TEST(Judge, CountsWhatIsTriedAndDone)
 TEST(Judge, AFailureCountsUntilSomethingChanges)
 {
   Bench<2> b(diamond());
-  b.editor.setClock(10);
   EXPECT_TRUE(b.judge.failsAgain(7, 7));
   EXPECT_TRUE(b.judge.failsAgain(8, 7));
   EXPECT_FALSE(b.judge.failsAgain(7, 8)); // changed since
   EXPECT_FALSE(b.judge.failsAgain(0, 0)); // never failed
-  b.judge.setGain(1e-3);                  // as it is
-  EXPECT_TRUE(b.judge.failsAgain(8, 7));
-  b.judge.setGain(1e-4); // what has failed asked for more
+  b.judge.setFailuresSince(8);
   EXPECT_FALSE(b.judge.failsAgain(8, 7));
-  EXPECT_FALSE(b.judge.failsAgain(10, 7));
-  EXPECT_TRUE(b.judge.failsAgain(11, 7));
+  EXPECT_TRUE(b.judge.failsAgain(9, 7));
 }
 
-TEST(Judge, AFailureInAFewStepsDoesNotCountForMore)
+TEST(Judge, SaysWhatIsDemanded)
 {
   Bench<2> b(diamond());
   b.judge.setGain(1e-2, 4);
+  b.judge.setGuard(0.3, true);
+  EXPECT_EQ(b.judge.demand(), (Demand{ 1e-2, 4, 0.3, true }));
   EXPECT_EQ(b.judge.steps(), 4);
-  b.editor.setClock(10);
-  b.judge.setGain(1e-2, 4); // as it is
-  EXPECT_TRUE(b.judge.failsAgain(8, 7));
-  b.judge.setGain(1e-2);
-  EXPECT_FALSE(b.judge.failsAgain(8, 7));
-  EXPECT_EQ(b.judge.steps(), StarSteps);
 }
 
 TEST(Judge, MeasuringEndsAtTheFirstCellThatIsNoBetter)

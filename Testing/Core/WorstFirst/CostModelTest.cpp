@@ -9,44 +9,35 @@ namespace
 using meshopt::Effort;
 using meshopt::worstfirst::CostModel;
 
-TEST(CostModel, APassIsDearByWhatItPaidForEachLiftedCell)
+TEST(CostModel, WhatAPassEarnsIsNotWasted)
 {
   CostModel costs(Effort::Default);
-  EXPECT_FALSE(costs.isDear(0, 0.3)); // nothing is known yet
-  costs.notePass(0, 0.3, 1000000, 100);
-  EXPECT_FALSE(costs.isDear(0, 0.3));
-  costs.notePass(0, 0.3, 1000000, 10);
-  EXPECT_TRUE(costs.isDear(0, 0.3));
-  EXPECT_FALSE(costs.isDear(1, 0.3));
-  EXPECT_FALSE(costs.isDear(0, 0.45));
+  costs.open(1000, 100);
+  const double all = costs.leftForPass();
+  EXPECT_NEAR(all, 0.3 * (100.0 * 1000 + 2500.0 * 100), 1e-6);
+  costs.notePass(1000 * static_cast<long>(costs.pricePerLifted()), 1000);
+  EXPECT_EQ(costs.leftForPass(), all);
+  costs.notePass(1000, 1000); // a cheap pass does not pay for others
+  EXPECT_EQ(costs.leftForPass(), all);
+  costs.notePass(50000, 0);
+  EXPECT_NEAR(costs.leftForPass(), all - 0.3 * 50000, 1e-6);
 }
 
-TEST(CostModel, ACheapRepairDoesNotMakeADearPassCheap)
+TEST(CostModel, EachPassMayDoALittleWhateverWasWasted)
 {
   CostModel costs(Effort::Default);
-  costs.notePass(2, 0.3, 1000000, 1);
-  costs.notePass(2, 0.3, 1000, 1000);
-  EXPECT_TRUE(costs.isDear(2, 0.3));
+  costs.open(1000, 100);
+  costs.notePass(100000000, 10);
+  EXPECT_NEAR(costs.leftForPass(), 3.0 * 1000, 1e-6);
 }
 
-TEST(CostModel, APassThatLiftsNoneOrLosesSomeIsCountedAsIfItHadLiftedOne)
-{
-  CostModel costs(Effort::Default);
-  costs.notePass(0, 0.6, 1000, -5);
-  EXPECT_FALSE(costs.isDear(0, 0.6));
-  costs.notePass(0, 0.6, 1000000, -5);
-  EXPECT_TRUE(costs.isDear(0, 0.6));
-}
-
-TEST(CostModel, AQuickRunFindsPassesDearEarlier)
+TEST(CostModel, AQuickRunMayWasteLess)
 {
   CostModel quick(Effort::Quick), usual(Effort::Default);
-  for (CostModel* costs : { &quick, &usual })
-  {
-    costs->notePass(0, 0.3, 300000, 10);
-  }
-  EXPECT_TRUE(quick.isDear(0, 0.3));
-  EXPECT_FALSE(usual.isDear(0, 0.3));
+  quick.open(1000, 100);
+  usual.open(1000, 100);
+  EXPECT_LT(quick.leftForPass(), usual.leftForPass());
+  EXPECT_LT(quick.pricePerLifted(), usual.pricePerLifted());
 }
 
 TEST(CostModel, PatienceFallsWithEachPassInVainAndComesBackWithSuccess)
@@ -87,25 +78,30 @@ TEST(CostModel, AFewTriesProveNothing)
 
 TEST(CostModel, PolishingEndsUnlessTheWorstRises)
 {
-  constexpr long cells = 10000;
-  CostModel costs(Effort::Default);
-  costs.notePolish(1, 0.1); // the first worst is a rise over nothing
-  costs.notePolish(1000000, 0.102);
-  EXPECT_TRUE(costs.mayPolish(cells));
-  costs.notePolish(800000, 0.104);
-  EXPECT_FALSE(costs.mayPolish(cells));
-  EXPECT_TRUE(costs.mayPolish(10 * cells)); // by the cells of the mesh
-  costs.notePolish(1, 0.106);               // 0.1 + 5 % is passed: it starts again
-  EXPECT_TRUE(costs.mayPolish(cells));
+  CostModel costs(Effort::Default), inside(Effort::Default);
+  costs.open(10000, 0);
+  inside.open(10000, 1000); // with more free nodes it may take longer
+  for (CostModel* c : { &costs, &inside })
+  {
+    c->notePolish(1, 0.1); // the first worst is a rise over nothing
+    c->notePolish(700000, 0.102);
+  }
+  EXPECT_NEAR(costs.leftForPolish(), 80.0 * 10000 - 700000, 1e-6);
+  EXPECT_NEAR(inside.leftForPolish(), costs.leftForPolish() + 3000.0 * 1000, 1e-6);
+  costs.notePolish(200000, 0.104);
+  EXPECT_LT(costs.leftForPolish(), 0.0);
+  costs.notePolish(1, 0.106); // 0.1 + 5 % is passed: it starts again
+  EXPECT_NEAR(costs.leftForPolish(), 80.0 * 10000, 1e-6);
 }
 
 TEST(CostModel, ASmallMeshMayBePolishedForALookAheadOrTwo)
 {
   CostModel costs(Effort::Quick);
+  costs.open(10, 1);
   costs.notePolish(1, 0.1);
   costs.notePolish(299999, 0.1);
-  EXPECT_TRUE(costs.mayPolish(10));
+  EXPECT_GT(costs.leftForPolish(), 0.0);
   costs.notePolish(2, 0.1);
-  EXPECT_FALSE(costs.mayPolish(10));
+  EXPECT_LT(costs.leftForPolish(), 0.0);
 }
 }
