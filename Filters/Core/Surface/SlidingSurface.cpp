@@ -50,6 +50,20 @@ const Facet<3>& SlidingSurface::inputFacet(Index patch, const Vec<3>& x) const
   return this->inputFacets_[this->reference_.project(patch, x, there)];
 }
 
+std::optional<std::array<Index, 2>> SlidingSurface::inputEdge(
+  const SimplexMesh<3>& mesh, Index a, Index b) const
+{
+  const std::optional<Span> span = this->span(mesh, a, b);
+  if (!span)
+  {
+    return std::nullopt;
+  }
+  const std::vector<Index>& points = this->inputPoints_[span->part];
+  const std::size_t k = this->curves_[span->part].line(0.5 * (span->from + span->to));
+  // The last line of a closed curve leads back to the first point.
+  return sortedIds(points[k], points[(k + 1) % points.size()]);
+}
+
 /// On a curve from the present parameter on; in the plane of an exact patch; otherwise to the
 /// nearest point of the patch as it was.
 Place SlidingSurface::project(const Place& place, const Vec<3>& x, Vec<3>& there) const

@@ -53,6 +53,9 @@ public:
   std::uint32_t setsOfPatch(Index patch) const { return this->patches_[patch].sets; }
   /// The facet of the input (sorted ids) that is nearest to x, of those of the patch.
   const Facet<3>& inputFacet(Index patch, const Vec<3>& x) const;
+  /// The edge of the input (sorted ids) on which the middle of the kept edge from a to b lies, by
+  /// its parameter. Empty if the edge is on no curve that may change.
+  std::optional<std::array<Index, 2>> inputEdge(const SimplexMesh<3>& mesh, Index a, Index b) const;
 
   /// The distance that is proved between the surface of before and that of `mesh` (both ways).
   double distance(const SimplexMesh<3>& mesh) const;
@@ -104,6 +107,7 @@ private:
   std::vector<Patch> patches_;
   std::vector<SpaceCurve> curves_;    ///< of the pieces with the same numbers
   std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
+  std::vector<std::vector<Index>> inputPoints_; ///< the same: its points, as point ids
   CurvePieces pieces_;
   ReferenceSurface reference_;
   SurfaceAngles angles_;

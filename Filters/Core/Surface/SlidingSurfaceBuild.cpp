@@ -182,6 +182,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     this->pieces_.add(piece);
     this->curves_.push_back(curve);
     this->isSharp_.push_back(chain.isSharp);
+    this->inputPoints_.push_back(chain.points);
   }
   this->pieces_.join();
   const auto isOnCurve = [&](Index a, Index b)

@@ -191,7 +191,7 @@ void SurfaceDivision::collectEdges()
   {
     if (this->edges_.empty() || this->edges_.back().nodes != i.nodes)
     {
-      this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false });
+      this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false, None });
     }
     this->edgesOf_[i.part][i.opposite] = static_cast<Index>(this->edges_.size()) - 1;
     this->incidences_.push_back(i.part);
@@ -262,13 +262,17 @@ bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
   return (alike ? 1.0 : -1.0) * n.dot(m) < cosine(featureAngle) * n.norm() * m.norm();
 }
 
-/// First the edges that the geometry makes curves, then kept edges of the caller. Of those that
-/// leave the surface only the ends count.
+/// First the edges that the geometry or a number makes curves, then kept edges of the caller. Of
+/// those that leave the surface only the ends count.
 void SurfaceDivision::findCurves(const SurfaceOptions& options)
 {
   for (Edge& edge : this->edges_)
   {
-    edge.isCurve = this->isCurve(edge, options);
+    const auto line = std::lower_bound(options.lines.begin(), options.lines.end(), edge.nodes,
+      [](const auto& entry, const std::array<Index, 2>& key) { return entry.first < key; });
+    const bool isLine = line != options.lines.end() && line->first == edge.nodes;
+    edge.label = isLine ? line->second : None;
+    edge.isCurve = isLine || this->isCurve(edge, options);
     const bool hasAngle = edge.last - edge.first == 2;
     edge.isSharp = hasAngle && this->isSharp(edge, options.featureAngle);
     // Only near these may new sharp edges come.

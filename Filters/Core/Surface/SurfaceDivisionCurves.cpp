@@ -161,6 +161,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
     }
     else if (this->signature(curves[0]) == this->signature(curves[1]) &&
       this->edges_[curves[0]].isSharp == this->edges_[curves[1]].isSharp && // no end of a ridge
+      this->edges_[curves[0]].label == this->edges_[curves[1]].label &&     // nor of a line
       !this->turns(p, curves, options.cornerAngle))
     {
       this->freedom[p] = Freedom::Curve;

@@ -448,6 +448,7 @@ std::string BuildSurface(const Request& request, Model<3>& model, meshopt::Slidi
   options.corners = ReadCorners(model.Arrays.Corners, model.Cells);
   const auto ofPoints = LabelByPoints(model);
   options.labels = Combined(LabelRiding(model), ofPoints);
+  options.lines = LabelRidingLines(model);
   // Points with a label that no facet around them has would lose it: they stay.
   KeepLonePoints(model, ofPoints, options.corners);
   options.sets = FindNodeSets(model);
