@@ -16,9 +16,6 @@ namespace meshopt
 {
 namespace
 {
-/// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
-/// sideways, and above the reference besides.
-constexpr double CurveShare = 0.6;
 /// A node that has been put at the end of its room is there up to rounding.
 constexpr double Rounding = 1e-9;
 }
@@ -108,6 +105,7 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   }
   else if (place.freedom == Freedom::Curve)
   {
+    room = this->rooms_[place.part];
     result = this->project(place, x, foot);
   }
   else
@@ -239,7 +237,7 @@ std::optional<SlidingRange> SlidingSurface::range(
 bool SlidingSurface::follows(const Span& span) const
 {
   return this->pieces_.mayBeNeighbours(span) && span.leavesRoom &&
-    span.off <= (1.0 + Rounding) * CurveShare * this->tolerance_;
+    span.off <= (1.0 + Rounding) * this->rooms_[span.part];
 }
 
 /// Inside a patch, or where the edge is on one known curve; never beside a facet that stays.
@@ -413,15 +411,15 @@ bool SlidingSurface::allowsAngle(
   {
     return true; // planes stay
   }
-  if (!isKept)
+  const std::optional<Span> span = isKept ? this->span(mesh, a, b) : std::nullopt;
+  if (isKept && (!span || this->isSharp_[span->part]))
   {
-    return cosine >= this->featureCosine_ ||
-      this->bent_.isNear(mesh.point(a), mesh.point(b), CurveShare * this->tolerance_);
+    return !span || cosine <= this->halfCosine_;
   }
-  const std::optional<Span> span = this->span(mesh, a, b);
-  // A curve that was not sharp all along, such as the border between two regions on a plane, need
-  // not turn.
-  return !span || !this->isSharp_[span->part] || cosine <= this->halfCosine_;
+  // A curve that was not sharp, such as the border between two numbers on a plane, must not become
+  // so either.
+  return cosine >= this->featureCosine_ ||
+    this->bent_.isNear(mesh.point(a), mesh.point(b), CurveShare * this->tolerance_);
 }
 
 double SlidingSurface::distance(const SimplexMesh<3>& mesh) const

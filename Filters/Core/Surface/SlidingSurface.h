@@ -15,6 +15,7 @@
 #include "Surface/SurfaceDivision.h"
 
 #include <memory>
+#include <set>
 
 namespace meshopt
 {
@@ -34,6 +35,9 @@ public:
   Index numberOfPatches() const { return static_cast<Index>(this->patches_.size()); }
   /// Only tests ask, since it tells how the surface was divided.
   std::size_t numberOfCurves() const { return this->pieces_.size(); }
+  /// Facets that stay as they are because they lie on one another, as the lips of a closed crack
+  /// do, or because SurfaceOptions::locked lists them.
+  Index numberOfTwins() const { return this->numberOfTwins_; }
   bool isExact() const { return this->isExact_; }
   double tolerance() const { return this->tolerance_; }
   /// Freedom of each point of the input; Free if it is not on the surface.
@@ -79,8 +83,8 @@ public:
   bool judgesChanges() const override { return true; }
   std::uint32_t sets(const SimplexMesh<3>& mesh, Index v) const override;
   bool allows(const SurfaceChange<3>& change) const override;
-  /// Inside a patch, up to the feature angle; beyond, only along edges that were as sharp as half
-  /// of it. At a curve that is sharp, from half of it on.
+  /// Inside a patch, and at a curve that was not sharp, up to the feature angle; beyond, only along
+  /// edges that were as sharp as half of it. At a curve that was sharp, from half of it on.
   bool allowsAngle(
     const SimplexMesh<3>& mesh, Index a, Index b, bool isKept, double cosine) const override;
 
@@ -95,7 +99,14 @@ private:
     std::array<Vec<3>, 2> basis{ Vec<3>::Zero(), Vec<3>::Zero() }; ///< of the plane
   };
 
-  void addPatches(MeshEditor<3>& editor, const SurfaceDivision& division);
+  /// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
+  /// sideways, and above the reference besides.
+  static constexpr double CurveShare = 0.6;
+
+  void addPatches(
+    MeshEditor<3>& editor, const SurfaceDivision& division, const std::set<Index>& thin);
+  void addRooms(
+    const SimplexMesh<3>& mesh, const SurfaceDivision& division, const std::set<Index>& thin);
   void addCurves(MeshEditor<3>& editor, const SurfaceDivision& division);
   void addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
     const std::vector<std::uint32_t>& sets);
@@ -108,6 +119,7 @@ private:
   std::vector<SpaceCurve> curves_;    ///< of the pieces with the same numbers
   std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
   std::vector<std::vector<Index>> inputPoints_; ///< the same: its points, as point ids
+  std::vector<double> rooms_; ///< the same: how far nodes and edges may be from it
   CurvePieces pieces_;
   ReferenceSurface reference_;
   SurfaceAngles angles_;
@@ -117,6 +129,7 @@ private:
   std::vector<Vec<3>> corners_; ///< by point of the input: where those that are corners were
   std::uint32_t sets_ = 0;
   std::vector<std::uint32_t> setsOfPoint_, setsOfCurve_; ///< empty if there are none
+  Index numberOfTwins_ = 0;
   bool isExact_ = false;
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it

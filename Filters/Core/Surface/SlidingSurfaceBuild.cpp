@@ -10,11 +10,58 @@
 
 namespace meshopt
 {
+namespace
+{
+double areaOf(const SimplexMesh<3>& mesh, const SurfaceDivision::Part& part)
+{
+  const Vec<3>& a = mesh.point(part.nodes[0]);
+  return 0.5 * (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
+}
+
+/// The regions whose volume would change by a quarter if their surface moved by a quarter of the
+/// tolerance, on average.
+std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
+{
+  constexpr double most = 0.25, farthest = 0.25; // of the volume; of the tolerance
+  std::map<Index, double> left;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      // What is left of the share of the volume when all of its surface has moved. Below 0: thin.
+      left[mesh.region(c)] += most * std::fabs(signedVolume(mesh.corners(c)));
+    }
+  }
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    const double area = areaOf(mesh, part);
+    // A facet between two regions takes from one and gives to the other: it counts for both.
+    for (Index region : { part.region, part.other })
+    {
+      if (region != None)
+      {
+        left[region] -= area * farthest * division.tolerance;
+      }
+    }
+  }
+  std::set<Index> thin;
+  for (const auto& [region, volume] : left)
+  {
+    if (volume < 0.0)
+    {
+      thin.insert(region);
+    }
+  }
+  return thin;
+}
+}
+
 void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
 {
   // Nothing stays of a surface that was built before.
   *this = SlidingSurface();
   const SurfaceDivision division(editor.mesh(), options);
+  this->numberOfTwins_ = division.numberOfTwins;
   this->isExact_ = division.isExact;
   this->tolerance_ = division.tolerance;
   this->freedom_ = division.freedom;
@@ -23,8 +70,10 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   // Angles exist only where the surface stays the same set of points: see surfaceAngles().
   this->angles_ = surfaceAngles(editor.mesh(), division);
   // First the patches: curves ask the reference how much room they have.
-  this->addPatches(editor, division);
+  const std::set<Index> thin = thinRegions(editor.mesh(), division);
+  this->addPatches(editor, division, thin);
   this->addCurves(editor, division);
+  this->addRooms(editor.mesh(), division, thin);
   for (const auto& [a, b] : division.bentEdges)
   {
     this->bent_.add(editor.mesh().point(a), editor.mesh().point(b));
@@ -52,53 +101,11 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   }
 }
 
-namespace
-{
-/// The regions whose volume would change by a quarter if their surface moved by a quarter of the
-/// tolerance, on average.
-std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
-{
-  constexpr double most = 0.25, farthest = 0.25; // of the volume; of the tolerance
-  std::map<Index, double> left;
-  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
-  {
-    if (mesh.isAlive(c))
-    {
-      // What is left of the share of the volume when all of its surface has moved. Below 0: thin.
-      left[mesh.region(c)] += most * std::fabs(signedVolume(mesh.corners(c)));
-    }
-  }
-  for (const SurfaceDivision::Part& part : division.parts)
-  {
-    const Vec<3>& a = mesh.point(part.nodes[0]);
-    const double area = 0.5 *
-      (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
-    // A facet between two regions takes from one and gives to the other: it counts for both.
-    for (Index region : { part.region, part.other })
-    {
-      if (region != None)
-      {
-        left[region] -= area * farthest * division.tolerance;
-      }
-    }
-  }
-  std::set<Index> thin;
-  for (const auto& [region, volume] : left)
-  {
-    if (volume < 0.0)
-    {
-      thin.insert(region);
-    }
-  }
-  return thin;
-}
-}
-
 /// Facets go into the reference as they are now. From here on it does not change.
-void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
+void SlidingSurface::addPatches(
+  MeshEditor<3>& editor, const SurfaceDivision& division, const std::set<Index>& thin)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
-  const std::set<Index> thin = thinRegions(mesh, division);
   this->patches_.resize(division.numberOfPatches);
   for (Index k = 0; k < division.numberOfPatches && this->isExact_; ++k)
   {
@@ -203,6 +210,49 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
         if (isOnCurve(a, b))
         {
           editor.keepEdge(mesh.cellOf(h), a, b);
+        }
+      }
+    }
+  }
+}
+
+/// As far as CurveShare says; but beside a thin region that is narrow, too, only so far that its
+/// volume changes by a tenth if all its curves move sideways.
+void SlidingSurface::addRooms(
+  const SimplexMesh<3>& mesh, const SurfaceDivision& division, const std::set<Index>& thin)
+{
+  constexpr double most = 0.1; // of the volume
+  struct Size
+  {
+    double area = 0.0, curves = 0.0;
+  };
+  std::map<Index, Size> sizes;
+  this->rooms_.assign(this->curves_.size(), CurveShare * this->tolerance_);
+  // Twice: the sizes of regions first, then what these leave to their curves.
+  for (const bool isSummed : { false, true })
+  {
+    for (const SurfaceDivision::Part& part : division.parts)
+    {
+      for (Index region : { part.region, part.other })
+      {
+        if (thin.count(region) == 0)
+        {
+          continue;
+        }
+        Size& size = sizes[region];
+        size.area += isSummed ? 0.0 : areaOf(mesh, part);
+        for (int i = 0; i < 3; ++i)
+        {
+          const Index a = part.nodes[i], b = part.nodes[(i + 1) % 3];
+          const auto span = this->span(mesh, a, b);
+          if (!span)
+          {
+            continue;
+          }
+          // Half: each of its curves has two facets of a region.
+          size.curves += isSummed ? 0.0 : 0.5 * (mesh.point(b) - mesh.point(a)).norm();
+          double& room = this->rooms_[span->part];
+          room = isSummed ? std::min(room, most * size.area / size.curves) : room;
         }
       }
     }

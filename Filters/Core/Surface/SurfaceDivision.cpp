@@ -123,7 +123,9 @@ void SurfaceDivision::collectParts(const SurfaceOptions& options)
       const bool isFixed = std::all_of(key.begin(), key.end(),
         [&](Index p)
         { return (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) != 0; });
-      part.isLocked = isFixed || contains(options.locked, key);
+      const bool isListed = contains(options.locked, key);
+      part.isLocked = isFixed || isListed;
+      this->numberOfTwins += isListed;
       this->parts.push_back(part);
     }
   }
@@ -153,11 +155,15 @@ void SurfaceDivision::lockTwins()
     places.emplace_back(key, static_cast<Index>(k));
   }
   std::sort(places.begin(), places.end());
-  for (std::size_t k = 1; k < places.size(); ++k)
+  const auto isSame = [&](std::size_t k, std::size_t other)
+  { return other < places.size() && places[k].first == places[other].first; };
+  for (std::size_t k = 0; k < places.size(); ++k)
   {
-    if (places[k].first == places[k - 1].first)
+    if (isSame(k, k + 1) || (k > 0 && isSame(k, k - 1)))
     {
-      this->parts[places[k].second].isLocked = this->parts[places[k - 1].second].isLocked = true;
+      Part& part = this->parts[places[k].second];
+      this->numberOfTwins += !part.isLocked; // those that the caller lists are counted
+      part.isLocked = true;
     }
   }
 }

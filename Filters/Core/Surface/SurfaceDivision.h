@@ -81,6 +81,8 @@ struct SurfaceDivision
 
   std::vector<Part> parts; ///< in the order of cells
   Index numberOfPatches = 0;
+  /// Parts that are locked because the caller lists them, or because they lie on one another.
+  Index numberOfTwins = 0;
   std::vector<Plane> planes; ///< of each patch, only if exact
   std::vector<Chain> chains;
   std::vector<std::array<Index, 2>> curveEdges; ///< sorted ids, in ascending order

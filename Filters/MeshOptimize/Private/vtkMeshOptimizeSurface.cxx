@@ -457,4 +457,16 @@ std::string BuildSurface(const Request& request, Model<3>& model, meshopt::Slidi
   return {};
 }
 
+std::string DescribeTwins(const meshopt::BoundaryCurves&) { return {}; }
+
+std::string DescribeTwins(const meshopt::SlidingSurface& surface)
+{
+  const Index n = surface.numberOfTwins();
+  return n == 0 ? ""
+                : std::to_string(n) +
+      " facets of the surface lie on others, corner by corner, without having their points: lips "
+      "of "
+      "a closed crack, or of two blocks. They stay as they are, so that they stay together.";
+}
+
 } // namespace vtkMeshOptimizeBridge

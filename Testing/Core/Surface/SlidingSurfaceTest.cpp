@@ -299,6 +299,70 @@ TEST(SlidingSurface, AThinPlateIsNotPressedFlat)
   }
 }
 
+/// Whether the surface lets the point move to x, as far as the curves at it are concerned.
+bool curvesAllow(Sliding& made, Index p, const Vec<3>& x)
+{
+  made.editor.movePoint(p, x);
+  SurfaceChange<3> change;
+  for (Index q = 0; q < made.mesh.numberOfPointSlots(); ++q)
+  {
+    const auto span = made.surface.span(made.mesh, p, q);
+    const bool isNeighbour = span && (made.mesh.point(q) - x).norm() < 0.3;
+    if (isNeighbour)
+    {
+      change.spans.push_back(*span);
+    }
+  }
+  EXPECT_EQ(change.spans.size(), 3u);
+  return made.surface.allows(change);
+}
+
+TEST(SlidingSurface, ANarrowRegionDoesNotSpreadByItsTolerance)
+{
+  // A plate of 0.17 by 0.17 by 0.03 in a corner of the box.
+  MeshInput<3> in = jitteredGrid<3>(6, 0.0);
+  Index ofPlate = None, ofBox = None;
+  for (const Simplex<3>& t : in.cells)
+  {
+    const auto isIn = [&](Index p) { return in.points[p].maxCoeff() < 0.2; };
+    in.regions.push_back(std::all_of(t.begin(), t.end(), isIn) ? 1 : 0);
+  }
+  for (std::size_t p = 0; p < in.points.size(); ++p)
+  {
+    Vec<3>& x = in.points[p];
+    ofPlate = x.minCoeff() > 0.1 && x.maxCoeff() < 0.2 ? static_cast<Index>(p) : ofPlate;
+    ofBox = x.minCoeff() == 1.0 ? static_cast<Index>(p) : ofBox;
+    x[2] = x[2] > 0.1 && x[2] < 0.2 ? 0.03 : x[2];
+  }
+  SurfaceOptions options;
+  options.tolerance = 0.02;
+  Sliding made(in, options);
+  ASSERT_EQ(made.mesh.freedom(ofPlate), Freedom::Corner);
+  EXPECT_TRUE(curvesAllow(made, ofBox, in.points[ofBox] + 0.01 * Vec<3>::UnitX()));
+  EXPECT_FALSE(curvesAllow(made, ofPlate, in.points[ofPlate] + 0.01 * Vec<3>::UnitX()));
+  EXPECT_TRUE(curvesAllow(made, ofPlate, in.points[ofPlate] + 0.004 * Vec<3>::UnitX()));
+}
+
+TEST(SlidingSurface, ABorderOfNumbersDoesNotBecomeSharp)
+{
+  const MeshInput<3> in = jitteredGrid<3>(4, 0.0);
+  SurfaceOptions options;
+  options.tolerance = 1e-3;
+  const auto find = [&](const Vec<3>& x)
+  {
+    return static_cast<Index>(std::find(in.points.begin(), in.points.end(), x) - in.points.begin());
+  };
+  const Index a = find(Vec<3>(0.5, 0.25, 0.0)), b = find(Vec<3>(0.5, 0.5, 0.0));
+  options.lines.emplace_back(sortedIds(a, b), 1);
+  const Sliding made(in, options);
+  const Index p = find(Vec<3>(0.0, 0.25, 0.0)), q = find(Vec<3>(0.0, 0.5, 0.0));
+  const double flat = 1.0, bent = std::cos(1.0), sharp = std::cos(1.7); // radians
+  EXPECT_TRUE(made.surface.allowsAngle(made.mesh, a, b, true, flat));
+  EXPECT_FALSE(made.surface.allowsAngle(made.mesh, a, b, true, bent));
+  EXPECT_TRUE(made.surface.allowsAngle(made.mesh, p, q, true, sharp));
+  EXPECT_FALSE(made.surface.allowsAngle(made.mesh, p, q, true, flat));
+}
+
 /// Keeps the facets whose points all are in the middle of the first direction, then bends the body.
 /// Both sides of this sheet are of one region.
 std::vector<Index> addBentSheet(MeshInput<3>& in, int n)

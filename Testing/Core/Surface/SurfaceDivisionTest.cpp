@@ -292,6 +292,7 @@ TEST(SurfaceDivision, FacetsThatLieOnEachOtherAreLocked)
   }
   const Sliding boxes(in, {});
   EXPECT_EQ(boxes.surface.numberOfPatches(), 10);
+  EXPECT_EQ(boxes.surface.numberOfTwins(), 2 * 18);
   for (std::size_t p = 0; p < in.points.size(); ++p)
   {
     if (in.points[p][0] == 1.0)
