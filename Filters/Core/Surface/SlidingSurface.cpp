@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the engine asks of a surface that takes part: where nodes may go, and which changes are
-// allowed. How the surface is made stands in SlidingSurfaceBuild.cpp.
+// allowed. How the surface is made stands in SlidingSurfaceBuild.cpp, which nodes may vanish into
+// which in SlidingSurfaceJoin.cpp.
 #include "Surface/SlidingSurface.h"
 
 #include "Mesh/Ids.h"
@@ -98,7 +99,7 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   Place result = place;
   Vec<3> foot;
   // On curves and corners: only what curves may use. On a patch the nearest facet says how much.
-  double room = CurveShare * this->tolerance_;
+  double room = this->curveRoom();
   if (place.freedom == Freedom::Patch)
   {
     room = this->reference_.tolerance(this->reference_.project(place.part, x, foot));
@@ -188,7 +189,19 @@ std::optional<Span> SlidingSurface::span(const SimplexMesh<3>& mesh, Index a, In
     return std::nullopt;
   }
   std::optional<Span> span = this->pieces_.span(a, pa, b, pb);
-  return span ? this->measured(*span, mesh.point(a), mesh.point(b)) : span;
+  if (span)
+  {
+    span = this->measured(*span, mesh.point(a), mesh.point(b));
+    // A tip that vanishes leaves no curve that says how far the corner may be from it: the corner
+    // stays near to both from the first on.
+    for (Index p : { a, b })
+    {
+      const Index tip = mesh.freedom(p) == Freedom::Corner ? this->pieces_.tipAt(p) : None;
+      span->leavesRoom = span->leavesRoom &&
+        (tip == None || (mesh.point(p) - this->corners_[tip]).norm() <= this->curveRoom());
+    }
+  }
+  return span;
 }
 
 /// The same span, for an edge from a to b.
@@ -283,49 +296,6 @@ bool SlidingSurface::maySwap(const SimplexMesh<3>&, Index patch, Index other) co
   return patch != None && patch == other;
 }
 
-/// Only along the surface; on a curve only if the chord that comes stays near it.
-bool SlidingSurface::mayJoin(
-  const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const
-{
-  const Place place = mesh.place(v);
-  if (place.freedom == Freedom::Patch)
-  {
-    // Along an edge of the surface: one that is in a facet of the patch.
-    return std::any_of(star.begin(), star.end(),
-      [&](Index c)
-      {
-        for (int i = 0; i < 4; ++i)
-        {
-          const Facet<3> f = mesh.facet(c, i);
-          if (mesh.isKept(c, i) && hasId(f, v) && hasId(f, u))
-          {
-            return true;
-          }
-        }
-        return false;
-      });
-  }
-  const auto range = this->range(mesh, star, v);
-  if (!range || (range->ends[0] != u && range->ends[1] != u))
-  {
-    return false;
-  }
-  // When v vanishes, the edge from its other neighbour to u takes the place of two.
-  const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
-  const Span joined{ place.part, range->low, range->high };
-  if (u == w ||
-    !this->follows(this->measured(joined, mesh.point(range->ends[0]), mesh.point(range->ends[1]))))
-  {
-    return false;
-  }
-  if (mesh.freedom(u) != Freedom::Curve && mesh.freedom(w) != Freedom::Curve)
-  {
-    const auto between = this->span(mesh, u, w);
-    return between && between->part == place.part; // several curves may join two corners
-  }
-  return true;
-}
-
 /// A facet of the mesh is seen from its cell, one of the reference from outside of its region.
 SurfacePiece<3> SlidingSurface::oriented(const SurfacePiece<3>& piece) const
 {
@@ -370,12 +340,15 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
       [&](const SurfacePiece<3>& piece) { return this->isFlat(this->oriented(piece)); });
   }
   // A change of a curve moves the border of the patches beside it by this much at most.
-  const double sideways = change.spans.empty() ? 0.0 : CurveShare * this->tolerance_;
+  const double sideways = change.spans.empty() ? 0.0 : this->curveRoom();
   std::vector<SurfacePiece<3>> gone, come;
   std::set<Index> patches;
-  for (const SurfacePiece<3>& piece : change.come)
+  for (const auto* pieces : { &change.gone, &change.come })
   {
-    patches.insert(piece.patch);
+    for (const SurfacePiece<3>& piece : *pieces)
+    {
+      patches.insert(piece.patch);
+    }
   }
   for (Index k : patches) // each by itself
   {
@@ -395,8 +368,9 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
         come.push_back(this->oriented(piece));
       }
     }
-    // A patch must lose facets where it gets some: otherwise it would spread over another patch.
-    if (gone.empty() || !this->reference_.covers(gone, come, sideways))
+    // A patch must lose facets where it gets some: otherwise it would spread over another patch,
+    // or another one over it.
+    if (gone.empty() || come.empty() || !this->reference_.covers(gone, come, sideways))
     {
       return false;
     }
@@ -419,7 +393,7 @@ bool SlidingSurface::allowsAngle(
   // A curve that was not sharp, such as the border between two numbers on a plane, must not become
   // so either.
   return cosine >= this->featureCosine_ ||
-    this->bent_.isNear(mesh.point(a), mesh.point(b), CurveShare * this->tolerance_);
+    this->bent_.isNear(mesh.point(a), mesh.point(b), this->curveRoom());
 }
 
 double SlidingSurface::distance(const SimplexMesh<3>& mesh) const

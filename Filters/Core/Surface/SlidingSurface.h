@@ -111,7 +111,10 @@ private:
   void addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
     const std::vector<std::uint32_t>& sets);
   Span measured(Span span, const Vec<3>& a, const Vec<3>& b) const;
+  double curveRoom() const { return CurveShare * this->tolerance_; }
   bool follows(const Span& span) const;
+  bool mayJoinCorners(
+    const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const;
   bool isFlat(const SurfacePiece<3>& piece) const;
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
 

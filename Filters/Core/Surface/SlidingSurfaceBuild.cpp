@@ -73,7 +73,6 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
   const std::set<Index> thin = thinRegions(editor.mesh(), division);
   this->addPatches(editor, division, thin);
   this->addCurves(editor, division);
-  this->addRooms(editor.mesh(), division, thin);
   for (const auto& [a, b] : division.bentEdges)
   {
     this->bent_.add(editor.mesh().point(a), editor.mesh().point(b));
@@ -95,6 +94,7 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
       editor.setPlace(id, { Freedom::Corner, id, 0.0 });
     }
   }
+  this->addRooms(editor.mesh(), division, thin);
   if (!options.sets.empty())
   {
     this->addSets(editor, division, options.sets);
@@ -140,6 +140,27 @@ void SlidingSurface::addPatches(
   this->reference_.finish(this->tolerance_, division.rounding);
 }
 
+namespace
+{
+/// Whether each surface between two regions, or of one, that has both points also has the edge
+/// between them. Otherwise it would touch itself if they became one.
+bool meetOnlyAlong(const SurfaceDivision& division, Index a, Index b)
+{
+  std::set<std::array<Index, 2>> atA, atB, along;
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    const std::array<Index, 2> regions{ part.region, part.other };
+    const bool hasA = hasId(part.nodes, a), hasB = hasId(part.nodes, b);
+    if (hasA || hasB)
+    {
+      (hasA && hasB ? along : hasA ? atA : atB).insert(regions);
+    }
+  }
+  return std::none_of(atA.begin(), atA.end(),
+    [&](const auto& regions) { return atB.count(regions) > 0 && along.count(regions) == 0; });
+}
+}
+
 /// A curve for each chain that may change, and the places of its nodes. After that all edges on
 /// curves are kept, also of chains that stay.
 void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& division)
@@ -177,6 +198,12 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
       piece.ends = { chain.points.front(), chain.points.back() };
       piece.range = { 0.0, curve.length() };
       piece.isEdge = chain.points.size() == 2;
+      // Its ends may become one if both are corners that the surface itself gives, and all of it is
+      // then near to that one.
+      const auto isCorner = [&](Index p) { return division.freedom[p] == Freedom::Corner; };
+      piece.mayVanish = piece.isEdge && !chain.isLine && isCorner(piece.ends[0]) &&
+        isCorner(piece.ends[1]) && curve.length() <= this->curveRoom() &&
+        meetOnlyAlong(division, piece.ends[0], piece.ends[1]);
     }
     for (std::size_t k = 0; k < chain.points.size(); ++k)
     {
@@ -227,7 +254,7 @@ void SlidingSurface::addRooms(
     double area = 0.0, curves = 0.0;
   };
   std::map<Index, Size> sizes;
-  this->rooms_.assign(this->curves_.size(), CurveShare * this->tolerance_);
+  this->rooms_.assign(this->curves_.size(), this->curveRoom());
   // Twice: the sizes of regions first, then what these leave to their curves.
   for (const bool isSummed : { false, true })
   {

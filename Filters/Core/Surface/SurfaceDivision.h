@@ -70,6 +70,7 @@ struct SurfaceDivision
     bool isClosed = false;
     bool isSharp = true;  ///< all its edges have two facets that exceed the feature angle
     bool isFixed = false; ///< an edge where the surface touches itself
+    bool isLine = false;  ///< its edges have a number of SurfaceOptions::lines
   };
   /// The plane of a flat patch.
   struct Plane

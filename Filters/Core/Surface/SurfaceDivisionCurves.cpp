@@ -207,6 +207,7 @@ void SurfaceDivision::findChains()
       used[e] = 1;
       chain.isSharp = chain.isSharp && this->edges_[e].isSharp;
       chain.isFixed = chain.isFixed || this->isTouching(this->edges_[e]);
+      chain.isLine = chain.isLine || this->edges_[e].label != None;
       const std::array<Index, 2>& nodes = this->edges_[e].nodes;
       p = nodes[0] == p ? nodes[1] : nodes[0];
       chain.isClosed = p == chain.points[0] && this->freedom[p] == Freedom::Curve;
@@ -298,6 +299,7 @@ void SurfaceDivision::straighten()
       Chain piece;
       piece.isSharp = chain.isSharp;
       piece.isFixed = chain.isFixed;
+      piece.isLine = chain.isLine;
       piece.points.assign(chain.points.begin() + from, chain.points.begin() + to + 1);
       // Both ends of a straight piece stay: the line that the others slide on ends there.
       this->freedom[piece.points.front()] = this->freedom[piece.points.back()] = Freedom::Fixed;
