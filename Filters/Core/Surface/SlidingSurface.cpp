@@ -396,6 +396,15 @@ bool SlidingSurface::allowsAngle(
     this->bent_.isNear(mesh.point(a), mesh.point(b), this->curveRoom());
 }
 
+/// There a curve is, which says nothing of their angle: new ridges of the outer surface are no
+/// better there than inside of a patch.
+bool SlidingSurface::allowsAngleOutside(
+  const SimplexMesh<3>& mesh, Index a, Index b, double cosine) const
+{
+  return this->isExact_ || cosine >= this->featureCosine_ ||
+    this->bentOutside_.isNear(mesh.point(a), mesh.point(b), this->curveRoom());
+}
+
 double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
 {
   double most = 0.0, mostOfCurves = 0.0, mostOfAll = 0.0;

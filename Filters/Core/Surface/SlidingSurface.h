@@ -87,6 +87,8 @@ public:
   /// edges that were as sharp as half of it. At a curve that was sharp, from half of it on.
   bool allowsAngle(
     const SimplexMesh<3>& mesh, Index a, Index b, bool isKept, double cosine) const override;
+  bool allowsAngleOutside(
+    const SimplexMesh<3>& mesh, Index a, Index b, double cosine) const override;
 
 private:
   struct Patch
@@ -127,6 +129,7 @@ private:
   ReferenceSurface reference_;
   SurfaceAngles angles_;
   SharpEdges bent_;                   ///< by more than half of the feature angle
+  SharpEdges bentOutside_;            ///< the same of the outer surface alone
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;
   std::vector<Vec<3>> corners_; ///< by point of the input: where those that are corners were

@@ -78,6 +78,11 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
     this->bent_.add(editor.mesh().point(a), editor.mesh().point(b));
   }
   this->bent_.finish();
+  for (const auto& [a, b] : division.bentOutside)
+  {
+    this->bentOutside_.add(editor.mesh().point(a), editor.mesh().point(b));
+  }
+  this->bentOutside_.finish();
   this->corners_.resize(division.freedom.size());
   for (std::size_t p = 0; p < division.freedom.size(); ++p)
   {

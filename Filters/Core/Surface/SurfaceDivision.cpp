@@ -259,8 +259,29 @@ bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) c
 /// Whether the two facets of the edge turn by more than the angle.
 bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
 {
-  const Part &f = this->parts[this->incidences_[edge.first]],
-             &g = this->parts[this->incidences_[edge.first + 1]];
+  return this->isSharp(edge, this->parts[this->incidences_[edge.first]],
+    this->parts[this->incidences_[edge.first + 1]], featureAngle);
+}
+
+/// Whether the outer surface turns by more than the angle at the edge, or touches itself there.
+bool SurfaceDivision::isBentOutside(const Edge& edge, double angle) const
+{
+  std::vector<const Part*> outer;
+  for (std::size_t i = edge.first; i < edge.last; ++i)
+  {
+    const Part& part = this->parts[this->incidences_[i]];
+    if (part.other == None)
+    {
+      outer.push_back(&part);
+    }
+  }
+  return outer.size() > 2 ||
+    (outer.size() == 2 && this->isSharp(edge, *outer[0], *outer[1], angle));
+}
+
+bool SurfaceDivision::isSharp(
+  const Edge& edge, const Part& f, const Part& g, double featureAngle) const
+{
   const Vec<3> n = this->normal(f), m = this->normal(g);
   const auto [a, b] = edge.nodes;
   // Facets that are seen from the same side run through their edge in opposite directions.
@@ -285,6 +306,10 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
     if (!hasAngle || this->isSharp(edge, 0.5 * options.featureAngle))
     {
       this->bentEdges.push_back(edge.nodes);
+    }
+    if (this->isBentOutside(edge, 0.5 * options.featureAngle))
+    {
+      this->bentOutside.push_back(edge.nodes);
     }
   }
   this->isCorner_.assign(this->mesh_.numberOfPointSlots(), 0);

@@ -89,6 +89,8 @@ struct SurfaceDivision
   std::vector<std::array<Index, 2>> curveEdges; ///< sorted ids, in ascending order
   /// Sorted ids of the edges whose facets turn by more than half of the feature angle.
   std::vector<std::array<Index, 2>> bentEdges;
+  /// The same for the two facets of the outer surface, also where interfaces end between them.
+  std::vector<std::array<Index, 2>> bentOutside;
   std::vector<Freedom> freedom;    ///< of each point slot; Free: not on the surface
   std::vector<Index> patchOfPoint; ///< of those that slide on a patch
   double diagonal = 0.0;
@@ -115,6 +117,8 @@ private:
   bool isCurve(const Edge& edge, const SurfaceOptions& options) const;
   bool isFlat(const Edge& edge) const;
   bool isSharp(const Edge& edge, double featureAngle) const;
+  bool isSharp(const Edge& edge, const Part& f, const Part& g, double featureAngle) const;
+  bool isBentOutside(const Edge& edge, double angle) const;
   Vec<3> normal(const Part& part) const;
   void findCurves(const SurfaceOptions& options);
   void findPatches();

@@ -189,4 +189,25 @@ TEST(SlidingSurface, ABorderOfNumbersDoesNotBecomeSharp)
   EXPECT_TRUE(made.surface.allowsAngle(made.mesh, p, q, true, sharp));
   EXPECT_FALSE(made.surface.allowsAngle(made.mesh, p, q, true, flat));
 }
+
+TEST(SlidingSurface, NoRidgeComesWhereAnInterfaceEnds)
+{
+  MeshInput<3> in = jitteredGrid<3>(4, 0.0);
+  splitRegions(in);
+  SurfaceOptions options;
+  options.tolerance = 1e-3;
+  const Sliding made(in, options);
+  const auto find = [&](double x, double y)
+  {
+    return static_cast<Index>(
+      std::find(in.points.begin(), in.points.end(), Vec<3>(x, y, 0.0)) - in.points.begin());
+  };
+  const double sharp = std::cos(1.7); // radians
+  const Index a = find(0.5, 0.25), b = find(0.5, 0.5);
+  EXPECT_TRUE(made.surface.allowsAngle(made.mesh, a, b, true, sharp)); // with the interface
+  EXPECT_FALSE(made.surface.allowsAngleOutside(made.mesh, a, b, sharp));
+  EXPECT_TRUE(made.surface.allowsAngleOutside(made.mesh, a, b, 1.0));
+  // At the edges of the box there are ridges.
+  EXPECT_TRUE(made.surface.allowsAngleOutside(made.mesh, find(0.0, 0.25), find(0.0, 0.5), sharp));
+}
 }
