@@ -573,7 +573,7 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
       return title + error;
     }
     bridge::AppendHistory(one.Report, task.Block, ports.History);
-    for (std::string* text : { &one.Overlap, &one.Tangle, &one.Sizes })
+    for (std::string* text : { &one.Twins, &one.Overlap, &one.Tangle, &one.Sizes })
     {
       *text = text->empty() ? "" : title + *text;
     }

@@ -451,12 +451,13 @@ public:
    * - 5, patches: for BoundaryMode Slide with tetrahedra; the border between two values of this
    *   array is a curve. On cells, one integer component: triangles of the grid that are faces of
    *   tetrahedra ride on the surface, and the faces of the new mesh there get triangles, too, with
-   *   the data of the nearest. Without it, all cell arrays of one integer count (except ids). Or on
-   *   points, if no cell array has this name: node sets, Constraint, Traction; 0 means that a point
-   *   is in no set. Facets with three points of one value (of floating-point arrays: not 0) are a
-   *   patch. Its area stays what it was, within the tolerance; single points of a set stay.
-   *   Whatever is chosen, point arrays that are not 0 just on whole patches and their borders keep
-   *   these: new points get values from the same patch, those beside it 0.
+   *   the data of the nearest; lines that are edges of the surface are curves of it, and the edges
+   *   of the new mesh there get lines. Without it, all cell arrays of one integer count (except
+   *   ids). Or on points, if no cell array has this name: node sets, Constraint, Traction; 0 means
+   *   that a point is in no set. Facets with three points of one value (of floating-point arrays:
+   *   not 0) are a patch. Its area stays what it was, within the tolerance; single points of a set
+   *   stay. Whatever is chosen, point arrays that are not 0 just on whole patches and their borders
+   *   keep these: new points get values from the same patch, those beside it 0.
    */
   void SetRegionArray(const char* name);
   void SetFixedPointArray(const char* name);

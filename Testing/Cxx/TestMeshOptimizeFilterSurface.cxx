@@ -308,6 +308,14 @@ TEST(MeshOptimizeFilterSurface, BlocksKeepTheFacesThatTheyShare)
   }
   EXPECT_EQ(at[0].size(), 32u);
   EXPECT_TRUE(SameFacets(at[0], at[1]));
+  // The user is told.
+  const auto tells = [&](const std::string& start)
+  {
+    return std::any_of(messages.Warnings.begin(), messages.Warnings.end(),
+      [&](const std::string& text) { return text.find(start) != std::string::npos; });
+  };
+  EXPECT_TRUE(tells("Block 1: 32 facets of the surface lie on others"));
+  EXPECT_TRUE(tells("Block 2: 32 facets of the surface lie on others"));
 }
 
 TEST(MeshOptimizeFilterSurface, TheSameBytesWithAnyNumberOfThreads)

@@ -125,8 +125,7 @@ private:
         isKept = mesh.isEdgeKept(c, e);
       }
     }
-    // It ends: around an edge of the surface there is another facet of it.
-    while (!mesh.isKept(current, exit))
+    const auto cross = [&]
     {
       const Index h = mesh.adjacent(current, exit);
       const Index next = mesh.cellOf(h);
@@ -138,10 +137,31 @@ private:
       }
       current = next;
       exit = other;
+    };
+    const auto cosine = [&]
+    {
+      const Vec<D> n = normal(mesh, c, i), m = normal(mesh, current, exit);
+      return n.dot(m) / std::max(Tiny, n.norm() * m.norm());
+    };
+    // It ends: around an edge of the surface there is another facet of it.
+    while (!mesh.isKept(current, exit))
+    {
+      cross();
     }
-    const Vec<D> n = normal(mesh, c, i), m = normal(mesh, current, exit);
-    return surface.allowsAngle(
-      mesh, edge[0], edge[1], isKept, n.dot(m) / std::max(Tiny, n.norm() * m.norm()));
+    if (!surface.allowsAngle(mesh, edge[0], edge[1], isKept, cosine()))
+    {
+      return false;
+    }
+    // From one outer facet through interfaces to the next.
+    if (mesh.adjacent(c, i) != None || mesh.adjacent(current, exit) == None)
+    {
+      return true;
+    }
+    while (mesh.adjacent(current, exit) != None)
+    {
+      cross();
+    }
+    return surface.allowsAngleOutside(mesh, edge[0], edge[1], cosine());
   }
   static Vec<D> normal([[maybe_unused]] const SimplexMesh<D>& mesh, Index c, int i)
   {

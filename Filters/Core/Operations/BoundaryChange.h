@@ -39,7 +39,7 @@ public:
       const bool mayRemove = level >= Level::Removal && judge.switches().removeNodes;
       // Nodes of patches slide by NodeMotion.
       if ((freedom == Freedom::Curve && judge.switches().moveNodes && this->slide(judge, v)) ||
-        ((freedom == Freedom::Curve || freedom == Freedom::Patch) && mayRemove &&
+        (freedom != Freedom::Free && freedom != Freedom::Fixed && mayRemove &&
           this->remove(judge, v)))
       {
         return true;
@@ -107,6 +107,10 @@ private:
       return false;
     }
     this->collectNeighbours(judge, v);
+    if (this->neighbours_.empty() && judge.mesh().freedom(v) == Freedom::Corner)
+    {
+      return false; // most corners have no other one beside them
+    }
     bool done = false;
     for (std::size_t k = 0; k < this->neighbours_.size() && !done; ++k)
     {
@@ -118,7 +122,8 @@ private:
     return done;
   }
 
-  /// The points that v may join: its two neighbours on the curve, or those on the patch.
+  /// The points that v may join: its two neighbours on the curve, or those on the patch; of a
+  /// corner, the corners beside it.
   void collectNeighbours(const Judge<D, Shape>& judge, Index v)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
@@ -137,6 +142,16 @@ private:
         {
           std::copy_if(f.begin(), f.end(), std::back_inserter(this->neighbours_),
             [&](Index u) { return u != v; });
+        }
+      }
+    }
+    for (std::size_t k = 0; k < this->star_.size() && mesh.freedom(v) == Freedom::Corner; ++k)
+    {
+      for (Index u : mesh.nodes(this->star_[k]))
+      {
+        if (u != v && mesh.freedom(u) == Freedom::Corner)
+        {
+          this->neighbours_.push_back(u);
         }
       }
     }

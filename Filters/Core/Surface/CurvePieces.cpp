@@ -17,6 +17,9 @@ constexpr double FarthestNeighbours = 0.4; ///< of a closed curve
 void CurvePieces::join()
 {
   this->betweenCorners_.clear();
+  this->partners_.clear();
+  this->tips_.clear();
+  this->joinCorners();
   for (std::size_t k = 0; k < this->pieces_.size(); ++k)
   {
     std::array<Index, 2> ends = this->pieces_[k].ends;
@@ -38,20 +41,92 @@ void CurvePieces::join()
   }
 }
 
-/// Two corners are on no curve themselves: join() has found the piece between them.
+/// Greedily, in the order of the pieces.
+void CurvePieces::joinCorners()
+{
+  std::map<Index, std::vector<Index>> piecesAt;
+  for (std::size_t k = 0; k < this->pieces_.size(); ++k)
+  {
+    for (Index end : this->pieces_[k].ends)
+    {
+      piecesAt[end].push_back(static_cast<Index>(k));
+    }
+  }
+  // Partners count as one corner.
+  const auto name = [&](Index corner)
+  {
+    const Index other = this->partner(corner);
+    return other == None ? corner : std::min(corner, other);
+  };
+  for (std::size_t k = 0; k < this->pieces_.size(); ++k)
+  {
+    const auto [a, b] = this->pieces_[k].ends;
+    if (!this->pieces_[k].mayVanish || this->partners_.count(a) + this->partners_.count(b) > 0)
+    {
+      continue;
+    }
+    std::vector<Index> far[2]; // where their other pieces lead to
+    bool isClear = true;
+    for (Index end : { a, b })
+    {
+      for (Index other : piecesAt[end])
+      {
+        const std::array<Index, 2>& ends = this->pieces_[other].ends;
+        const Index there = ends[0] == end ? ends[1] : ends[0];
+        const bool isOther = other != static_cast<Index>(k);
+        isClear = isClear && (!isOther || (there != a && there != b));
+        if (isOther)
+        {
+          far[end == b].push_back(name(there));
+        }
+      }
+    }
+    for (Index there : far[0])
+    {
+      isClear = isClear && std::find(far[1].begin(), far[1].end(), there) == far[1].end();
+    }
+    if (!isClear || (far[0].empty() && far[1].empty()))
+    {
+      continue;
+    }
+    this->partners_[a] = b;
+    this->partners_[b] = a;
+    for (int i = 0; i < 2; ++i)
+    {
+      if (far[i].empty())
+      {
+        this->tips_.insert(i == 0 ? a : b);
+      }
+    }
+  }
+}
+
+/// Two corners are on no curve themselves: join() has found the piece between them. If one of them
+/// is no end of a piece, its partner may be.
 std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const Place& pb) const
 {
   const auto isOnCurve = [](const Place& place) { return place.freedom == Freedom::Curve; };
   if (!isOnCurve(pa) && !isOnCurve(pb))
   {
-    const auto found = this->betweenCorners_.find({ std::min(a, b), std::max(a, b) });
-    if (found == this->betweenCorners_.end() || found->second == None)
+    for (Index p : { a, this->partner(a) })
     {
-      return std::nullopt;
+      for (Index q : { b, this->partner(b) })
+      {
+        const auto found = this->betweenCorners_.find({ std::min(p, q), std::max(p, q) });
+        if (p == None || q == None || found == this->betweenCorners_.end())
+        {
+          continue;
+        }
+        if (found->second == None)
+        {
+          return std::nullopt;
+        }
+        const CurvePiece& piece = this->pieces_[found->second];
+        const bool forward = piece.ends[0] == p;
+        return Span{ found->second, piece.range[forward ? 0 : 1], piece.range[forward ? 1 : 0] };
+      }
     }
-    const CurvePiece& piece = this->pieces_[found->second];
-    const bool forward = piece.ends[0] == a;
-    return Span{ found->second, piece.range[forward ? 0 : 1], piece.range[forward ? 1 : 0] };
+    return std::nullopt;
   }
   const Index k = isOnCurve(pa) ? pa.part : pb.part;
   const CurvePiece& piece = this->pieces_[k];
@@ -62,7 +137,10 @@ std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const P
     {
       return place.parameter;
     }
-    const bool isFirst = piece.ends[0] == p, isLast = piece.ends[1] == p;
+    const Index other = this->partner(p);
+    const bool isEnd = piece.ends[0] == p || piece.ends[1] == p || other == None;
+    const Index end = isEnd ? p : other;
+    const bool isFirst = piece.ends[0] == end, isLast = piece.ends[1] == end;
     if (isOnCurve(place) || (!isFirst && !isLast))
     {
       return std::nullopt;

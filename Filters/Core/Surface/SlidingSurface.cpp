@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the engine asks of a surface that takes part: where nodes may go, and which changes are
-// allowed. How the surface is made stands in SlidingSurfaceBuild.cpp.
+// allowed. How the surface is made stands in SlidingSurfaceBuild.cpp, which nodes may vanish into
+// which in SlidingSurfaceJoin.cpp.
 #include "Surface/SlidingSurface.h"
 
 #include "Mesh/Ids.h"
@@ -16,9 +17,6 @@ namespace meshopt
 {
 namespace
 {
-/// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
-/// sideways, and above the reference besides.
-constexpr double CurveShare = 0.6;
 /// A node that has been put at the end of its room is there up to rounding.
 constexpr double Rounding = 1e-9;
 }
@@ -48,6 +46,20 @@ const Facet<3>& SlidingSurface::inputFacet(Index patch, const Vec<3>& x) const
 {
   Vec<3> there;
   return this->inputFacets_[this->reference_.project(patch, x, there)];
+}
+
+std::optional<std::array<Index, 2>> SlidingSurface::inputEdge(
+  const SimplexMesh<3>& mesh, Index a, Index b) const
+{
+  const std::optional<Span> span = this->span(mesh, a, b);
+  if (!span)
+  {
+    return std::nullopt;
+  }
+  const std::vector<Index>& points = this->inputPoints_[span->part];
+  const std::size_t k = this->curves_[span->part].line(0.5 * (span->from + span->to));
+  // The last line of a closed curve leads back to the first point.
+  return sortedIds(points[k], points[(k + 1) % points.size()]);
 }
 
 /// On a curve from the present parameter on; in the plane of an exact patch; otherwise to the
@@ -87,13 +99,14 @@ Place SlidingSurface::placeNear(const Place& place, const Vec<3>& x, Vec<3>& the
   Place result = place;
   Vec<3> foot;
   // On curves and corners: only what curves may use. On a patch the nearest facet says how much.
-  double room = CurveShare * this->tolerance_;
+  double room = this->curveRoom();
   if (place.freedom == Freedom::Patch)
   {
     room = this->reference_.tolerance(this->reference_.project(place.part, x, foot));
   }
   else if (place.freedom == Freedom::Curve)
   {
+    room = this->rooms_[place.part];
     result = this->project(place, x, foot);
   }
   else
@@ -176,7 +189,19 @@ std::optional<Span> SlidingSurface::span(const SimplexMesh<3>& mesh, Index a, In
     return std::nullopt;
   }
   std::optional<Span> span = this->pieces_.span(a, pa, b, pb);
-  return span ? this->measured(*span, mesh.point(a), mesh.point(b)) : span;
+  if (span)
+  {
+    span = this->measured(*span, mesh.point(a), mesh.point(b));
+    // A tip that vanishes leaves no curve that says how far the corner may be from it: the corner
+    // stays near to both from the first on.
+    for (Index p : { a, b })
+    {
+      const Index tip = mesh.freedom(p) == Freedom::Corner ? this->pieces_.tipAt(p) : None;
+      span->leavesRoom = span->leavesRoom &&
+        (tip == None || (mesh.point(p) - this->corners_[tip]).norm() <= this->curveRoom());
+    }
+  }
+  return span;
 }
 
 /// The same span, for an edge from a to b.
@@ -225,7 +250,7 @@ std::optional<SlidingRange> SlidingSurface::range(
 bool SlidingSurface::follows(const Span& span) const
 {
   return this->pieces_.mayBeNeighbours(span) && span.leavesRoom &&
-    span.off <= (1.0 + Rounding) * CurveShare * this->tolerance_;
+    span.off <= (1.0 + Rounding) * this->rooms_[span.part];
 }
 
 /// Inside a patch, or where the edge is on one known curve; never beside a facet that stays.
@@ -269,49 +294,6 @@ bool SlidingSurface::mayDivide(
 bool SlidingSurface::maySwap(const SimplexMesh<3>&, Index patch, Index other) const
 {
   return patch != None && patch == other;
-}
-
-/// Only along the surface; on a curve only if the chord that comes stays near it.
-bool SlidingSurface::mayJoin(
-  const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const
-{
-  const Place place = mesh.place(v);
-  if (place.freedom == Freedom::Patch)
-  {
-    // Along an edge of the surface: one that is in a facet of the patch.
-    return std::any_of(star.begin(), star.end(),
-      [&](Index c)
-      {
-        for (int i = 0; i < 4; ++i)
-        {
-          const Facet<3> f = mesh.facet(c, i);
-          if (mesh.isKept(c, i) && hasId(f, v) && hasId(f, u))
-          {
-            return true;
-          }
-        }
-        return false;
-      });
-  }
-  const auto range = this->range(mesh, star, v);
-  if (!range || (range->ends[0] != u && range->ends[1] != u))
-  {
-    return false;
-  }
-  // When v vanishes, the edge from its other neighbour to u takes the place of two.
-  const Index w = range->ends[0] == u ? range->ends[1] : range->ends[0];
-  const Span joined{ place.part, range->low, range->high };
-  if (u == w ||
-    !this->follows(this->measured(joined, mesh.point(range->ends[0]), mesh.point(range->ends[1]))))
-  {
-    return false;
-  }
-  if (mesh.freedom(u) != Freedom::Curve && mesh.freedom(w) != Freedom::Curve)
-  {
-    const auto between = this->span(mesh, u, w);
-    return between && between->part == place.part; // several curves may join two corners
-  }
-  return true;
 }
 
 /// A facet of the mesh is seen from its cell, one of the reference from outside of its region.
@@ -358,12 +340,15 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
       [&](const SurfacePiece<3>& piece) { return this->isFlat(this->oriented(piece)); });
   }
   // A change of a curve moves the border of the patches beside it by this much at most.
-  const double sideways = change.spans.empty() ? 0.0 : CurveShare * this->tolerance_;
+  const double sideways = change.spans.empty() ? 0.0 : this->curveRoom();
   std::vector<SurfacePiece<3>> gone, come;
   std::set<Index> patches;
-  for (const SurfacePiece<3>& piece : change.come)
+  for (const auto* pieces : { &change.gone, &change.come })
   {
-    patches.insert(piece.patch);
+    for (const SurfacePiece<3>& piece : *pieces)
+    {
+      patches.insert(piece.patch);
+    }
   }
   for (Index k : patches) // each by itself
   {
@@ -383,8 +368,9 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
         come.push_back(this->oriented(piece));
       }
     }
-    // A patch must lose facets where it gets some: otherwise it would spread over another patch.
-    if (gone.empty() || !this->reference_.covers(gone, come, sideways))
+    // A patch must lose facets where it gets some: otherwise it would spread over another patch,
+    // or another one over it.
+    if (gone.empty() || come.empty() || !this->reference_.covers(gone, come, sideways))
     {
       return false;
     }
@@ -399,15 +385,24 @@ bool SlidingSurface::allowsAngle(
   {
     return true; // planes stay
   }
-  if (!isKept)
+  const std::optional<Span> span = isKept ? this->span(mesh, a, b) : std::nullopt;
+  if (isKept && (!span || this->isSharp_[span->part]))
   {
-    return cosine >= this->featureCosine_ ||
-      this->bent_.isNear(mesh.point(a), mesh.point(b), CurveShare * this->tolerance_);
+    return !span || cosine <= this->halfCosine_;
   }
-  const std::optional<Span> span = this->span(mesh, a, b);
-  // A curve that was not sharp all along, such as the border between two regions on a plane, need
-  // not turn.
-  return !span || !this->isSharp_[span->part] || cosine <= this->halfCosine_;
+  // A curve that was not sharp, such as the border between two numbers on a plane, must not become
+  // so either.
+  return cosine >= this->featureCosine_ ||
+    this->bent_.isNear(mesh.point(a), mesh.point(b), this->curveRoom());
+}
+
+/// There a curve is, which says nothing of their angle: new ridges of the outer surface are no
+/// better there than inside of a patch.
+bool SlidingSurface::allowsAngleOutside(
+  const SimplexMesh<3>& mesh, Index a, Index b, double cosine) const
+{
+  return this->isExact_ || cosine >= this->featureCosine_ ||
+    this->bentOutside_.isNear(mesh.point(a), mesh.point(b), this->curveRoom());
 }
 
 double SlidingSurface::distance(const SimplexMesh<3>& mesh) const

@@ -15,6 +15,7 @@
 #include "Surface/SurfaceDivision.h"
 
 #include <memory>
+#include <set>
 
 namespace meshopt
 {
@@ -34,6 +35,9 @@ public:
   Index numberOfPatches() const { return static_cast<Index>(this->patches_.size()); }
   /// Only tests ask, since it tells how the surface was divided.
   std::size_t numberOfCurves() const { return this->pieces_.size(); }
+  /// Facets that stay as they are because they lie on one another, as the lips of a closed crack
+  /// do, or because SurfaceOptions::locked lists them.
+  Index numberOfTwins() const { return this->numberOfTwins_; }
   bool isExact() const { return this->isExact_; }
   double tolerance() const { return this->tolerance_; }
   /// Freedom of each point of the input; Free if it is not on the surface.
@@ -53,6 +57,9 @@ public:
   std::uint32_t setsOfPatch(Index patch) const { return this->patches_[patch].sets; }
   /// The facet of the input (sorted ids) that is nearest to x, of those of the patch.
   const Facet<3>& inputFacet(Index patch, const Vec<3>& x) const;
+  /// The edge of the input (sorted ids) on which the middle of the kept edge from a to b lies, by
+  /// its parameter. Empty if the edge is on no curve that may change.
+  std::optional<std::array<Index, 2>> inputEdge(const SimplexMesh<3>& mesh, Index a, Index b) const;
 
   /// The distance that is proved between the surface of before and that of `mesh` (both ways).
   double distance(const SimplexMesh<3>& mesh) const;
@@ -76,10 +83,12 @@ public:
   bool judgesChanges() const override { return true; }
   std::uint32_t sets(const SimplexMesh<3>& mesh, Index v) const override;
   bool allows(const SurfaceChange<3>& change) const override;
-  /// Inside a patch, up to the feature angle; beyond, only along edges that were as sharp as half
-  /// of it. At a curve that is sharp, from half of it on.
+  /// Inside a patch, and at a curve that was not sharp, up to the feature angle; beyond, only along
+  /// edges that were as sharp as half of it. At a curve that was sharp, from half of it on.
   bool allowsAngle(
     const SimplexMesh<3>& mesh, Index a, Index b, bool isKept, double cosine) const override;
+  bool allowsAngleOutside(
+    const SimplexMesh<3>& mesh, Index a, Index b, double cosine) const override;
 
 private:
   struct Patch
@@ -92,27 +101,41 @@ private:
     std::array<Vec<3>, 2> basis{ Vec<3>::Zero(), Vec<3>::Zero() }; ///< of the plane
   };
 
-  void addPatches(MeshEditor<3>& editor, const SurfaceDivision& division);
+  /// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
+  /// sideways, and above the reference besides.
+  static constexpr double CurveShare = 0.6;
+
+  void addPatches(
+    MeshEditor<3>& editor, const SurfaceDivision& division, const std::set<Index>& thin);
+  void addRooms(
+    const SimplexMesh<3>& mesh, const SurfaceDivision& division, const std::set<Index>& thin);
   void addCurves(MeshEditor<3>& editor, const SurfaceDivision& division);
   void addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
     const std::vector<std::uint32_t>& sets);
   Span measured(Span span, const Vec<3>& a, const Vec<3>& b) const;
+  double curveRoom() const { return CurveShare * this->tolerance_; }
   bool follows(const Span& span) const;
+  bool mayJoinCorners(
+    const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const;
   bool isFlat(const SurfacePiece<3>& piece) const;
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
 
   std::vector<Patch> patches_;
   std::vector<SpaceCurve> curves_;    ///< of the pieces with the same numbers
   std::vector<std::uint8_t> isSharp_; ///< the same: all its edges exceed the feature angle
+  std::vector<std::vector<Index>> inputPoints_; ///< the same: its points, as point ids
+  std::vector<double> rooms_; ///< the same: how far nodes and edges may be from it
   CurvePieces pieces_;
   ReferenceSurface reference_;
   SurfaceAngles angles_;
   SharpEdges bent_;                   ///< by more than half of the feature angle
+  SharpEdges bentOutside_;            ///< the same of the outer surface alone
   std::vector<Facet<3>> inputFacets_; ///< those of the reference, in its order
   std::vector<Freedom> freedom_;
   std::vector<Vec<3>> corners_; ///< by point of the input: where those that are corners were
   std::uint32_t sets_ = 0;
   std::vector<std::uint32_t> setsOfPoint_, setsOfCurve_; ///< empty if there are none
+  Index numberOfTwins_ = 0;
   bool isExact_ = false;
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it

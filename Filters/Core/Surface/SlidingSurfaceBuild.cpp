@@ -10,50 +10,14 @@
 
 namespace meshopt
 {
-void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
-{
-  // Nothing stays of a surface that was built before.
-  *this = SlidingSurface();
-  const SurfaceDivision division(editor.mesh(), options);
-  this->isExact_ = division.isExact;
-  this->tolerance_ = division.tolerance;
-  this->freedom_ = division.freedom;
-  this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
-  this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
-  // Angles exist only where the surface stays the same set of points: see surfaceAngles().
-  this->angles_ = surfaceAngles(editor.mesh(), division);
-  // First the patches: curves ask the reference how much room they have.
-  this->addPatches(editor, division);
-  this->addCurves(editor, division);
-  for (const auto& [a, b] : division.bentEdges)
-  {
-    this->bent_.add(editor.mesh().point(a), editor.mesh().point(b));
-  }
-  this->bent_.finish();
-  this->corners_.resize(division.freedom.size());
-  for (std::size_t p = 0; p < division.freedom.size(); ++p)
-  {
-    const auto id = static_cast<Index>(p);
-    // A point of a curve gets its place with its curve, in addCurves().
-    if (division.freedom[p] == Freedom::Patch)
-    {
-      editor.setPlace(id, { Freedom::Patch, division.patchOfPoint[p], 0.0 });
-    }
-    else if (division.freedom[p] == Freedom::Corner)
-    {
-      // Its room is measured from where it was: see placeNear().
-      this->corners_[p] = editor.mesh().point(id);
-      editor.setPlace(id, { Freedom::Corner, id, 0.0 });
-    }
-  }
-  if (!options.sets.empty())
-  {
-    this->addSets(editor, division, options.sets);
-  }
-}
-
 namespace
 {
+double areaOf(const SimplexMesh<3>& mesh, const SurfaceDivision::Part& part)
+{
+  const Vec<3>& a = mesh.point(part.nodes[0]);
+  return 0.5 * (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
+}
+
 /// The regions whose volume would change by a quarter if their surface moved by a quarter of the
 /// tolerance, on average.
 std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
@@ -70,9 +34,7 @@ std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& d
   }
   for (const SurfaceDivision::Part& part : division.parts)
   {
-    const Vec<3>& a = mesh.point(part.nodes[0]);
-    const double area = 0.5 *
-      (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
+    const double area = areaOf(mesh, part);
     // A facet between two regions takes from one and gives to the other: it counts for both.
     for (Index region : { part.region, part.other })
     {
@@ -94,11 +56,61 @@ std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& d
 }
 }
 
+void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
+{
+  // Nothing stays of a surface that was built before.
+  *this = SlidingSurface();
+  const SurfaceDivision division(editor.mesh(), options);
+  this->numberOfTwins_ = division.numberOfTwins;
+  this->isExact_ = division.isExact;
+  this->tolerance_ = division.tolerance;
+  this->freedom_ = division.freedom;
+  this->featureCosine_ = SurfaceDivision::cosine(options.featureAngle);
+  this->halfCosine_ = SurfaceDivision::cosine(0.5 * options.featureAngle);
+  // Angles exist only where the surface stays the same set of points: see surfaceAngles().
+  this->angles_ = surfaceAngles(editor.mesh(), division);
+  // First the patches: curves ask the reference how much room they have.
+  const std::set<Index> thin = thinRegions(editor.mesh(), division);
+  this->addPatches(editor, division, thin);
+  this->addCurves(editor, division);
+  for (const auto& [a, b] : division.bentEdges)
+  {
+    this->bent_.add(editor.mesh().point(a), editor.mesh().point(b));
+  }
+  this->bent_.finish();
+  for (const auto& [a, b] : division.bentOutside)
+  {
+    this->bentOutside_.add(editor.mesh().point(a), editor.mesh().point(b));
+  }
+  this->bentOutside_.finish();
+  this->corners_.resize(division.freedom.size());
+  for (std::size_t p = 0; p < division.freedom.size(); ++p)
+  {
+    const auto id = static_cast<Index>(p);
+    // A point of a curve gets its place with its curve, in addCurves().
+    if (division.freedom[p] == Freedom::Patch)
+    {
+      editor.setPlace(id, { Freedom::Patch, division.patchOfPoint[p], 0.0 });
+    }
+    else if (division.freedom[p] == Freedom::Corner)
+    {
+      // Its room is measured from where it was: see placeNear().
+      this->corners_[p] = editor.mesh().point(id);
+      editor.setPlace(id, { Freedom::Corner, id, 0.0 });
+    }
+  }
+  this->addRooms(editor.mesh(), division, thin);
+  if (!options.sets.empty())
+  {
+    this->addSets(editor, division, options.sets);
+  }
+}
+
 /// Facets go into the reference as they are now. From here on it does not change.
-void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& division)
+void SlidingSurface::addPatches(
+  MeshEditor<3>& editor, const SurfaceDivision& division, const std::set<Index>& thin)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
-  const std::set<Index> thin = thinRegions(mesh, division);
   this->patches_.resize(division.numberOfPatches);
   for (Index k = 0; k < division.numberOfPatches && this->isExact_; ++k)
   {
@@ -131,6 +143,27 @@ void SlidingSurface::addPatches(MeshEditor<3>& editor, const SurfaceDivision& di
     this->inputFacets_.push_back(sortedIds(part.nodes));
   }
   this->reference_.finish(this->tolerance_, division.rounding);
+}
+
+namespace
+{
+/// Whether each surface between two regions, or of one, that has both points also has the edge
+/// between them. Otherwise it would touch itself if they became one.
+bool meetOnlyAlong(const SurfaceDivision& division, Index a, Index b)
+{
+  std::set<std::array<Index, 2>> atA, atB, along;
+  for (const SurfaceDivision::Part& part : division.parts)
+  {
+    const std::array<Index, 2> regions{ part.region, part.other };
+    const bool hasA = hasId(part.nodes, a), hasB = hasId(part.nodes, b);
+    if (hasA || hasB)
+    {
+      (hasA && hasB ? along : hasA ? atA : atB).insert(regions);
+    }
+  }
+  return std::none_of(atA.begin(), atA.end(),
+    [&](const auto& regions) { return atB.count(regions) > 0 && along.count(regions) == 0; });
+}
 }
 
 /// A curve for each chain that may change, and the places of its nodes. After that all edges on
@@ -170,6 +203,12 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
       piece.ends = { chain.points.front(), chain.points.back() };
       piece.range = { 0.0, curve.length() };
       piece.isEdge = chain.points.size() == 2;
+      // Its ends may become one if both are corners that the surface itself gives, and all of it is
+      // then near to that one.
+      const auto isCorner = [&](Index p) { return division.freedom[p] == Freedom::Corner; };
+      piece.mayVanish = piece.isEdge && !chain.isLine && isCorner(piece.ends[0]) &&
+        isCorner(piece.ends[1]) && curve.length() <= this->curveRoom() &&
+        meetOnlyAlong(division, piece.ends[0], piece.ends[1]);
     }
     for (std::size_t k = 0; k < chain.points.size(); ++k)
     {
@@ -182,6 +221,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     this->pieces_.add(piece);
     this->curves_.push_back(curve);
     this->isSharp_.push_back(chain.isSharp);
+    this->inputPoints_.push_back(chain.points);
   }
   this->pieces_.join();
   const auto isOnCurve = [&](Index a, Index b)
@@ -202,6 +242,49 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
         if (isOnCurve(a, b))
         {
           editor.keepEdge(mesh.cellOf(h), a, b);
+        }
+      }
+    }
+  }
+}
+
+/// As far as CurveShare says; but beside a thin region that is narrow, too, only so far that its
+/// volume changes by a tenth if all its curves move sideways.
+void SlidingSurface::addRooms(
+  const SimplexMesh<3>& mesh, const SurfaceDivision& division, const std::set<Index>& thin)
+{
+  constexpr double most = 0.1; // of the volume
+  struct Size
+  {
+    double area = 0.0, curves = 0.0;
+  };
+  std::map<Index, Size> sizes;
+  this->rooms_.assign(this->curves_.size(), this->curveRoom());
+  // Twice: the sizes of regions first, then what these leave to their curves.
+  for (const bool isSummed : { false, true })
+  {
+    for (const SurfaceDivision::Part& part : division.parts)
+    {
+      for (Index region : { part.region, part.other })
+      {
+        if (thin.count(region) == 0)
+        {
+          continue;
+        }
+        Size& size = sizes[region];
+        size.area += isSummed ? 0.0 : areaOf(mesh, part);
+        for (int i = 0; i < 3; ++i)
+        {
+          const Index a = part.nodes[i], b = part.nodes[(i + 1) % 3];
+          const auto span = this->span(mesh, a, b);
+          if (!span)
+          {
+            continue;
+          }
+          // Half: each of its curves has two facets of a region.
+          size.curves += isSummed ? 0.0 : 0.5 * (mesh.point(b) - mesh.point(a)).norm();
+          double& room = this->rooms_[span->part];
+          room = isSummed ? std::min(room, most * size.area / size.curves) : room;
         }
       }
     }

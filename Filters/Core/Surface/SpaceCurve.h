@@ -24,6 +24,8 @@ public:
   double parameter(std::size_t k) const { return this->knots_[k]; }
 
   Vec<3> at(double s) const;
+  /// The number of the line at s, from point k of the constructor to the next.
+  std::size_t line(double s) const { return this->segmentAt(this->inRange(s)); }
   /// Unit vector along the curve at s. At a point between two lines: that of the second.
   Vec<3> direction(double s) const;
 

@@ -82,6 +82,12 @@ public:
   {
     return true;
   }
+  /// The same for two facets of the outer surface between which an interface ends.
+  virtual bool allowsAngleOutside(
+    const SimplexMesh<D>&, Index /*a*/, Index /*b*/, double /*cosine*/) const
+  {
+    return true;
+  }
 };
 }
 

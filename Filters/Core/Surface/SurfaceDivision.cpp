@@ -123,7 +123,9 @@ void SurfaceDivision::collectParts(const SurfaceOptions& options)
       const bool isFixed = std::all_of(key.begin(), key.end(),
         [&](Index p)
         { return (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) != 0; });
-      part.isLocked = isFixed || contains(options.locked, key);
+      const bool isListed = contains(options.locked, key);
+      part.isLocked = isFixed || isListed;
+      this->numberOfTwins += isListed;
       this->parts.push_back(part);
     }
   }
@@ -153,11 +155,15 @@ void SurfaceDivision::lockTwins()
     places.emplace_back(key, static_cast<Index>(k));
   }
   std::sort(places.begin(), places.end());
-  for (std::size_t k = 1; k < places.size(); ++k)
+  const auto isSame = [&](std::size_t k, std::size_t other)
+  { return other < places.size() && places[k].first == places[other].first; };
+  for (std::size_t k = 0; k < places.size(); ++k)
   {
-    if (places[k].first == places[k - 1].first)
+    if (isSame(k, k + 1) || (k > 0 && isSame(k, k - 1)))
     {
-      this->parts[places[k].second].isLocked = this->parts[places[k - 1].second].isLocked = true;
+      Part& part = this->parts[places[k].second];
+      this->numberOfTwins += !part.isLocked; // those that the caller lists are counted
+      part.isLocked = true;
     }
   }
 }
@@ -191,7 +197,7 @@ void SurfaceDivision::collectEdges()
   {
     if (this->edges_.empty() || this->edges_.back().nodes != i.nodes)
     {
-      this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false });
+      this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false, None });
     }
     this->edgesOf_[i.part][i.opposite] = static_cast<Index>(this->edges_.size()) - 1;
     this->incidences_.push_back(i.part);
@@ -253,8 +259,29 @@ bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) c
 /// Whether the two facets of the edge turn by more than the angle.
 bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
 {
-  const Part &f = this->parts[this->incidences_[edge.first]],
-             &g = this->parts[this->incidences_[edge.first + 1]];
+  return this->isSharp(edge, this->parts[this->incidences_[edge.first]],
+    this->parts[this->incidences_[edge.first + 1]], featureAngle);
+}
+
+/// Whether the outer surface turns by more than the angle at the edge, or touches itself there.
+bool SurfaceDivision::isBentOutside(const Edge& edge, double angle) const
+{
+  std::vector<const Part*> outer;
+  for (std::size_t i = edge.first; i < edge.last; ++i)
+  {
+    const Part& part = this->parts[this->incidences_[i]];
+    if (part.other == None)
+    {
+      outer.push_back(&part);
+    }
+  }
+  return outer.size() > 2 ||
+    (outer.size() == 2 && this->isSharp(edge, *outer[0], *outer[1], angle));
+}
+
+bool SurfaceDivision::isSharp(
+  const Edge& edge, const Part& f, const Part& g, double featureAngle) const
+{
   const Vec<3> n = this->normal(f), m = this->normal(g);
   const auto [a, b] = edge.nodes;
   // Facets that are seen from the same side run through their edge in opposite directions.
@@ -262,19 +289,27 @@ bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
   return (alike ? 1.0 : -1.0) * n.dot(m) < cosine(featureAngle) * n.norm() * m.norm();
 }
 
-/// First the edges that the geometry makes curves, then kept edges of the caller. Of those that
-/// leave the surface only the ends count.
+/// First the edges that the geometry or a number makes curves, then kept edges of the caller. Of
+/// those that leave the surface only the ends count.
 void SurfaceDivision::findCurves(const SurfaceOptions& options)
 {
   for (Edge& edge : this->edges_)
   {
-    edge.isCurve = this->isCurve(edge, options);
+    const auto line = std::lower_bound(options.lines.begin(), options.lines.end(), edge.nodes,
+      [](const auto& entry, const std::array<Index, 2>& key) { return entry.first < key; });
+    const bool isLine = line != options.lines.end() && line->first == edge.nodes;
+    edge.label = isLine ? line->second : None;
+    edge.isCurve = isLine || this->isCurve(edge, options);
     const bool hasAngle = edge.last - edge.first == 2;
     edge.isSharp = hasAngle && this->isSharp(edge, options.featureAngle);
     // Only near these may new sharp edges come.
     if (!hasAngle || this->isSharp(edge, 0.5 * options.featureAngle))
     {
       this->bentEdges.push_back(edge.nodes);
+    }
+    if (this->isBentOutside(edge, 0.5 * options.featureAngle))
+    {
+      this->bentOutside.push_back(edge.nodes);
     }
   }
   this->isCorner_.assign(this->mesh_.numberOfPointSlots(), 0);

@@ -25,6 +25,10 @@ struct SurfaceOptions
   /// Facets (sorted ids) and a number for each, in ascending order. Edges between facets of
   /// different numbers are parts of curves. Facets that are not listed have the number None.
   std::vector<std::pair<Facet<3>, Index>> labels;
+  /// Edges (sorted ids) and a number for each, in ascending order. Those in the surface are parts
+  /// of curves. A point of a curve where edges of different numbers meet is a corner. Edges that
+  /// are not listed have the number None.
+  std::vector<std::pair<std::array<Index, 2>, Index>> lines;
   /// Facets (sorted ids) that must stay as they are, in ascending order.
   std::vector<Facet<3>> locked;
   /// One per point, or empty: bit k says that the point is in node set k (SlidingSurface::sets()).
@@ -36,10 +40,11 @@ struct SurfaceOptions
 ///
 /// An edge is part of a curve if not exactly two of these facets meet there, if these turn by more
 /// than the feature angle, or if they separate other regions or have other numbers; and so is each
-/// kept edge in the surface. A corner is a point where not exactly two such edges meet, where these
-/// separate other patches, where the surface touches itself, where a curve turns by more than the
-/// corner angle, or that is fixed. Where the surface touches itself in a point or along an edge,
-/// these stay. Patches are facets that hang together without crossing a curve.
+/// kept edge in the surface, and each edge with a number. A corner is a point where not exactly two
+/// such edges meet, where these separate other patches or have other numbers, where the surface
+/// touches itself, where a curve turns by more than the corner angle, or that is fixed. Where the
+/// surface touches itself in a point or along an edge, these stay. Patches are facets that hang
+/// together without crossing a curve.
 ///
 /// With almost no tolerance (isExact()), patches are flat, and curves are straight: any edge that
 /// is not flat belongs to a curve, and any point where a curve turns is a corner.
@@ -65,6 +70,7 @@ struct SurfaceDivision
     bool isClosed = false;
     bool isSharp = true;  ///< all its edges have two facets that exceed the feature angle
     bool isFixed = false; ///< an edge where the surface touches itself
+    bool isLine = false;  ///< its edges have a number of SurfaceOptions::lines
   };
   /// The plane of a flat patch.
   struct Plane
@@ -76,11 +82,15 @@ struct SurfaceDivision
 
   std::vector<Part> parts; ///< in the order of cells
   Index numberOfPatches = 0;
+  /// Parts that are locked because the caller lists them, or because they lie on one another.
+  Index numberOfTwins = 0;
   std::vector<Plane> planes; ///< of each patch, only if exact
   std::vector<Chain> chains;
   std::vector<std::array<Index, 2>> curveEdges; ///< sorted ids, in ascending order
   /// Sorted ids of the edges whose facets turn by more than half of the feature angle.
   std::vector<std::array<Index, 2>> bentEdges;
+  /// The same for the two facets of the outer surface, also where interfaces end between them.
+  std::vector<std::array<Index, 2>> bentOutside;
   std::vector<Freedom> freedom;    ///< of each point slot; Free: not on the surface
   std::vector<Index> patchOfPoint; ///< of those that slide on a patch
   double diagonal = 0.0;
@@ -95,6 +105,7 @@ private:
     std::array<Index, 2> nodes;
     std::size_t first, last;
     bool isCurve, isSharp;
+    Index label; // that of SurfaceOptions::lines
   };
 
   /// Half the width of the slab in which lies what is flat.
@@ -106,6 +117,8 @@ private:
   bool isCurve(const Edge& edge, const SurfaceOptions& options) const;
   bool isFlat(const Edge& edge) const;
   bool isSharp(const Edge& edge, double featureAngle) const;
+  bool isSharp(const Edge& edge, const Part& f, const Part& g, double featureAngle) const;
+  bool isBentOutside(const Edge& edge, double angle) const;
   Vec<3> normal(const Part& part) const;
   void findCurves(const SurfaceOptions& options);
   void findPatches();

@@ -161,6 +161,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
     }
     else if (this->signature(curves[0]) == this->signature(curves[1]) &&
       this->edges_[curves[0]].isSharp == this->edges_[curves[1]].isSharp && // no end of a ridge
+      this->edges_[curves[0]].label == this->edges_[curves[1]].label &&     // nor of a line
       !this->turns(p, curves, options.cornerAngle))
     {
       this->freedom[p] = Freedom::Curve;
@@ -206,6 +207,7 @@ void SurfaceDivision::findChains()
       used[e] = 1;
       chain.isSharp = chain.isSharp && this->edges_[e].isSharp;
       chain.isFixed = chain.isFixed || this->isTouching(this->edges_[e]);
+      chain.isLine = chain.isLine || this->edges_[e].label != None;
       const std::array<Index, 2>& nodes = this->edges_[e].nodes;
       p = nodes[0] == p ? nodes[1] : nodes[0];
       chain.isClosed = p == chain.points[0] && this->freedom[p] == Freedom::Curve;
@@ -297,6 +299,7 @@ void SurfaceDivision::straighten()
       Chain piece;
       piece.isSharp = chain.isSharp;
       piece.isFixed = chain.isFixed;
+      piece.isLine = chain.isLine;
       piece.points.assign(chain.points.begin() + from, chain.points.begin() + to + 1);
       // Both ends of a straight piece stay: the line that the others slide on ends there.
       this->freedom[piece.points.front()] = this->freedom[piece.points.back()] = Freedom::Fixed;

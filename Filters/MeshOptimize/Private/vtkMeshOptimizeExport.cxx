@@ -162,22 +162,29 @@ void GetOutputNodes(vtkUnstructuredGrid* grid, const OutputMap& map, const Simpl
   std::size_t cell, std::vector<vtkIdType>& nodes)
 {
   nodes.clear();
-  const std::size_t firstTriangle = map.CellToSlot.size() - map.Triangles.size();
-  if (cell >= firstTriangle)
+  const auto add = [&](const auto& slots)
   {
-    for (Index p : map.Triangles[cell - firstTriangle])
+    for (Index p : slots)
     {
       nodes.push_back(map.SlotToPoint[p]);
     }
+  };
+  const std::size_t firstLine = map.CellToSlot.size() - map.Lines.size();
+  const std::size_t firstTriangle = firstLine - map.Triangles.size();
+  if (cell >= firstLine)
+  {
+    add(map.Lines[cell - firstLine]);
+    return;
+  }
+  if (cell >= firstTriangle)
+  {
+    add(map.Triangles[cell - firstTriangle]);
     return;
   }
   const Index slot = map.CellToSlot[cell];
   if (slot != meshopt::None)
   {
-    for (Index p : mesh.nodes(slot))
-    {
-      nodes.push_back(map.SlotToPoint[p]);
-    }
+    add(mesh.nodes(slot));
     return;
   }
   vtkIdType n = 0;

@@ -7,6 +7,7 @@
 
 #include "vtkMeshOptimizeModel.h"
 
+#include <array>
 #include <vector>
 
 class vtkUnstructuredGrid;
@@ -35,8 +36,10 @@ struct OutputMap
   std::vector<meshopt::Index> CellToSlot;
   /// Number of output cells that are cells of the input.
   vtkIdType NumberOfOldCells = 0;
-  /// The last cells of the output: new triangles on a surface that slides, by core slots.
+  /// The last cells of the output: new triangles on a surface that slides, then new lines, by core
+  /// slots.
   std::vector<meshopt::Facet<3>> Triangles;
+  std::vector<std::array<meshopt::Index, 2>> Lines;
 };
 
 /**

@@ -12,6 +12,7 @@
 #include "Mesh/SimplexMesh.h"
 #include "Metric/NodalMetric.h"
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -42,6 +43,8 @@ struct Model
   /// Triangles that ride on a surface that slides (D = 3): sorted points, and cell of the grid; in
   /// ascending order.
   std::vector<std::pair<meshopt::Facet<3>, vtkIdType>> Riding;
+  /// Lines that ride on it: the same with two points.
+  std::vector<std::pair<std::array<meshopt::Index, 2>, vtkIdType>> RidingLines;
   std::vector<NodeSetArray> NodeSets; ///< the same
 };
 

@@ -107,6 +107,7 @@ void Outcome::Add(const Outcome& other)
     this->Volumes[region][1] += volume[1];
   }
   this->Lengths.add(other.Lengths);
+  this->Twins = Joined(this->Twins, other.Twins);
   this->Overlap = Joined(this->Overlap, other.Overlap);
   this->Tangle = Joined(this->Tangle, other.Tangle);
   this->Sizes = Joined(this->Sizes, other.Sizes);

@@ -81,6 +81,7 @@ struct Outcome
   std::map<int, std::array<double, 2>> Volumes;
   meshopt::EdgeLengths Lengths; ///< at the end; no edges if neither sizes nor a metric are given
   std::string Sizes;            ///< information for the user about the wanted sizes, or empty
+  std::string Twins;            ///< about facets that lie on one another, or empty
   std::string Overlap;          ///< about cells of the input that overlap, or empty
   std::string Fault;  ///< on many ranks: why a round was undone and the run ended, or empty
   std::string Tangle; ///< about inverted and flat cells that are left; empty if there are none

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Triangles on the surface of tetrahedra carry boundary conditions. Where the surface slides they
-// cannot stay: they are made again from the facets of the result.
+// cannot stay: they are made again from the facets of the result, and lines from its edges.
 #include "vtkMeshOptimizeRiding.h"
+
+#include "vtkMeshOptimizeRidingLines.h"
 
 #include "vtkMeshBridgeValues.h"
 
@@ -53,10 +55,10 @@ vtkIdType Find(const Riding& riding, const Facet<3>& key)
 }
 
 /**
- // Two triangles on one face stand for something that one face cannot carry on: they hold their
- // points.
  * All triangles of the grid whose points are a face's only once.
  */
+// Two triangles on one face stand for something that one face cannot carry on: they hold their
+// points.
 Riding ListTriangles(vtkUnstructuredGrid* grid)
 {
   Riding all, once;
@@ -169,7 +171,8 @@ void FindRiding(Model<2>&) {}
 void FindRiding(Model<3>& model)
 {
   model.Riding = FacesAmong(ListTriangles(model.Grid), model);
-  if (model.Riding.empty())
+  model.RidingLines = FindRidingLines(model);
+  if (model.Riding.empty() && model.RidingLines.empty())
   {
     return;
   }
@@ -178,12 +181,16 @@ void FindRiding(Model<3>& model)
   {
     rides[entry.second] = 1;
   }
+  for (const auto& entry : model.RidingLines)
+  {
+    rides[entry.second] = 1;
+  }
   // Simplices are no other cells: they count as riding here, so that they hold nothing.
   for (const vtkIdType c : model.Cells.Simplices)
   {
     rides[c] = 1;
   }
-  // Triangles that ride do not hold their points; all other cells do.
+  // What rides does not hold its points; all other cells do.
   for (std::uint8_t& use : model.Cells.PointUse)
   {
     use &= std::uint8_t(~vtkMeshBridge::UsedByOther);
@@ -200,7 +207,15 @@ void FindRiding(Model<3>& model)
   }
 }
 
-std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
+namespace
+{
+
+/**
+ * One number for each set of values that occurs among the riding cells.
+ */
+template <class Key>
+std::vector<std::pair<Key, Index>> NumberByValues(
+  const Model<3>& model, const std::vector<std::pair<Key, vtkIdType>>& riding)
 {
   vtkDataSetAttributes* data = model.Grid->GetCellData();
   std::vector<vtkDataArray*> arrays;
@@ -222,11 +237,10 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
   {
     arrays.push_back(model.Arrays.Patch);
   }
-  // Triangles whose data differ lie in different patches: their border stays.
+  // Cells whose data differ lie in different patches, or on different curves: their border stays.
   std::map<std::vector<double>, Index> numbers;
-  std::vector<std::pair<Facet<3>, Index>> labels;
-  // One number for each set of values that occurs.
-  for (const auto& [key, cell] : model.Riding)
+  std::vector<std::pair<Key, Index>> labels;
+  for (const auto& [key, cell] : riding)
   {
     std::vector<double> values;
     values.reserve(arrays.size());
@@ -240,36 +254,33 @@ std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
   return labels;
 }
 
+} // namespace
+
+std::vector<std::pair<Facet<3>, Index>> LabelRiding(const Model<3>& model)
+{
+  return NumberByValues(model, model.Riding);
+}
+
+std::vector<std::pair<std::array<Index, 2>, Index>> LabelRidingLines(const Model<3>& model)
+{
+  return NumberByValues(model, model.RidingLines);
+}
+
 void MapRiding(const Model<2>&, const meshopt::BoundaryCurves&, OutputMap&) {}
 
-/**
- * First takes out the triangles that are no facets any more, then adds one for each new facet of a
- * patch that had triangles.
- */
-void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, OutputMap& map)
+namespace
 {
-  if (model.Riding.empty())
-  {
-    return;
-  }
-  const auto facets = ListFacets(model.Mesh);
-  const auto isThere = [&](const Facet<3>& key)
-  {
-    const auto found = std::lower_bound(facets.begin(), facets.end(), key,
-      [](const auto& entry, const Facet<3>& k) { return entry.first < k; });
-    return found != facets.end() && found->first == key;
-  };
-  std::vector<char> isGone(static_cast<std::size_t>(model.Grid->GetNumberOfCells()), 0);
-  for (const auto& [key, cell] : model.Riding)
-  {
-    isGone[cell] = !isThere(key);
-  }
-  // Those that are gone leave the map; cells after them move up.
+
+/**
+ * Takes cells out of the map that are gone; those after them move up.
+ */
+void RemoveGone(const std::vector<char>& isGone, OutputMap& map)
+{
   std::size_t to = 0;
   vtkIdType old = 0;
   for (std::size_t c = 0; c < map.CellToSource.size(); ++c)
   {
-    // What is no riding triangle stays, whether it is a simplex or passes through.
+    // Simplices stay whatever their source: it may be one that has ceased to be.
     const bool stays = map.CellToSlot[c] != meshopt::None || !isGone[map.CellToSource[c]];
     if (stays)
     {
@@ -282,6 +293,14 @@ void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, Ou
   map.CellToSource.resize(to);
   map.CellToSlot.resize(to);
   map.NumberOfOldCells = old;
+}
+
+/**
+ * One triangle for each new facet of a patch that had triangles.
+ */
+void AddTriangles(const Model<3>& model, const meshopt::SlidingSurface& surface,
+  const std::vector<std::pair<Facet<3>, Index>>& facets, OutputMap& map)
+{
   const SimplexMesh<3>& mesh = model.Mesh;
   for (const auto& [key, patch] : facets)
   {
@@ -300,6 +319,44 @@ void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, Ou
     }
     map.Triangles.push_back(TurnedLike(model, source, key));
     map.CellToSource.push_back(source);
+    map.CellToSlot.push_back(meshopt::None);
+  }
+}
+
+} // namespace
+
+/**
+ * First takes out the triangles and lines that are no facets and edges any more, then adds new
+ * ones: triangles before lines, as the map wants them.
+ */
+void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, OutputMap& map)
+{
+  if (model.Riding.empty() && model.RidingLines.empty())
+  {
+    return;
+  }
+  const auto facets = ListFacets(model.Mesh);
+  const auto isThere = [&](const Facet<3>& key)
+  {
+    const auto found = std::lower_bound(facets.begin(), facets.end(), key,
+      [](const auto& entry, const Facet<3>& k) { return entry.first < k; });
+    return found != facets.end() && found->first == key;
+  };
+  std::vector<char> isGone(static_cast<std::size_t>(model.Grid->GetNumberOfCells()), 0);
+  for (const auto& [key, cell] : model.Riding)
+  {
+    isGone[cell] = !isThere(key);
+  }
+  const std::vector<NewLine> lines = FindNewLines(model, surface, isGone);
+  RemoveGone(isGone, map);
+  if (!model.Riding.empty())
+  {
+    AddTriangles(model, surface, facets, map);
+  }
+  for (const NewLine& line : lines)
+  {
+    map.Lines.push_back(line.Points);
+    map.CellToSource.push_back(line.Source);
     map.CellToSlot.push_back(meshopt::None);
   }
 }

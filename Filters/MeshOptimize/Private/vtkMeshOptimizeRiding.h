@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Triangles of the grid that are faces of its tetrahedra: where the surface slides, they ride on
- * it.
+ * Triangles of the grid that are faces of its tetrahedra, and lines that are edges of its surface:
+ * where that slides, they ride on it.
  */
 #ifndef vtkMeshOptimizeRiding_h
 #define vtkMeshOptimizeRiding_h
@@ -33,8 +33,8 @@ void ForKeptFacets(const meshopt::SimplexMesh<3>& mesh, F&& f)
 }
 
 /**
- * Finds these triangles, and notes them in the model. Their points are then used by tetrahedra
- * only. A face with two triangles has none that rides.
+ * Finds them, and notes them in the model. Their points are then used by tetrahedra only. A face
+ * with two triangles has none that rides, an edge with two lines neither.
  */
 void FindRiding(Model<3>& model);
 void FindRiding(Model<2>& model);
@@ -44,10 +44,16 @@ void FindRiding(Model<2>& model);
  * without one, of all cell arrays of one integer (global and pedigree ids excepted).
  */
 std::vector<std::pair<meshopt::Facet<3>, meshopt::Index>> LabelRiding(const Model<3>& model);
+/**
+ * The same for the riding lines.
+ */
+std::vector<std::pair<std::array<meshopt::Index, 2>, meshopt::Index>> LabelRidingLines(
+  const Model<3>& model);
 
 /**
- * The riding triangles of the optimized mesh, in the map: those that are still there, and new ones,
- * each with the data of the nearest of the same patch.
+ * What rides on the optimized mesh, in the map: what is still there, and new triangles, each with
+ * the data of the nearest of the same patch, and new lines, each with those of the line that its
+ * middle lies on.
  */
 void MapRiding(const Model<3>& model, const meshopt::SlidingSurface& surface, OutputMap& map);
 void MapRiding(const Model<2>& model, const meshopt::BoundaryCurves& curves, OutputMap& map);

@@ -234,6 +234,7 @@ std::string OptimizeSimplices(
   // What the builder has found, before anything changes.
   outcome.NumberOfReorientedCells = model.Mesh.numberOfReorientedCells();
   outcome.Overlap = DescribeOverlap(model.Mesh);
+  outcome.Twins = DescribeTwins(surface);
   if (request.OptimizeBelow > 0.0)
   {
     OptimizeZone<D>(request, surface, model, outcome);

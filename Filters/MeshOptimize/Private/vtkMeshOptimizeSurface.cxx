@@ -448,12 +448,25 @@ std::string BuildSurface(const Request& request, Model<3>& model, meshopt::Slidi
   options.corners = ReadCorners(model.Arrays.Corners, model.Cells);
   const auto ofPoints = LabelByPoints(model);
   options.labels = Combined(LabelRiding(model), ofPoints);
+  options.lines = LabelRidingLines(model);
   // Points with a label that no facet around them has would lose it: they stay.
   KeepLonePoints(model, ofPoints, options.corners);
   options.sets = FindNodeSets(model);
   meshopt::MeshEditor<3> editor(model.Mesh);
   surface.build(editor, options);
   return {};
+}
+
+std::string DescribeTwins(const meshopt::BoundaryCurves&) { return {}; }
+
+std::string DescribeTwins(const meshopt::SlidingSurface& surface)
+{
+  const Index n = surface.numberOfTwins();
+  return n == 0 ? ""
+                : std::to_string(n) +
+      " facets of the surface lie on others, corner by corner, without having their points: lips "
+      "of "
+      "a closed crack, or of two blocks. They stay as they are, so that they stay together.";
 }
 
 } // namespace vtkMeshOptimizeBridge

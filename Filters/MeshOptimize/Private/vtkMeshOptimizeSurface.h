@@ -58,6 +58,12 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
 std::string BuildSurface(const Request& request, Model<2>& model, meshopt::BoundaryCurves& curves);
 std::string BuildSurface(const Request& request, Model<3>& model, meshopt::SlidingSurface& surface);
 
+/**
+ * A sentence about facets that stay because they lie on one another, or nothing.
+ */
+std::string DescribeTwins(const meshopt::BoundaryCurves& curves);
+std::string DescribeTwins(const meshopt::SlidingSurface& surface);
+
 } // namespace vtkMeshOptimizeBridge
 
 #endif

@@ -55,7 +55,7 @@ void Warn(vtkMeshOptimizeFilter* filter, const Outcome& outcome)
       << outcome.NumberOfReorientedCells
       << " cells were numbered the wrong way round (negative volume); they have been renumbered.");
   }
-  for (const std::string& text : { outcome.Overlap, outcome.Tangle, outcome.Sizes })
+  for (const std::string& text : { outcome.Twins, outcome.Overlap, outcome.Tangle, outcome.Sizes })
   {
     if (!text.empty())
     {

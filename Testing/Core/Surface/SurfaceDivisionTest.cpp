@@ -231,6 +231,44 @@ TEST(SurfaceDivision, NumbersOfFacetsAndLinesDivideAFace)
   const Sliding lined(in, {});
   EXPECT_EQ(lined.surface.numberOfPatches(), 7); // the line goes from side to side
   EXPECT_EQ(lined.surface.numberOfCurves(), 15u);
+  // With numbers: a corner more where they change.
+  SurfaceOptions numbered;
+  for (const std::array<Index, 2>& e : in.keptEdges)
+  {
+    const double y = in.points[e[0]][1] + in.points[e[1]][1];
+    numbered.lines.emplace_back(sortedIds(e), y < 1.0 ? 3 : 4);
+  }
+  std::sort(numbered.lines.begin(), numbered.lines.end());
+  expectCounts(Sliding(in, numbered), { 7, 16, 11 });
+  in.keptEdges.clear();
+  const Sliding unkept(in, numbered);
+  expectCounts(unkept, { 7, 16, 11 });
+  // Each edge lies on itself.
+  for (const auto& [edge, number] : numbered.lines)
+  {
+    EXPECT_EQ(unkept.surface.inputEdge(unkept.mesh, edge[1], edge[0]), edge);
+  }
+}
+
+TEST(SurfaceDivision, ALineThatEndsOnARidgeEndsInACorner)
+{
+  const MeshInput<3> in = jitteredGrid<3>(4, 0.1);
+  SurfaceOptions options;
+  options.tolerance = 1e-3;
+  for (Index p = 0; p < static_cast<Index>(in.points.size()); ++p)
+  {
+    for (Index q = 0; q < static_cast<Index>(in.points.size()); ++q)
+    {
+      const Vec<3>&a = in.points[p], &b = in.points[q];
+      if (a[0] == 0.0 && a[2] == 0.0 && a[1] < 0.5 && b == Vec<3>(0.0, a[1] + 0.25, 0.0))
+      {
+        options.lines.emplace_back(sortedIds(p, q), 7);
+      }
+    }
+  }
+  std::sort(options.lines.begin(), options.lines.end());
+  ASSERT_EQ(options.lines.size(), 2u);
+  expectCounts(Sliding(in, options), { 6, 13, 9 });
 }
 
 TEST(SurfaceDivision, FacetsThatLieOnEachOtherAreLocked)
@@ -254,6 +292,7 @@ TEST(SurfaceDivision, FacetsThatLieOnEachOtherAreLocked)
   }
   const Sliding boxes(in, {});
   EXPECT_EQ(boxes.surface.numberOfPatches(), 10);
+  EXPECT_EQ(boxes.surface.numberOfTwins(), 2 * 18);
   for (std::size_t p = 0; p < in.points.size(); ++p)
   {
     if (in.points[p][0] == 1.0)
