@@ -92,7 +92,7 @@ private:
   /// Of polish(), up to the target; where there is hope: see isFarBelowBound().
   long mostLooks() const
   {
-    return this->caps_.bound() < 1.0 || this->slides()
+    return this->bound() < 1.0 || this->slides()
       ? std::max(FewestLooks, this->mesh().numberOfCellSlots() / CellsPerLook)
       : std::numeric_limits<long>::max();
   }
@@ -104,9 +104,10 @@ private:
   /// False where no bound is known, unless the surface takes part: then hardly anything is bound.
   bool isFarBelowBound() const
   {
-    return (this->caps_.bound() < 1.0 || this->slides()) &&
-      this->worst() < NearBound * this->caps_.bound();
+    return (this->bound() < 1.0 || this->slides()) && this->worst() < NearBound * this->bound();
   }
+  /// Whether cells at facets with tiny caps count. At the border of a part they do not.
+  bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
   /// The most nodes that may vanish in one wide insertion.
   int mostSwallowed() const
   {
@@ -143,7 +144,25 @@ private:
   bool slides() const { return this->run_.surface && this->run_.surface->judgesChanges(); }
   void noteWorst();
   bool isPast(double target) const { return target > this->options_.targetQuality + SameTarget; }
-  double worst() const { return this->run_.report.history.back().worst; }
+  /// Of all cells; in a part of a mesh of those that are not left to other runs.
+  double worst() const
+  {
+    return this->mesh().hasBorder() ? this->worstInside_ : this->run_.report.history.back().worst;
+  }
+  double findWorstInside() const;
+  /// Whether the cell is at the border of a part, and better off in another run.
+  bool isLeft(Index c) const
+  {
+    const Simplex<D>& nodes = this->mesh().nodes(c);
+    return this->mesh().hasBorder() &&
+      std::any_of(nodes.begin(), nodes.end(), [&](Index p) { return this->mesh().isAtBorder(p); });
+  }
+  /// What no cell can exceed, or need not.
+  double bound() const
+  {
+    const double most = this->options_.mostQuality;
+    return most >= 0.0 ? most : this->caps_.bound();
+  }
 
   Run<D>& run_;
   const Options& options_;
@@ -169,6 +188,7 @@ private:
   std::int64_t spent_ = 0;            ///< evaluations of the pass
   bool creeps_ = false;               ///< the pass: see watch()
   bool leavesMany_ = false;           ///< see givesUpMany()
+  double worstInside_ = 0.0;          ///< see worst()
   CostModel costs_;
   long looks_ = 0; ///< look-aheads of polish() up to now
   std::array<long, NumberOfOperations> tried_{}, done_{};
@@ -234,7 +254,7 @@ std::vector<double> Schedule<D, Shape>::stages() const
     }
   }
   result.push_back(this->options_.targetQuality);
-  const double bound = this->run_.report.bound;
+  const double bound = this->bound();
   for (double s : Stages)
   {
     if (this->options_.effort == Effort::Best && this->isPast(s) && result.back() < bound)
@@ -276,6 +296,7 @@ void Schedule<D, Shape>::optimize()
     this->run_.metric.isTrivial() && !this->run_.surface);
   this->caps_.setFull(this->options_.targetQuality / TinyReached);
   this->run_.report.bound = this->caps_.bound();
+  this->worstInside_ = this->findWorstInside();
   const std::vector<double> stages = this->stages();
   bool more = true;
   int idle = 0;
@@ -345,6 +366,7 @@ void Schedule<D, Shape>::record(double target, int pass)
   const bool weighed = this->weights_.areOn();
   this->weights_.switchOff();
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
+  this->worstInside_ = this->findWorstInside();
   if (weighed)
   {
     this->weights_.switchOn();

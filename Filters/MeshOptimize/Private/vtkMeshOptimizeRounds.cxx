@@ -66,13 +66,13 @@ std::vector<vtkIdType> ReadIds(vtkDataArray* array, const std::vector<vtkIdType>
 }
 
 // Whether a point is fixed travels as a flag of the part, not as an array.
-vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part)
+vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part, PointFlag flag)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetNumberOfValues(part.GetNumberOfPoints());
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
-    mask->SetValue(p, (part.Flags[p] & PointFlag::Fixed) != 0);
+    mask->SetValue(p, (part.Flags[p] & flag) != 0);
   }
   return mask;
 }
@@ -258,6 +258,7 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   Request request = this->Wanted;
   request.Options.mostGrowth = Portion(std::max(0L, this->Growth - gained), weight * share);
   request.Options.mostShrink = Portion(std::max(0L, this->Shrink - std::max(0L, -gained)), weight);
+  request.Options.mostQuality = this->IsBest() ? this->Most : -1.0;
   request.Control = vtkMeshBridge::MakeControl(
     request.Filter, request.NumberOfThreads, this->First, this->Last);
   std::string error;
@@ -273,8 +274,11 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
     InputArrays arrays;
     error = FindInputArrays(request.Filter, grid, arrays);
     // A mask of the part as it is now: at moved points an interpolated array has fractions.
-    const auto mask = MaskOf(zone); // the array itself is interpolated at moved points
+    const auto mask = MaskOf(zone, PointFlag::Fixed); // the array is interpolated at moved points
     arrays.FixedPoints = mask;
+    // With less effort no run goes on after the target, and all cells up to it get their tries.
+    const auto border = MaskOf(zone, Border);
+    arrays.BorderPoints = this->IsBest() ? border : nullptr;
     vtkNew<vtkUnstructuredGrid> after;
     error = error.empty() ? OptimizeGrid(grid, arrays, request, after, outcome) : error;
     if (error.empty())
@@ -345,6 +349,10 @@ void Rounds::OptimizePieces()
   // Before any run, which may turn cells.
   this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
   this->FindZone();
+  if (this->IsBest())
+  {
+    this->FindGoalOfPieces();
+  }
   // What is at a border cannot get much better now: its share is left for the rounds.
   double inside = 0.0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
@@ -419,8 +427,12 @@ void Rounds::Round(int round)
   // Ids and places tell whether a move has lost anything.
   Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isMoved;
-  Move(this->All, FindBands(this->All, this->Mine, shared, Layers[round]), this->Points,
-    this->Cells, this->Mine, isMoved);
+  const std::vector<int> target = FindBands(this->All, this->Mine, shared, Layers[round]);
+  if (this->IsBest())
+  {
+    this->FindGoalOfBands(target);
+  }
+  Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
   shared = FindShared(this->All, this->Mine);
   std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(problem.empty() ? "" : "After cells have moved between ranks " + problem + ".");
@@ -431,6 +443,10 @@ void Rounds::Round(int round)
       // A point that one rank alone has now has all of its surroundings there.
       this->Mine.Flags[p] &= static_cast<std::uint8_t>(~Waiting);
     }
+  }
+  if (this->IsBest())
+  {
+    this->MarkBorder(shared, isMoved);
   }
   // Part 0 stays, part 1 is the band that this rank runs.
   std::vector<Part> parts = Split(

@@ -144,7 +144,7 @@ void Rounds::Record(const char* stage, const Outcome& run)
   const Shared shared = FindShared(this->All, this->Mine);
   const Figures now = Measure(this->All, this->Mine, shared, target);
   this->Surface = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
-    this->Wanted.Options.measure, target, this->Plane);
+    this->Wanted.Options.measure, this->GetGoal(), this->Plane);
   vtkIdType capped = 0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {

@@ -44,7 +44,8 @@ enum PointFlag : std::uint8_t
   Waiting = 1, ///< what lies around it has never been together in one run
   Fixed = 2,   ///< of the caller's fixed points
   Loose = 4,   ///< no cell of the input uses it
-  Skin = 8     ///< may be on the surface, or on several ranks
+  Skin = 8,    ///< may be on the surface, or on several ranks
+  Border = 16  ///< cells outside of the part that runs, or ran last, use it
 };
 
 /**
