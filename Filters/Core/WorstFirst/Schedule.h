@@ -298,9 +298,12 @@ void Schedule<D, Shape>::optimize()
   this->run_.report.bound = this->caps_.bound();
   this->worstInside_ = this->findWorstInside();
   const std::vector<double> stages = this->stages();
+  // The worst of a part may be held by the border nearby. It must not stop the others: other runs
+  // take up what is left, and these must be few.
+  const int mostIdle = this->mesh().hasBorder() ? MostIdleOfPart : MostIdle;
   bool more = true;
   int idle = 0;
-  for (std::size_t k = 0; k < stages.size() && more && idle < MostIdle; ++k)
+  for (std::size_t k = 0; k < stages.size() && more && idle < mostIdle; ++k)
   {
     if (this->leavesMany_ && stages[k] < this->options_.targetQuality)
     {
@@ -315,7 +318,7 @@ void Schedule<D, Shape>::optimize()
       // Nothing comes after the last stage: it may use the reserve.
       more = this->polishAndRepair(stages[k], k + 1 == stages.size());
     }
-    // Past the target the run ends after MostIdle stages that did not lift the worst cell.
+    // Past the target the run ends after some stages that did not lift the worst cell.
     const bool stuck = this->worst() < before + Gain;
     idle = past && stuck ? idle + 1 : 0;
   }

@@ -25,6 +25,9 @@ constexpr double NearWorst = 0.1;
 /// lifted it by more than this, or left fewer of few.
 constexpr double NearBound = 0.98;
 constexpr double LeastGain = 0.002;
+/// Bands go so far past the worst cell outside of them: next to that a crowd of cells would hide
+/// which ones hold it back.
+constexpr double AboveOthers = 0.02;
 
 } // namespace
 
@@ -79,7 +82,7 @@ void Rounds::FindGoalOfPieces()
 }
 
 /**
- * Bands need not be better than the worst cell that stays outside of all of them. `target`: where
+ * Bands need not be much better than the worst cell that stays outside of all of them. `target`: where
  * cells move; those that stay have none.
  */
 void Rounds::FindGoalOfBands(const std::vector<int>& target)
@@ -91,7 +94,8 @@ void Rounds::FindGoalOfBands(const std::vector<int>& target)
     worst = counts ? std::min(worst, this->Mine.Quality[c]) : worst;
   }
   const std::vector<double> all = this->All.Gather(worst);
-  this->Most = *std::min_element(all.begin(), all.end());
+  worst = *std::min_element(all.begin(), all.end());
+  this->Most = std::min(this->Surface.Bound, worst + AboveOthers);
 }
 
 /**
@@ -126,7 +130,8 @@ void Rounds::WaitWhereStuck()
   // Past the target, which the best effort goes once nothing is under it but what is capped.
   const bool isPast = this->IsBest() &&
     now.belowTarget - this->BelowOutside <= this->Result.Report.cappedCells;
-  const double target = isPast ? this->GetGoal() : this->Wanted.Options.targetQuality;
+  const double target = isPast ? std::min(this->GetGoal(), this->Surface.Bound)
+                               : this->Wanted.Options.targetQuality;
   const auto isStuck = [&](vtkIdType c, double most)
   { return this->Mine.Quality[c] < most && !this->Surface.IsCapped[c] && !this->Mine.Kept[c]; };
   // Of what is stuck; the target, if nothing is.
