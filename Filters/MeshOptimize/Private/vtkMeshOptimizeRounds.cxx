@@ -39,6 +39,8 @@ namespace
 constexpr int MostRounds = 4;
 /// Layers of cells around a border that take part in each round.
 constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
+/// At least so many with the best effort, of which pieces leave more to the first round.
+constexpr int LayersOfBest = 3;
 /// The part of what may still grow that a round uses; the last may use all.
 constexpr double ShareOfRound = 0.75;
 /// If a rank has more than this times the mean, the mesh is divided anew.
@@ -427,7 +429,8 @@ void Rounds::Round(int round)
   // Ids and places tell whether a move has lost anything.
   Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isMoved;
-  const std::vector<int> target = FindBands(this->All, this->Mine, shared, Layers[round]);
+  const int layers = this->IsBest() ? std::max(LayersOfBest, Layers[round]) : Layers[round];
+  const std::vector<int> target = FindBands(this->All, this->Mine, shared, layers);
   if (this->IsBest())
   {
     this->FindGoalOfBands(target);

@@ -76,6 +76,7 @@ private:
   bool IsBest() const { return this->Wanted.Options.effort == meshopt::Effort::Best; }
   double GetGoal() const;
   void MarkBorder(const vtkMeshRanks::Shared& shared, const std::vector<char>& isMoved);
+  void WidenBorder(int layers);
   void FindGoalOfPieces();
   void FindGoalOfBands(const std::vector<int>& target);
   bool IsDone();

@@ -28,6 +28,8 @@ constexpr double LeastGain = 0.002;
 /// Bands go so far past the worst cell outside of them: next to that a crowd of cells would hide
 /// which ones hold it back.
 constexpr double AboveOthers = 0.02;
+/// Layers of cells around those at the border that pieces leave to the first round.
+constexpr int LayersLeft = 1;
 
 } // namespace
 
@@ -65,12 +67,34 @@ void Rounds::MarkBorder(const Shared& shared, const std::vector<char>& isMoved)
 }
 
 /**
+ * Marks the points of so many layers of cells around the border, too.
+ */
+void Rounds::WidenBorder(int layers)
+{
+  for (int layer = 0; layer < layers; ++layer)
+  {
+    std::vector<std::uint8_t> next = this->Mine.Flags;
+    for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
+    {
+      const vtkIdType* ids = this->Mine.GetCell(c);
+      if (std::any_of(ids, ids + this->Mine.Corners,
+            [&](vtkIdType p) { return (this->Mine.Flags[p] & Border) != 0; }))
+      {
+        std::for_each(ids, ids + this->Mine.Corners, [&](vtkIdType p) { next[p] |= Border; });
+      }
+    }
+    this->Mine.Flags.swap(next);
+  }
+}
+
+/**
  * The pieces go up to the bound of the surface of all, not of their own, which borders are part of.
  */
 void Rounds::FindGoalOfPieces()
 {
   const Shared shared = FindShared(this->All, this->Mine);
   this->MarkBorder(shared, {});
+  this->WidenBorder(LayersLeft);
   if (!this->HasZone && !this->IsTangled)
   {
     // Not measured yet, but positive: on which side of its facets a cell lies is certain.
