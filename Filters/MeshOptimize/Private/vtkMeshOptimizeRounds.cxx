@@ -156,8 +156,7 @@ std::string Rounds::Read(
   vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
   this->Ids.HasPointIds = this->All.IsAny(pointIds && count > 0);
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
-  const std::vector<CellFacet> open = FindOpenFacets(
-    this->Mine, std::vector<char>(this->Mine.PointIds.size(), 1));
+  const std::vector<CellFacet> open = FindOpenFacets(this->Mine);
   // Before points are joined: copies would look like cracks then. Ids of cells say more of them.
   const bool coincide = DoPiecesCoincide(this->All, this->Mine, open, this->Normal);
   if (!coincide || this->Ids.HasCellIds)
@@ -273,6 +272,7 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   if (!zone.CellIds.empty())
   {
     const auto grid = MakeGrid(zone, this->Points, this->Cells);
+    ForgetCells(zone); // the grid has all that is needed of them: a run takes much memory
     InputArrays arrays;
     error = FindInputArrays(request.Filter, grid, arrays);
     // A mask of the part as it is now: at moved points an interpolated array has fractions.

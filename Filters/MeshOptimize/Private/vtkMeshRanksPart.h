@@ -148,7 +148,12 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   const Part& part, const Schema& points, const Schema& cells);
 
 /**
- * What a run made of the grid of a part. Points and cells that are new have the id -1, and no
+ * Frees the memory of all that a part knows of its cells, for a ReadGrid() that follows.
+ */
+void ForgetCells(Part& part);
+
+/**
+ * What a run made of the grid of a part. `before` needs no cells. Points and cells that are new have the id -1, and no
  * flags. With `isAgain`, points that have moved or come get a hint: their data stem from data that
  * were interpolated before.
  */
