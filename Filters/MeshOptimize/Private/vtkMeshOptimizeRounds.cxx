@@ -254,7 +254,8 @@ void Rounds::NumberNew(Part& part)
 void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
 {
   // What has grown on all ranks so far, also in rounds before.
-  const auto now = this->All.Sum(this->Mine.GetNumberOfCells());
+  const bool isFirst = this->Result.Report.history.empty();
+  const vtkIdType now = isFirst ? this->CellsAtFirst : this->Result.NumberOfCells;
   const long gained = static_cast<long>(now - this->CellsAtFirst);
   Request request = this->Wanted;
   request.Options.mostGrowth = Portion(std::max(0L, this->Growth - gained), weight * share);
@@ -425,7 +426,7 @@ void Rounds::OptimizeBorders()
 // Every step is collective, also for ranks without a band.
 void Rounds::Round(int round)
 {
-  const Signature before = this->Sign();
+  const Signature before = this->Present ? *this->Present : this->Sign();
   // Ids and places tell whether a move has lost anything.
   Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isMoved;
@@ -454,6 +455,7 @@ void Rounds::Round(int round)
   // Part 0 stays, part 1 is the band that this rank runs.
   std::vector<Part> parts = Split(
     this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
+  this->Mine = Part(); // one copy of the mesh at a time, beside that for a fault
   Outcome run;
   const Part band = this->IsTangled ? parts[1] : Part(); // shares the arrays
   // Growth is shared out by cells.
@@ -479,13 +481,15 @@ void Rounds::Round(int round)
     }
     this->All.Agree(undoes ? Join(parts, this->Mine) : "");
   }
-  problem = Compare(before, this->Sign(), false, this->IsTangled);
+  const Signature after = this->Sign();
+  problem = Compare(before, after, false, this->IsTangled);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);
   this->Record("borders", run);
   this->WaitWhereStuck();
   this->MustStop(run);
+  this->Present = after; // last, since a fault up to here takes back the round
 }
 
 } // namespace vtkMeshOptimizeBridge

@@ -11,6 +11,7 @@
 #include "vtkMeshRanksIds.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,7 @@ private:
   double First = 0.0, Last = 1.0; ///< the part of the progress that runs now
   meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
   vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state
+  std::optional<vtkMeshRanks::Signature> Present;            ///< the same, after a round
   /// How far the best effort goes past the target in the runs of now: what holds the whole from
   /// elsewhere holds each part.
   double Most = 1.0;
