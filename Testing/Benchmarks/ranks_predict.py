@@ -16,7 +16,7 @@ COSTS = {  # name: default, what it is, where it comes from
     "layer": (41.0, "cells of two layers all around, by cells^(2/3) of a piece", "17 % of 15 M, 40 % of 1 M"),
     "rounds": (1.3, "rounds, as a sum of their bands by the first", "RESULTS.md: bands over all rounds"),
     "bytes": (120.0, "a cell that is sent, with its points, ids and one double", "Pack() in vtkMeshRanksPart.cxx"),
-    "memory": (450.0, "bytes a cell that a rank takes at most beside its piece", "RESULTS.md: 36 MB for 80 k"),
+    "memory": (260.0, "bytes a cell that a rank takes at most beside its piece", "RESULTS.md: 126 MB for 0.5 M"),
     "exchanges": (40.0, "meetings of all ranks in a run of two rounds", "counted in vtkMeshOptimizeRounds.cxx"),
     "latency": (5.0, "us a step of a meeting", "assumed: a cluster's network"),
     "bandwidth": (2.0, "GB/s of a rank", "assumed"),

@@ -38,6 +38,8 @@ def test_goals():
         worst.append(f.GetWorstQualityAfter())
     check(evaluations[0] < evaluations[1] < evaluations[2], f"effort: {evaluations} evaluations")
     check(min(worst) >= 0.6 and worst[2] > worst[1], f"effort: {worst}")
+    # The last run: past the target as far as alone, whatever the borders of the pieces would allow.
+    compare("effort Best", f, before, alone(mesh, Effort=2))
 
 
 def test_switches():

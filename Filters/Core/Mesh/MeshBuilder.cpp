@@ -99,6 +99,12 @@ struct MeshBuilder
       return wrong("The mask of fixed points", this->input.fixedPoints.size(),
         this->input.points.size(), "points");
     }
+    if (!this->input.borderPoints.empty() &&
+      this->input.borderPoints.size() != this->input.points.size())
+    {
+      return wrong("The mask of points at a border", this->input.borderPoints.size(),
+        this->input.points.size(), "points");
+    }
     return std::nullopt;
   }
 
@@ -155,6 +161,11 @@ struct MeshBuilder
       if (!this->input.fixedPoints.empty() && this->input.fixedPoints[p])
       {
         this->mesh.points_[p].flags = Mesh::PointHeld | Mesh::PointFixedByUser;
+      }
+      if (!this->input.borderPoints.empty() && this->input.borderPoints[p])
+      {
+        this->mesh.points_[p].flags |= Mesh::PointAtBorder;
+        this->mesh.hasBorder_ = true;
       }
     }
     for (std::size_t c = 0; c < n; ++c)

@@ -29,6 +29,10 @@ struct MeshInput
   std::vector<Index> regions;
   /// Nonzero: the point neither moves nor vanishes. One per point, or empty.
   std::vector<std::uint8_t> fixedPoints;
+  /// For a part of a mesh. Nonzero: cells of other parts use the point, too, and it will be free in
+  /// a run of its own. The best effort then leaves the cells around it as they are once they are at
+  /// the target, and does not count them. One per point, or empty. Holds no point by itself.
+  std::vector<std::uint8_t> borderPoints;
   /// Facets that must be kept although both sides have one region (any order of the points).
   std::vector<Facet<D>> keptFacets;
   /// Edges that must be kept (any order of the points). For D = 2 use keptFacets.
@@ -68,7 +72,8 @@ public:
     PointHeld = 1,     ///< not free: on a kept facet or edge, or fixed by the caller
     PointBoundary = 2, ///< lies on a kept facet
     PointAlive = 8,    ///< is used by a cell
-    PointFixedByUser = 16
+    PointFixedByUser = 16,
+    PointAtBorder = 32 ///< see MeshInput::borderPoints
   };
 
   /// Topology of a cell. adjacent[i] is the handle of the facet across facet i; None at the
@@ -220,6 +225,8 @@ public:
   /// The place of the point on the surface, if it slides.
   Place place(Index p) const { return this->places_.empty() ? Place() : this->places_[p]; }
   bool isBoundary(Index p) const { return (this->points_[p].flags & PointBoundary) != 0; }
+  bool isAtBorder(Index p) const { return (this->points_[p].flags & PointAtBorder) != 0; }
+  bool hasBorder() const { return this->hasBorder_; } ///< whether any point is at one
   bool isPointAlive(Index p) const { return (this->points_[p].flags & PointAlive) != 0; }
   Index cellOfPoint(Index p) const { return this->points_[p].cell; }
 
@@ -264,6 +271,7 @@ private:
   Index foldedFacets_ = 0;
   Facet<D> firstFoldedFacet_{};
   bool hasKeptEdges_ = false;
+  bool hasBorder_ = false;
 };
 
 extern template class SimplexMesh<2>;

@@ -51,6 +51,9 @@ struct Options : Switches
   /// If not negative: the same as a number of cells, and how many cells may vanish. For a part of a
   /// mesh whose budget is that of the whole.
   long mostGrowth = -1, mostShrink = -1;
+  /// If not negative: how far the best effort may go past the target, in place of the certified
+  /// bound of this mesh. For a part of a mesh: its own surface includes borders to other parts.
+  double mostQuality = -1.0;
   double timeLimit = 0.0; ///< seconds, 0: none. Results are then not reproducible.
 
   /// One sentence about the first unusable option and the reason; empty if all options are fine.

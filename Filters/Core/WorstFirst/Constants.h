@@ -21,6 +21,7 @@ inline constexpr double StagesOfSliding[] = { 0.77, 0.78, 0.79, 0.80 };
 inline constexpr double SameTarget = 1e-9;    // targets that differ by less are the same
 inline constexpr int MaximumPasses = 10;      // of one stage
 inline constexpr int MostIdle = 2;            // stages in a row, past the target, without gain
+inline constexpr int MostIdleOfPart = 4;      // the same in a part of a mesh
 inline constexpr Index CellsPerChunk = 20000; // with fewer, too many cells lie at borders
 inline constexpr int BadCellsPerChunk = 32;   // with fewer, a chunk does not pay
 inline constexpr int PolishedPerChunk = 4;    // the same for polishing, where each cell takes long

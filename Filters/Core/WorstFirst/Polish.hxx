@@ -69,7 +69,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
   std::vector<Entry> worst;
   // With tiny caps on facets the next worst cells and their surroundings are spared on purpose:
   // there the search does not widen without need.
-  const bool widens = past && !this->caps_.hasTiny();
+  const bool widens = past && !this->sparesTiny();
   const std::size_t most = widens ? MostPolishedCells : MostBelowBound;
   std::size_t wanted = PolishedCells;
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
@@ -142,7 +142,7 @@ double Schedule<D, Shape>::findWorst(
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
     const double q = this->mesh().quality(c);
-    if (this->mesh().isAlive(c) && q < target)
+    if (this->mesh().isAlive(c) && q < target && !this->isLeft(c))
     {
       worstOfAll = std::min(worstOfAll, q);
       if (!this->caps_.isCapped(this->mesh(), c))

@@ -99,7 +99,7 @@ private:
   /// Of polish(), up to the target; where there is hope: see isFarBelowBound().
   long mostLooks() const
   {
-    return this->caps_.bound() < 1.0 || this->slides()
+    return this->bound() < 1.0 || this->slides()
       ? std::max(FewestLooks, this->mesh().numberOfCellSlots() / CellsPerLook)
       : std::numeric_limits<long>::max();
   }
@@ -111,9 +111,10 @@ private:
   /// False where no bound is known, unless the surface takes part: then hardly anything is bound.
   bool isFarBelowBound() const
   {
-    return (this->caps_.bound() < 1.0 || this->slides()) &&
-      this->worst() < NearBound * this->caps_.bound();
+    return (this->bound() < 1.0 || this->slides()) && this->worst() < NearBound * this->bound();
   }
+  /// Whether cells at facets with tiny caps count. At the border of a part they do not.
+  bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
   /// The most nodes that may vanish in one wide insertion.
   int mostSwallowed() const
   {
@@ -148,7 +149,25 @@ private:
   bool slides() const { return this->run_.surface && this->run_.surface->judgesChanges(); }
   void noteWorst();
   bool isPast(double target) const { return target > this->options_.targetQuality + SameTarget; }
-  double worst() const { return this->run_.report.history.back().worst; }
+  /// Of all cells; in a part of a mesh of those that are not left to other runs.
+  double worst() const
+  {
+    return this->mesh().hasBorder() ? this->worstInside_ : this->run_.report.history.back().worst;
+  }
+  double findWorstInside() const;
+  /// Whether the cell is at the border of a part, and better off in another run.
+  bool isLeft(Index c) const
+  {
+    const Simplex<D>& nodes = this->mesh().nodes(c);
+    return this->mesh().hasBorder() &&
+      std::any_of(nodes.begin(), nodes.end(), [&](Index p) { return this->mesh().isAtBorder(p); });
+  }
+  /// What no cell can exceed, or need not.
+  double bound() const
+  {
+    const double most = this->options_.mostQuality;
+    return most >= 0.0 ? most : this->caps_.bound();
+  }
 
   Run<D>& run_;
   const Options& options_;
@@ -174,6 +193,7 @@ private:
   std::int64_t spent_ = 0;            ///< evaluations of the pass
   bool creeps_ = false;               ///< the pass: see watch()
   bool leavesMany_ = false;           ///< see givesUpMany()
+  double worstInside_ = 0.0;          ///< see worst()
   CostModel costs_;
   FailureMemory failures_;
   long looks_ = 0; ///< look-aheads of polish() up to now
@@ -252,7 +272,7 @@ std::vector<double> Schedule<D, Shape>::stages() const
     }
   }
   result.push_back(this->options_.targetQuality);
-  const double bound = this->run_.report.bound;
+  const double bound = this->bound();
   for (double s : Stages)
   {
     if (this->options_.effort == Effort::Best && this->isPast(s) && result.back() < bound)
@@ -295,10 +315,14 @@ void Schedule<D, Shape>::optimize()
   this->caps_.setFull(this->options_.targetQuality / TinyReached);
   this->run_.report.bound = this->caps_.bound();
   this->costs_.open(this->mesh().countCells(), this->countFreeNodes());
+  this->worstInside_ = this->findWorstInside();
   const std::vector<double> stages = this->stages();
+  // The worst of a part may be held by the border nearby. It must not stop the others: other runs
+  // take up what is left, and these must be few.
+  const int mostIdle = this->mesh().hasBorder() ? MostIdleOfPart : MostIdle;
   bool more = true;
   int idle = 0;
-  for (std::size_t k = 0; k < stages.size() && more && idle < MostIdle; ++k)
+  for (std::size_t k = 0; k < stages.size() && more && idle < mostIdle; ++k)
   {
     if (this->leavesMany_ && stages[k] < this->options_.targetQuality)
     {
@@ -313,7 +337,7 @@ void Schedule<D, Shape>::optimize()
       // Nothing comes after the last stage: it may use the reserve.
       more = this->polishAndRepair(stages[k], k + 1 == stages.size());
     }
-    // Past the target the run ends after MostIdle stages that did not lift the worst cell.
+    // Past the target the run ends after some stages that did not lift the worst cell.
     const bool stuck = this->worst() < before + Gain;
     idle = past && stuck ? idle + 1 : 0;
   }
@@ -364,6 +388,7 @@ void Schedule<D, Shape>::record(double target, int pass)
   const bool weighed = this->weights_.areOn();
   this->weights_.switchOff();
   PassRecord row = summarize(this->mesh(), this->options_.targetQuality, &inverted);
+  this->worstInside_ = this->findWorstInside();
   if (weighed)
   {
     this->weights_.switchOn();

@@ -98,7 +98,7 @@ long Schedule<D, Shape>::collect(double target, int level, std::vector<Index>& b
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
     if (this->mesh().quality(c) < target && this->mesh().isAlive(c) &&
-      !this->caps_.isCapped(this->mesh(), c))
+      !(this->isPast(target) && this->isLeft(c)) && !this->caps_.isCapped(this->mesh(), c))
     {
       ++below;
       if (this->worthTrying(c, level))
@@ -108,6 +108,20 @@ long Schedule<D, Shape>::collect(double target, int level, std::vector<Index>& b
     }
   }
   return below;
+}
+
+/// The worst quality of the cells that are not left to other runs; 1 if there are none.
+template <int D, class Shape>
+double Schedule<D, Shape>::findWorstInside() const
+{
+  double worst = 1.0;
+  for (Index c = 0; this->mesh().hasBorder() && c < this->mesh().numberOfCellSlots(); ++c)
+  {
+    // The quality first: hardly any cell is worse than all before.
+    const double q = this->mesh().quality(c);
+    worst = q < worst && this->mesh().isAlive(c) && !this->isLeft(c) ? q : worst;
+  }
+  return worst;
 }
 }
 }

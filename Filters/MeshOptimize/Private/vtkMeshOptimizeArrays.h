@@ -41,6 +41,8 @@ struct InputArrays
   vtkDataArray* Corners = nullptr;
   vtkDataArray* Patch = nullptr;
   bool PatchIsAtPoints = false;
+  /// Of a part of a mesh on many ranks: see MeshInput::borderPoints. Nobody chooses it.
+  vtkDataArray* BorderPoints = nullptr;
 };
 
 /**

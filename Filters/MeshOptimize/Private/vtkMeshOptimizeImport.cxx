@@ -34,6 +34,15 @@ void ImportFixedPoints(const Cells& cells, vtkDataArray* mask, MeshInput<D>& inp
   }
 }
 
+template <int D>
+void ImportBorder(vtkDataArray* mask, MeshInput<D>& input)
+{
+  for (vtkIdType p = 0; mask && p < mask->GetNumberOfTuples(); ++p)
+  {
+    input.borderPoints.push_back(mask->GetComponent(p, 0) != 0.0);
+  }
+}
+
 /**
  * An edge of a plane mesh is a facet.
  */
@@ -98,6 +107,7 @@ MeshInput<D> ImportMesh(const Model<D>& model)
     model.Grid, model.Cells.Simplices, model.Frame);
   input.regions = vtkMeshBridge::ReadRegions(model.Arrays.Region, model.Cells);
   ImportFixedPoints(model.Cells, model.Arrays.FixedPoints, input);
+  ImportBorder(model.Arrays.BorderPoints, input);
   ImportKept(model.Grid, model.Cells, input);
   return input;
 }

@@ -39,6 +39,8 @@ namespace
 constexpr int MostRounds = 4;
 /// Layers of cells around a border that take part in each round.
 constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
+/// At least so many with the best effort, of which pieces leave more to the first round.
+constexpr int LayersOfBest = 3;
 /// The part of what may still grow that a round uses; the last may use all.
 constexpr double ShareOfRound = 0.75;
 /// If a rank has more than this times the mean, the mesh is divided anew.
@@ -66,13 +68,13 @@ std::vector<vtkIdType> ReadIds(vtkDataArray* array, const std::vector<vtkIdType>
 }
 
 // Whether a point is fixed travels as a flag of the part, not as an array.
-vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part)
+vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part, PointFlag flag)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetNumberOfValues(part.GetNumberOfPoints());
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
-    mask->SetValue(p, (part.Flags[p] & PointFlag::Fixed) != 0);
+    mask->SetValue(p, (part.Flags[p] & flag) != 0);
   }
   return mask;
 }
@@ -154,8 +156,7 @@ std::string Rounds::Read(
   vtkDataArray* cellIds = input->GetCellData()->GetGlobalIds();
   this->Ids.HasPointIds = this->All.IsAny(pointIds && count > 0);
   this->Ids.HasCellIds = this->All.IsAny(cellIds && count > 0);
-  const std::vector<CellFacet> open = FindOpenFacets(
-    this->Mine, std::vector<char>(this->Mine.PointIds.size(), 1));
+  const std::vector<CellFacet> open = FindOpenFacets(this->Mine);
   // Before points are joined: copies would look like cracks then. Ids of cells say more of them.
   const bool coincide = DoPiecesCoincide(this->All, this->Mine, open, this->Normal);
   if (!coincide || this->Ids.HasCellIds)
@@ -253,11 +254,13 @@ void Rounds::NumberNew(Part& part)
 void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
 {
   // What has grown on all ranks so far, also in rounds before.
-  const auto now = this->All.Sum(this->Mine.GetNumberOfCells());
+  const bool isFirst = this->Result.Report.history.empty();
+  const vtkIdType now = isFirst ? this->CellsAtFirst : this->Result.NumberOfCells;
   const long gained = static_cast<long>(now - this->CellsAtFirst);
   Request request = this->Wanted;
   request.Options.mostGrowth = Portion(std::max(0L, this->Growth - gained), weight * share);
   request.Options.mostShrink = Portion(std::max(0L, this->Shrink - std::max(0L, -gained)), weight);
+  request.Options.mostQuality = this->IsBest() ? this->Most : -1.0;
   request.Control = vtkMeshBridge::MakeControl(
     request.Filter, request.NumberOfThreads, this->First, this->Last);
   std::string error;
@@ -270,11 +273,15 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   if (!zone.CellIds.empty())
   {
     const auto grid = MakeGrid(zone, this->Points, this->Cells);
+    ForgetCells(zone); // the grid has all that is needed of them: a run takes much memory
     InputArrays arrays;
     error = FindInputArrays(request.Filter, grid, arrays);
     // A mask of the part as it is now: at moved points an interpolated array has fractions.
-    const auto mask = MaskOf(zone); // the array itself is interpolated at moved points
+    const auto mask = MaskOf(zone, PointFlag::Fixed); // the array is interpolated at moved points
     arrays.FixedPoints = mask;
+    // With less effort no run goes on after the target, and all cells up to it get their tries.
+    const auto border = MaskOf(zone, Border);
+    arrays.BorderPoints = this->IsBest() ? border : nullptr;
     vtkNew<vtkUnstructuredGrid> after;
     error = error.empty() ? OptimizeGrid(grid, arrays, request, after, outcome) : error;
     if (error.empty())
@@ -345,6 +352,10 @@ void Rounds::OptimizePieces()
   // Before any run, which may turn cells.
   this->IsTangled = this->All.IsAny(HasNotPositive(this->Mine, this->Normal));
   this->FindZone();
+  if (this->IsBest())
+  {
+    this->FindGoalOfPieces();
+  }
   // What is at a border cannot get much better now: its share is left for the rounds.
   double inside = 0.0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
@@ -415,12 +426,17 @@ void Rounds::OptimizeBorders()
 // Every step is collective, also for ranks without a band.
 void Rounds::Round(int round)
 {
-  const Signature before = this->Sign();
+  const Signature before = this->Present ? *this->Present : this->Sign();
   // Ids and places tell whether a move has lost anything.
   Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isMoved;
-  Move(this->All, FindBands(this->All, this->Mine, shared, Layers[round]), this->Points,
-    this->Cells, this->Mine, isMoved);
+  const int layers = this->IsBest() ? std::max(LayersOfBest, Layers[round]) : Layers[round];
+  const std::vector<int> target = FindBands(this->All, this->Mine, shared, layers);
+  if (this->IsBest())
+  {
+    this->FindGoalOfBands(target);
+  }
+  Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
   shared = FindShared(this->All, this->Mine);
   std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(problem.empty() ? "" : "After cells have moved between ranks " + problem + ".");
@@ -432,9 +448,14 @@ void Rounds::Round(int round)
       this->Mine.Flags[p] &= static_cast<std::uint8_t>(~Waiting);
     }
   }
+  if (this->IsBest())
+  {
+    this->MarkBorder(shared, isMoved);
+  }
   // Part 0 stays, part 1 is the band that this rank runs.
   std::vector<Part> parts = Split(
     this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
+  this->Mine = Part(); // one copy of the mesh at a time, beside that for a fault
   Outcome run;
   const Part band = this->IsTangled ? parts[1] : Part(); // shares the arrays
   // Growth is shared out by cells.
@@ -460,13 +481,15 @@ void Rounds::Round(int round)
     }
     this->All.Agree(undoes ? Join(parts, this->Mine) : "");
   }
-  problem = Compare(before, this->Sign(), false, this->IsTangled);
+  const Signature after = this->Sign();
+  problem = Compare(before, after, false, this->IsTangled);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);
   this->Record("borders", run);
   this->WaitWhereStuck();
   this->MustStop(run);
+  this->Present = after; // last, since a fault up to here takes back the round
 }
 
 } // namespace vtkMeshOptimizeBridge

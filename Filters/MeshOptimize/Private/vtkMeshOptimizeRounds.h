@@ -11,6 +11,7 @@
 #include "vtkMeshRanksIds.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,7 +74,12 @@ private:
   void UndoConflicts(const vtkMeshRanks::Part& before, Outcome& run);
   void NumberNew(vtkMeshRanks::Part& part);
   void Round(int round);
+  bool IsBest() const { return this->Wanted.Options.effort == meshopt::Effort::Best; }
   double GetGoal() const;
+  void MarkBorder(const vtkMeshRanks::Shared& shared, const std::vector<char>& isMoved);
+  void WidenBorder(int layers);
+  void FindGoalOfPieces();
+  void FindGoalOfBands(const std::vector<int>& target);
   bool IsDone();
   void WaitWhereStuck();
   bool MustStop(const Outcome& run);
@@ -102,6 +108,10 @@ private:
   double First = 0.0, Last = 1.0; ///< the part of the progress that runs now
   meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
   vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state
+  std::optional<vtkMeshRanks::Signature> Present;            ///< the same, after a round
+  /// How far the best effort goes past the target in the runs of now: what holds the whole from
+  /// elsewhere holds each part.
+  double Most = 1.0;
   /// Cells of the input are flat or inverted, or numbered so: runs may turn cells, and what two of
   /// them make side by side may not fit together.
   bool IsTangled = false;

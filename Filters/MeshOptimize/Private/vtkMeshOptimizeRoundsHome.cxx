@@ -69,7 +69,7 @@ void Rounds::SendHome()
         before = this->Mine; // shares the arrays
         isSent = true;
         // The mesh of all ranks must be the same as before, cell by cell, wherever its cells are.
-        const Signature whole = this->Sign();
+        const Signature whole = this->Present ? *this->Present : this->Sign();
         std::vector<char> isMoved;
         Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
         const std::string problem = Compare(whole, this->Sign(), true);

@@ -143,8 +143,19 @@ void Rounds::Record(const char* stage, const Outcome& run)
   const double target = this->Wanted.Options.targetQuality;
   const Shared shared = FindShared(this->All, this->Mine);
   const Figures now = Measure(this->All, this->Mine, shared, target);
-  this->Surface = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
-    this->Wanted.Options.measure, target, this->Plane);
+  // The surface stays, and so does its bound, once it is known on which side of it the mesh is.
+  // Caps are asked for cells under the target only.
+  const bool isKnown = this->Result.Report.history.size() > 1 &&
+    this->Result.Report.invertedAfter == 0;
+  if (isKnown && !this->IsBest() && now.BelowTarget == 0)
+  {
+    this->Surface.IsCapped.assign(this->Mine.CellIds.size(), 0);
+  }
+  else
+  {
+    this->Surface = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
+      this->Wanted.Options.measure, this->GetGoal(), this->Plane);
+  }
   vtkIdType capped = 0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {

@@ -136,6 +136,15 @@ double DistanceOf(const meshopt::SlidingSurface& surface, const meshopt::Simplex
 }
 
 /**
+ * Whether a point that moves gets other data: all but global ids change with the place.
+ */
+bool NeedsSamples(vtkDataSetAttributes* data)
+{
+  const int ids = data->GetGlobalIds() ? 1 : 0;
+  return data->GetNumberOfArrays() > ids;
+}
+
+/**
  * Node sets come after the other point data, whose interpolated values they replace.
  */
 template <int D>
@@ -150,7 +159,7 @@ void Export(const Request& request, const typename SurfaceOf<D>::type& surface, 
   }
   ExportMesh(model, map, output);
   std::vector<Sample> samples;
-  if (input->GetPointData()->GetNumberOfArrays() > 0 && !map.SampledPoints.empty())
+  if (NeedsSamples(input->GetPointData()) && !map.SampledPoints.empty())
   {
     samples = SampleInput(model, map);
   }

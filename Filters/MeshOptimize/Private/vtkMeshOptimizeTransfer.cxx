@@ -113,6 +113,8 @@ void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool 
   {
     sources->SetId(id, map.PointToSlot[id]);
   }
+  // New points without a sample get the value of new ones afterwards, whatever is copied here.
+  std::fill(sources->begin() + map.NumberOfOldPoints, sources->end(), 0);
   for (std::size_t k = 0; k < samples.size(); ++k)
   {
     const vtkIdType id = map.SampledPoints[k];

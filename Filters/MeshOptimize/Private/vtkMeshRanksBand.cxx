@@ -128,6 +128,8 @@ void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& poin
   std::transform(
     target.begin(), target.end(), place.begin(), [&](int t) { return t < 0 ? count : t; });
   std::vector<Part> parts = Split(part, place, count + 1, count);
+  const int corners = part.Corners;
+  part = Part(); // one copy of the mesh at a time
   std::vector<Bytes> out(count);
   for (int r = 0; r < count; ++r)
   {
@@ -143,13 +145,11 @@ void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& poin
   {
     if (!bytes.empty())
     {
-      here.push_back(Unpack(bytes, part.Corners, points, cells));
+      here.push_back(Unpack(bytes, corners, points, cells));
     }
   }
-  Part joined;
   // Two ranks that disagree about a cell would have it twice, or not at all.
-  ranks.Agree(Join(here, joined));
-  part = std::move(joined);
+  ranks.Agree(Join(here, part));
   isMoved.assign(part.CellIds.size(), 1);
   for (const vtkIdType id : stayed) // both ascend
   {

@@ -191,8 +191,28 @@ void VisitFacets(const Part& part, const std::vector<char>& isWanted,
   }
 }
 
-std::vector<CellFacet> FindOpenFacets(const Part& part, const std::vector<char>& isWanted)
+std::vector<CellFacet> FindOpenFacets(const Part& part)
 {
+  // Facets of two cells cancel out, so that most points are known to have no other, and few facets
+  // have to be sorted: this takes a fraction of the time and memory.
+  std::vector<std::uint64_t> left(part.PointIds.size(), 0);
+  for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
+  {
+    for (int local = 0; local < part.Corners; ++local)
+    {
+      std::uint64_t hash = 0;
+      const std::array<vtkIdType, 3> nodes = OrientedNodes(part, c, local);
+      for (int i = 0; i < part.Corners - 1; ++i)
+      {
+        hash += meshopt::scramble(static_cast<std::uint64_t>(nodes[i]));
+      }
+      hash = meshopt::scramble(hash);
+      std::for_each(
+        nodes.begin(), nodes.begin() + part.Corners - 1, [&](vtkIdType p) { left[p] ^= hash; });
+    }
+  }
+  std::vector<char> isWanted(left.size());
+  std::transform(left.begin(), left.end(), isWanted.begin(), [](auto hash) { return hash != 0; });
   std::vector<CellFacet> open;
   VisitFacets(part, isWanted,
     [&](const CellFacet* first, const CellFacet* last)

@@ -42,9 +42,9 @@ void VisitFacets(const Part& part, const std::vector<char>& isWanted,
   const std::function<void(const CellFacet* first, const CellFacet* last)>& visit);
 
 /**
- * The facets that have one cell in this part, with all nodes wanted.
+ * The facets that have one cell in this part.
  */
-std::vector<CellFacet> FindOpenFacets(const Part& part, const std::vector<char>& isWanted);
+std::vector<CellFacet> FindOpenFacets(const Part& part);
 
 /**
  * One value for each point: whether it has this flag.

@@ -115,6 +115,14 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
     std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 2; });
   }
   std::vector<vtkIdType> index(use.size(), -1);
+  const std::size_t most = use.size() - std::count(use.begin(), use.end(), 1);
+  pointsOfGrid.reserve(most);
+  part.Coordinates.reserve(3 * most);
+  part.Flags.reserve(most);
+  part.PointIds.reserve(most);
+  part.Cells.reserve(simplices.size() * corners);
+  part.CellIds.reserve(simplices.size());
+  part.Origin.reserve(simplices.size());
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
     // A point of simplices, or of no cell at all. Those of other cells only stay where they are.
@@ -205,6 +213,18 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   std::copy(part.Home.begin(), part.Home.end(), home->GetPointer(0));
   grid->GetCellData()->AddArray(home);
   return grid;
+}
+
+void ForgetCells(Part& part)
+{
+  // The number of arrays still counts: see ReadGrid().
+  Part points;
+  std::swap(points.CellIds, part.CellIds);
+  std::swap(points.Cells, part.Cells);
+  std::swap(points.Quality, part.Quality);
+  std::swap(points.Origin, part.Origin);
+  std::swap(points.Home, part.Home);
+  std::swap(points.Kept, part.Kept);
 }
 
 Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain)

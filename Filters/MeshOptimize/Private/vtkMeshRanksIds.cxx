@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -309,6 +310,12 @@ void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const N
  */
 void Order(Part& part)
 {
+  const auto ascend = [](const std::vector<vtkIdType>& ids)
+  { return std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end(); };
+  if (ascend(part.PointIds) && ascend(part.CellIds))
+  {
+    return; // mostly they do
+  }
   // Join() orders by id, also a single part.
   Part ordered;
   Join({ part }, ordered); // ids are unique

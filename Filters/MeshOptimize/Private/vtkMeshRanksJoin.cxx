@@ -7,6 +7,8 @@
 #include "vtkNew.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
 
 namespace vtkMeshRanks
 {
@@ -31,15 +33,24 @@ struct Source
 std::vector<Source> ListSources(const std::vector<Part>& parts, std::vector<vtkIdType> Part::*ids)
 {
   std::vector<Source> sources;
+  sources.reserve(std::accumulate(parts.begin(), parts.end(), std::size_t(0),
+    [&](std::size_t n, const Part& part) { return n + (part.*ids).size(); }));
   for (std::size_t k = 0; k < parts.size(); ++k)
   {
     const std::vector<vtkIdType>& list = parts[k].*ids;
+    const auto first = static_cast<std::ptrdiff_t>(sources.size());
     for (std::size_t i = 0; i < list.size(); ++i)
     {
       sources.push_back({ list[i], static_cast<int>(k), static_cast<vtkIdType>(i) });
     }
+    // Mostly they ascend, and a large part meets small ones: nothing is sorted then.
+    const auto middle = sources.begin() + first;
+    if (!std::is_sorted(middle, sources.end()))
+    {
+      std::sort(middle, sources.end());
+    }
+    std::inplace_merge(sources.begin(), middle, sources.end());
   }
-  std::sort(sources.begin(), sources.end());
   return sources;
 }
 
@@ -83,7 +94,13 @@ std::string JoinPoints(
   {
     newIndex.emplace_back(part.PointIds.size());
   }
-  for (const Source& o : ListSources(parts, &Part::PointIds))
+  const std::vector<Source> all = ListSources(parts, &Part::PointIds);
+  sources.reserve(all.size());
+  result.PointIds.reserve(all.size());
+  result.Coordinates.reserve(3 * all.size());
+  result.Flags.reserve(all.size());
+  result.Hint.reserve(all.size());
+  for (const Source& o : all)
   {
     // Sorted by id: the same point of several parts comes in a row.
     const Part& part = parts[o.Part];
@@ -112,6 +129,12 @@ std::string JoinCells(
   const std::vector<Part>& parts, const std::vector<std::vector<vtkIdType>>& newIndex, Part& result)
 {
   const std::vector<Source> sources = ListSources(parts, &Part::CellIds);
+  result.CellIds.reserve(sources.size());
+  result.Cells.reserve(sources.size() * result.Corners);
+  result.Quality.reserve(sources.size());
+  result.Origin.reserve(sources.size());
+  result.Home.reserve(sources.size());
+  result.Kept.reserve(sources.size());
   for (const Source& o : sources)
   {
     // Points may be shared, cells may not.

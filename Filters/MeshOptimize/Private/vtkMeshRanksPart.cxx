@@ -226,13 +226,7 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
       u = u == -1 || u == target[c] ? target[c] : -2;
     }
   }
-  // Only flags are written: the copy keeps the arrays of the caller unchanged.
-  Part marked = part; // arrays are shared
   std::vector<char> isUsed(n, 0);
-  for (vtkIdType p = 0; p < n; ++p)
-  {
-    marked.Flags[p] |= user[p] == -2 ? Skin : 0;
-  }
   std::vector<Part> result;
   std::vector<vtkIdType> newIndex(n, -1);
   for (int k = 0; k < parts; ++k)
@@ -240,7 +234,7 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
     // Most parts of a piece get nothing: no need to look at all points for them.
     if (k != rest && cells[k].empty())
     {
-      result.push_back(Extract(marked, {}, {}, newIndex));
+      result.push_back(Extract(part, {}, {}, newIndex));
       continue;
     }
     std::fill(isUsed.begin(), isUsed.end(), 0);
@@ -261,7 +255,11 @@ std::vector<Part> Split(const Part& part, const std::vector<int>& target, int pa
         points.push_back(p);
       }
     }
-    result.push_back(Extract(marked, points, cells[k], newIndex));
+    result.push_back(Extract(part, points, cells[k], newIndex));
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      result.back().Flags[i] |= user[points[i]] == -2 ? Skin : 0;
+    }
   }
   return result;
 }

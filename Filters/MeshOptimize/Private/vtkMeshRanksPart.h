@@ -44,7 +44,8 @@ enum PointFlag : std::uint8_t
   Waiting = 1, ///< what lies around it has never been together in one run
   Fixed = 2,   ///< of the caller's fixed points
   Loose = 4,   ///< no cell of the input uses it
-  Skin = 8     ///< may be on the surface, or on several ranks
+  Skin = 8,    ///< may be on the surface, or on several ranks
+  Border = 16  ///< cells outside of the part that runs, or ran last, use it
 };
 
 /**
@@ -147,7 +148,12 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   const Part& part, const Schema& points, const Schema& cells);
 
 /**
- * What a run made of the grid of a part. Points and cells that are new have the id -1, and no
+ * Frees the memory of all that a part knows of its cells, for a ReadGrid() that follows.
+ */
+void ForgetCells(Part& part);
+
+/**
+ * What a run made of the grid of a part. `before` needs no cells. Points and cells that are new have the id -1, and no
  * flags. With `isAgain`, points that have moved or come get a hint: their data stem from data that
  * were interpolated before.
  */

@@ -123,8 +123,7 @@ Piece ReadPiece(const Ranks& ranks, vtkUnstructuredGrid* grid, const Request& re
   const bool lacksOne = !simplices.empty() &&
     ((numbering.HasPointIds && !pointIds) || (numbering.HasCellIds && !cellIds));
   ranks.Agree(lacksOne ? "Some ranks have global ids, this one has not." : "");
-  const std::vector<CellFacet> open = FindOpenFacets(
-    piece.Mesh, std::vector<char>(piece.Mesh.PointIds.size(), 1));
+  const std::vector<CellFacet> open = FindOpenFacets(piece.Mesh);
   Number(
     ranks, ReadIds(pointIds, chosen), ReadIds(cellIds, simplices), open, numbering, piece.Mesh);
   // Points of ghost cells have no place in the part, but their ids tell what they are copies of.

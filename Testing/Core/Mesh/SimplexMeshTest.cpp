@@ -145,6 +145,12 @@ TYPED_TEST(Mesh, ArraysOfAWrongLengthAreNamed)
     { "fixed", std::to_string(fixed.fixedPoints.size()),
       std::to_string(fixed.points.size()) + " points" },
     None, None);
+  MeshInput<D> border = jitteredGrid<D>(1, 0.0);
+  border.borderPoints.assign(border.points.size() + 1, 0);
+  expectError<D>(border,
+    { "border", std::to_string(border.borderPoints.size()),
+      std::to_string(border.points.size()) + " points" },
+    None, None);
 }
 
 TYPED_TEST(Mesh, EmptyInputIsAnEmptyMesh)

@@ -245,3 +245,47 @@ TYPED_TEST(WorstFirstStops, KeepsItsTimeLimit)
     EXPECT_EQ(bitsOf(mesh), before);
   }
 }
+
+// ---- parts of a mesh ----------------------------------------------------------------------------
+
+/// A part whose border is so bad that the certified bound of the part is far below the target.
+TEST(WorstFirstStops, BestGoesPastTheTargetBesideABadBorder)
+{
+  MeshInput<3> in = testMesh<3>(0.25, 3);
+  const double side = in.points.back()[0];
+  in.borderPoints.assign(in.points.size(), 0);
+  for (std::size_t p = 0; p < in.points.size(); ++p)
+  {
+    in.borderPoints[p] = in.points[p][0] == 0.0;
+  }
+  // One of its nodes nearly on the line between two neighbours: a needle that is kept.
+  std::size_t inside = 0;
+  while (in.points[inside][0] != 0.0 || in.points[inside][1] == 0.0 ||
+    in.points[inside][2] == 0.0 || in.points[inside][1] == side || in.points[inside][2] == side)
+  {
+    ++inside;
+  }
+  in.points[inside][1] *= 0.1;
+  Options options = target(0.5);
+  options.effort = Effort::Best;
+  const auto worstInside = [&](const SimplexMesh<3>& mesh)
+  {
+    double worst = 1.0;
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      const auto& nodes = mesh.nodes(c);
+      const bool isLeft = std::any_of(
+        nodes.begin(), nodes.end(), [&](Index p) { return mesh.isAtBorder(p); });
+      worst = mesh.isAlive(c) && !isLeft ? std::min(worst, mesh.quality(c)) : worst;
+    }
+    return worst;
+  };
+  SimplexMesh<3> whole = buildMesh(in), part = whole;
+  EXPECT_TRUE(part.hasBorder());
+  const Report report = run<3>(whole, options);
+  EXPECT_LT(report.bound, 0.5);
+  options.mostQuality = 1.0;
+  run<3>(part, options);
+  EXPECT_GT(worstInside(part), worstInside(whole));
+  EXPECT_GT(worstInside(part), 0.55);
+}
