@@ -33,8 +33,8 @@ double angleCap(double phi);
 /// isosceles.
 double angleCap2(double phi);
 
-/// The ends of the interval of angles at which angleCap() is at least c, 0 < c <= 1. Rounded outwards
-/// by at most `width`.
+/// The ends of the interval of angles at which angleCap() is at least c, 0 < c <= 1. Rounded
+/// outwards by at most `width`.
 double lowestAngle(double c, double width = 1e-9);
 double highestAngle(double c, double width = 1e-9);
 

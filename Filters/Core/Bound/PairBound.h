@@ -9,9 +9,9 @@
 
 namespace meshopt
 {
-/// Two facets have a common edge, at the angle theta in radians, 0 < theta < 2 pi. The greatest worst
-/// S (2.3) that the tetrahedra on both can have, in [0, 1]: a certified bound, rounded upwards by at
-/// most the relative `tolerance`, unless it takes too long to find. If `enough` is reached, the
+/// Two facets have a common edge, at the angle theta in radians, 0 < theta < 2 pi. The greatest
+/// worst S (2.3) that the tetrahedra on both can have, in [0, 1]: a certified bound, rounded up by
+/// at most the relative `tolerance`, unless it takes too long to find. If `enough` is reached, the
 /// result may be any value from `enough` on, which is cheaper. Both views must be usable.
 ///
 /// The function of ApexBound.h for each facet, V^(1/3) - lambda P, is concave in the node, and so

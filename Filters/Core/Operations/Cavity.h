@@ -45,6 +45,7 @@ public:
   {
     std::array<Index, 3> ids{ None, None, None }; ///< of a facet, or of an edge and None
     std::vector<Index> patches;                   ///< of the facets there
+    bool isNarrow = false; ///< no other facets are opened: the surface stays as it is
   };
   /// A facet of the surface that vanishes with the cavity.
   struct Opened
@@ -201,7 +202,7 @@ bool Cavity<D, Shape>::opens(const SimplexMesh<D>& mesh, Index c, int i)
   const Facet<D> key = sortedIds(mesh.facet(c, i));
   bool opens = std::all_of(this->opening_->ids.begin(), this->opening_->ids.end(),
     [&](Index p) { return p == None || hasId(key, p); });
-  for (int e = 0; e < Local<D>::numberOfEdges && !opens; ++e)
+  for (int e = 0; e < Local<D>::numberOfEdges && !opens && !this->opening_->isNarrow; ++e)
   {
     const Index a = mesh.nodes(c)[Local<D>::edges[e][0]], b = mesh.nodes(c)[Local<D>::edges[e][1]];
     opens = hasId(key, a) && hasId(key, b) && !mesh.isEdgeKept(c, e) &&

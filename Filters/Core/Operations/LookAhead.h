@@ -3,12 +3,13 @@
 /// Several changes that gain only together: a node is inserted even without gain, then the cells
 /// that became worse are improved, worst first. The whole is kept if all cells concerned end up
 /// better than the cell that started it. Otherwise it is undone, bit for bit. Where the surface
-/// takes part, a node of it may also vanish first.
+/// takes part, a node of it may also vanish first, or all nodes around are shaken (Shake.h).
 #ifndef meshopt_Operations_LookAhead_h
 #define meshopt_Operations_LookAhead_h
 
 #include "Operations/EdgeContraction.h"
 #include "Operations/NodeInsertion.h"
+#include "Operations/Shake.h"
 
 #include <functional>
 
@@ -31,7 +32,7 @@ public:
   {
     const bool isLong = level > Level::LookAhead;
     std::vector<Seed> seeds;
-    NodeInsertion<D, Shape>::findAllSeeds(judge, t, seeds);
+    NodeInsertion<D, Shape>::findAllSeeds(judge, t, isLong, seeds);
     const double old = judge.mesh().quality(t);
     this->insertion_.setUsualLimits(judge);
     bool done = false;
@@ -40,6 +41,10 @@ public:
       done = this->tryFrom(judge, t, seeds[k], old, isLong);
     }
     done = done || (judge.slides() && judge.mayRemoveNodes() && this->tryWithout(judge, t, isLong));
+    for (int k = 0; k < Shakes && !done && judge.slides() && isLong; ++k)
+    {
+      done = this->tryShaken(judge, t, k);
+    }
     judge.count(Operation::LookAhead, done);
     return done;
   }
@@ -48,6 +53,8 @@ private:
   using Seed = typename NodeInsertion<D, Shape>::Seed;
 
   static constexpr int Operations = 30, ManyOperations = 120; ///< most tries after the insertion
+  /// Ways to shake that are tried. With half as many dino ends at .34 instead of .46.
+  static constexpr int Shakes = 20;
   static constexpr double Promising = 0.3; ///< least quality at first, relative to the old one
 
   bool tryFrom(Judge<D, Shape>& judge, Index t, Seed& seed, double old, bool isLong)
@@ -105,6 +112,21 @@ private:
     return done;
   }
 
+  bool tryShaken(Judge<D, Shape>& judge, Index t, int number)
+  {
+    const double old = judge.mesh().quality(t);
+    const auto mark = judge.begin();
+    judge.start();
+    if (judge.switches().moveNodes && this->shake_.move(judge, t, number, Promising * old) &&
+      this->finish(judge, mark, old, true))
+    {
+      return true;
+    }
+    judge.rollback(mark);
+    judge.start();
+    return false;
+  }
+
   /// Improves what the first change affected. Keeps all if that reaches the goal.
   bool finish(
     Judge<D, Shape>& judge, const typename Judge<D, Shape>::Mark& mark, double old, bool isLong)
@@ -156,6 +178,7 @@ private:
   }
 
   NodeInsertion<D, Shape> insertion_;
+  Shake<D, Shape> shake_;
   Proposal<D> proposal_;
   Improve improve_;
 };

@@ -35,7 +35,7 @@ public:
   bool improve(Judge<D, Shape>& judge, Index t, int)
   {
     std::vector<Seed> seeds;
-    findAllSeeds(judge, t, seeds);
+    findAllSeeds(judge, t, judge.isThorough(), seeds);
     return this->improve(judge, t, seeds, usualLimits(judge));
   }
 
@@ -67,7 +67,9 @@ public:
   static void findSeeds(const SimplexMesh<D>& mesh, Index t, std::vector<Vec<D>>& seeds);
   /// Those, then, if the surface takes part, the midpoints of the cell's edges and the barycentres
   /// of its facets there.
-  static void findAllSeeds(const Judge<D, Shape>& judge, Index t, std::vector<Seed>& seeds);
+  /// `narrow`: those also as they are now (Opening::isNarrow).
+  static void findAllSeeds(
+    const Judge<D, Shape>& judge, Index t, bool narrow, std::vector<Seed>& seeds);
 
   /// Finds the cavity of point p (which no cell uses yet) if it starts at the seed, then moves it
   /// to its best place, which is returned in the seed. If `needsGain` and there is no gain, another
@@ -89,7 +91,7 @@ private:
     return limits;
   }
   static void addSurfaceSeed(const Judge<D, Shape>& judge, const std::array<Index, 3>& ids,
-    const std::vector<Index>& cells, std::vector<Seed>& seeds);
+    const std::vector<Index>& cells, bool narrow, std::vector<Seed>& seeds);
   double grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed);
   void rank(Judge<D, Shape>& judge, Index t, Index p);
   bool tryGain(Judge<D, Shape>& judge, Index t, Index p, Seed& seed,
@@ -183,7 +185,8 @@ void NodeInsertion<D, Shape>::loadCavity(const Judge<D, Shape>& judge, Index p)
 /// added there. `cells`: all that have it.
 template <int D, class Shape>
 void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
-  const std::array<Index, 3>& ids, const std::vector<Index>& cells, std::vector<Seed>& seeds)
+  const std::array<Index, 3>& ids, const std::vector<Index>& cells, bool narrow,
+  std::vector<Seed>& seeds)
 {
   const SimplexMesh<D>& mesh = judge.mesh();
   Seed seed;
@@ -210,42 +213,50 @@ void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
   }
   const Vec<D>&a = mesh.point(ids[0]), &b = mesh.point(ids[1]);
   seed.place = { Freedom::Patch, patches[0], 0.0 };
+  Vec<D> now = 0.5 * (a + b); // on the surface of the mesh
   if (ids[2] != None)
   {
-    seed.x = (a + b + mesh.point(ids[2])) / 3.0;
-    judge.surface()->project(seed.place, seed.x, seed.x);
-    seeds.push_back(seed);
-    return;
-  }
-  if (!judge.surface()->mayDivide(mesh, cells, ids[0], ids[1]))
-  {
-    return;
-  }
-  const auto span = judge.surface()->span(mesh, ids[0], ids[1]);
-  bool isKept = false;
-  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
-  {
-    const Simplex<D>& t = mesh.nodes(cells[0]);
-    const Index p = t[Local<D>::edges[e][0]], q = t[Local<D>::edges[e][1]];
-    isKept |= mesh.isEdgeKept(cells[0], e) &&
-      ((p == ids[0] && q == ids[1]) || (p == ids[1] && q == ids[0]));
-  }
-  seed.x = 0.5 * (a + b);
-  if (isKept)
-  {
-    seed.place = { Freedom::Curve, span->part, 0.5 * (span->from + span->to) };
-    seed.x = judge.surface()->at(span->part, seed.place.parameter);
+    now = (a + b + mesh.point(ids[2])) / 3.0;
+    judge.surface()->project(seed.place, now, seed.x);
   }
   else
   {
-    judge.surface()->project(seed.place, seed.x, seed.x);
+    if (!judge.surface()->mayDivide(mesh, cells, ids[0], ids[1]))
+    {
+      return;
+    }
+    const auto span = judge.surface()->span(mesh, ids[0], ids[1]);
+    bool isKept = false;
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      const Simplex<D>& t = mesh.nodes(cells[0]);
+      const Index p = t[Local<D>::edges[e][0]], q = t[Local<D>::edges[e][1]];
+      isKept |= mesh.isEdgeKept(cells[0], e) &&
+        ((p == ids[0] && q == ids[1]) || (p == ids[1] && q == ids[0]));
+    }
+    if (isKept)
+    {
+      seed.place = { Freedom::Curve, span->part, 0.5 * (span->from + span->to) };
+      seed.x = judge.surface()->at(span->part, seed.place.parameter);
+    }
+    else
+    {
+      judge.surface()->project(seed.place, now, seed.x);
+    }
   }
   seeds.push_back(seed);
+  // What changes the surface may be too far for it. The same without: the node stays where it is.
+  if (narrow)
+  {
+    seed.opening.isNarrow = true;
+    seed.place = judge.surface()->placeNear(seed.place, now, seed.x);
+    seeds.push_back(seed);
+  }
 }
 
 template <int D, class Shape>
 void NodeInsertion<D, Shape>::findAllSeeds(
-  const Judge<D, Shape>& judge, Index t, std::vector<Seed>& seeds)
+  const Judge<D, Shape>& judge, Index t, bool narrow, std::vector<Seed>& seeds)
 {
   const SimplexMesh<D>& mesh = judge.mesh();
   std::vector<Vec<D>> inside;
@@ -267,14 +278,14 @@ void NodeInsertion<D, Shape>::findAllSeeds(
       if (mesh.isBoundary(a) && mesh.isBoundary(b) && !mesh.ring(t, a, b, false, cells))
       {
         mesh.ring(t, a, b, true, cells);
-        addSurfaceSeed(judge, { a, b, None }, cells, seeds);
+        addSurfaceSeed(judge, { a, b, None }, cells, narrow, seeds);
       }
     }
     for (int i = 0; i < 4; ++i)
     {
       if (mesh.isKept(t, i))
       {
-        addSurfaceSeed(judge, mesh.facet(t, i), { t }, seeds);
+        addSurfaceSeed(judge, mesh.facet(t, i), { t }, narrow, seeds);
       }
     }
   }
@@ -288,6 +299,10 @@ double NodeInsertion<D, Shape>::maximize(Judge<D, Shape>& judge, Seed& seed)
   if (!seed.isOnSurface())
   {
     return this->problem_.maximize(seed.x, judge.enough(old), 0.5 * judge.gain(old));
+  }
+  if (seed.opening.isNarrow)
+  {
+    return this->problem_.evaluate(seed.x);
   }
   Directions<D> directions;
   if constexpr (D == 3)

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace meshopt
@@ -46,14 +47,17 @@ public:
   {
     this->cells_ = static_cast<double>(cells);
     this->freeNodes_ = static_cast<double>(freeNodes);
-    this->waste_ = WastePerCell[this->effort_] * this->cells_ +
-      WastePerNode[this->effort_] * this->freeNodes_;
+    this->waste_ = std::max(FewestWaste[this->effort_],
+      WastePerCell[this->effort_] * this->cells_ + WastePerNode[this->effort_] * this->freeNodes_);
   }
+  /// From now on anything may be spent: past the target.
+  void endLimits() { this->isLimited_ = false; }
 
   /// Evaluations that a pass may spend, and as many more for each cell that it lifts.
   double leftForPass() const
   {
-    return std::max(FewestPerPass * this->cells_, WasteShare * this->waste_);
+    return this->isLimited_ ? std::max(FewestPerPass * this->cells_, WasteShare * this->waste_)
+                            : Unlimited;
   }
   double pricePerLifted() const { return PricePerLifted[this->effort_]; }
   /// A pass has spent so much and lifted so many cells.
@@ -106,19 +110,21 @@ public:
   {
     const double allowed = PolishPerCell[this->effort_] * this->cells_ +
       PolishPerNode[this->effort_] * this->freeNodes_;
-    return std::max(FewestPerRise, allowed) - this->spent_;
+    return this->isLimited_ ? std::max(FewestPerRise, allowed) - this->spent_ : Unlimited;
   }
 
 private:
+  static constexpr double Unlimited = std::numeric_limits<double>::infinity();
   // All found by trying, on Delaunay meshes of random points and surfaces of CGAL (hard.py): what
   // lowers the time most before the worst cells end lower. In evaluations, by effort.
   static constexpr double PricePerLifted[] = { 1500.0, 3000.0, 3000.0 };
   static constexpr double WastePerCell[] = { 50.0, 100.0, 100.0 };
   static constexpr double WastePerNode[] = { 1000.0, 2500.0, 2500.0 };
-  static constexpr double WasteShare = 0.3;    ///< of what is left, for one pass
-  static constexpr double FewestPerPass = 3.0; ///< for each cell
-  /// Until the worst must have risen by ClearRise, relatively; and at least so many in all, since in
-  /// a small mesh one look-ahead takes 1e5.
+  static constexpr double FewestWaste[] = { 1e6, 3e6, 3e6 }; ///< a small mesh takes no time
+  static constexpr double WasteShare = 0.3;                  ///< of what is left, for one pass
+  static constexpr double FewestPerPass = 3.0;               ///< for each cell
+  /// Until the worst must have risen by ClearRise, relatively; and at least so many in all, since
+  /// in a small mesh one look-ahead takes 1e5.
   static constexpr double PolishPerCell[] = { 25.0, 80.0, 80.0 };
   static constexpr double PolishPerNode[] = { 1000.0, 3000.0, 3000.0 };
   static constexpr double FewestPerRise = 3e5;
@@ -129,6 +135,7 @@ private:
   static constexpr int FirstImpatience = 1;
 
   int effort_;
+  bool isLimited_ = true;
   double cells_ = 0.0, freeNodes_ = 0.0;
   double waste_ = 0.0; ///< that is still allowed; less than 0 if there was more
   std::array<int, NumberOfKinds> impatience_{};

@@ -106,7 +106,7 @@ void Schedule<D, Shape>::instruct(const Task& task)
   const bool polishes = !this->guard_ && !this->isPast(this->polishTarget_);
   const long looks = polishes ? std::max<long>(1, (this->mostLooks() - this->looks_) / n)
                               : std::numeric_limits<long>::max();
-  const double most = this->mostEvaluations(task) / n;
+  const double most = this->mostEvaluations() / n;
   // Where many cells are stuck, it does not pay to lift one of them by making others bad: all
   // changes are then guarded at the target. Otherwise the guard only keeps cells from falling below
   // the first stage.
@@ -153,12 +153,11 @@ void Schedule<D, Shape>::demand(Judge<D, Shape>& judge, const Task& task, bool c
 }
 
 /// How many evaluations a pass may spend, beside what it earns by lifting cells: see CostModel. Any
-/// number past the target, in a metric, and where the surface takes part.
+/// number in a metric, and where the surface takes part.
 template <int D, class Shape>
-double Schedule<D, Shape>::mostEvaluations(const Task& task) const
+double Schedule<D, Shape>::mostEvaluations() const
 {
-  const bool past = this->isPast(this->guard_ ? task.target : this->polishTarget_);
-  if (past || !this->model_.plain || this->slides())
+  if (!this->model_.plain || this->slides())
   {
     return std::numeric_limits<double>::infinity();
   }

@@ -94,7 +94,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     // others.
     const bool isWide = !past && wanted > PolishedCells;
     more = this->stage(std::nextafter(worst.back().first, 1.0));
-    if (this->mostEvaluations({ target, 0, 0 }) < 0.0)
+    if (this->mostEvaluations() < 0.0)
     {
       break;
     }

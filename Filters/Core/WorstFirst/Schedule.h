@@ -87,7 +87,7 @@ private:
   std::vector<Index> stillBad(double target) const;
   int numberOfChunks(std::size_t numberOfBadCells, int most) const;
   void instruct(const Task& task);
-  double mostEvaluations(const Task& task) const;
+  double mostEvaluations() const;
   bool isSpent(const Worker& worker) const;
   void demand(Judge<D, Shape>& judge, const Task& task, bool creeps) const;
   void gather();
@@ -329,6 +329,10 @@ void Schedule<D, Shape>::optimize()
       continue;
     }
     const bool past = this->isPast(stages[k]);
+    if (past)
+    {
+      this->costs_.endLimits(); // what is made bad here must be repaired at any price
+    }
     this->stageDone_ = static_cast<double>(k) / static_cast<double>(stages.size());
     const double before = this->worst();
     more = this->weighedStage(stages[k]);
@@ -343,9 +347,13 @@ void Schedule<D, Shape>::optimize()
   }
   // The fine polish also makes other cells worse. Bring those that can be repaired back to the
   // target.
-  if (more && this->options_.effort == Effort::Best && this->polish(stages.back(), true))
+  if (more && this->options_.effort == Effort::Best)
   {
-    this->weighedStage(this->options_.targetQuality);
+    this->costs_.endLimits();
+    if (this->polish(stages.back(), true))
+    {
+      this->weighedStage(this->options_.targetQuality);
+    }
   }
   this->run_.report.stopReason = this->reason();
 }

@@ -66,7 +66,7 @@ bool Schedule<D, Shape>::stage(double target)
       break;
     }
     const bool isSpent = !this->guard_ && !this->isPast(this->polishTarget_) &&
-      (this->looks_ >= this->mostLooks() || this->mostEvaluations({ target, level, below }) < 0.0);
+      (this->looks_ >= this->mostLooks() || this->mostEvaluations() < 0.0);
     const bool leavesMany = this->givesUpMany(target, below, belowBefore);
     this->leavesMany_ |= leavesMany;
     if (isSpent || leavesMany)
@@ -89,16 +89,17 @@ bool Schedule<D, Shape>::worthTrying(Index c, int level) const
 }
 
 /// Collects the cells under the target that are worth a try. Returns how many are under the target
-/// and not capped, tried or not.
+/// and not capped, tried or not. Past the target and when polishing, without those that are left.
 template <int D, class Shape>
 long Schedule<D, Shape>::collect(double target, int level, std::vector<Index>& bad) const
 {
   bad.clear();
   long below = 0;
+  const bool leaves = !this->guard_ || this->isPast(target);
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
     if (this->mesh().quality(c) < target && this->mesh().isAlive(c) &&
-      !(this->isPast(target) && this->isLeft(c)) && !this->caps_.isCapped(this->mesh(), c))
+      !(leaves && this->isLeft(c)) && !this->caps_.isCapped(this->mesh(), c))
     {
       ++below;
       if (this->worthTrying(c, level))

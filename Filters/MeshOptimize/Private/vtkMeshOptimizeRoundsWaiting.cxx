@@ -106,8 +106,8 @@ void Rounds::FindGoalOfPieces()
 }
 
 /**
- * Bands need not be much better than the worst cell that stays outside of all of them. `target`: where
- * cells move; those that stay have none.
+ * Bands need not be much better than the worst cell that stays outside of all of them. `target`:
+ * where cells move; those that stay have none.
  */
 void Rounds::FindGoalOfBands(const std::vector<int>& target)
 {
@@ -172,8 +172,8 @@ void Rounds::WaitWhereStuck()
   const double most = areFew ? target : worst + NearWorst * (target - worst);
   const bool isFar = !isPast && worst < NearBound * this->Surface.Bound;
   const bool isFirst = rows.size() == 3; // input, pieces, the first round at the borders
-  const bool isWorthIt = isFar || (isPast && isFirst) ||
-    now.worst > before.worst + LeastGain || (areFew && now.belowTarget < before.belowTarget);
+  const bool isWorthIt = isFar || (isPast && isFirst) || now.worst > before.worst + LeastGain ||
+    (areFew && now.belowTarget < before.belowTarget);
   const bool mayGrow = !this->IsShort || !this->MayTakeAll;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells() && isWorthIt && mayGrow; ++c)
   {

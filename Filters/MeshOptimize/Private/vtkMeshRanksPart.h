@@ -153,9 +153,9 @@ vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
 void ForgetCells(Part& part);
 
 /**
- * What a run made of the grid of a part. `before` needs no cells. Points and cells that are new have the id -1, and no
- * flags. With `isAgain`, points that have moved or come get a hint: their data stem from data that
- * were interpolated before.
+ * What a run made of the grid of a part. `before` needs no cells. Points and cells that are new
+ * have the id -1, and no flags. With `isAgain`, points that have moved or come get a hint: their
+ * data stem from data that were interpolated before.
  */
 Part ReadGrid(vtkUnstructuredGrid* grid, const Part& before, bool isAgain);
 

@@ -12,9 +12,9 @@ using meshopt::worstfirst::CostModel;
 TEST(CostModel, WhatAPassEarnsIsNotWasted)
 {
   CostModel costs(Effort::Default);
-  costs.open(1000, 100);
+  costs.open(100000, 1000);
   const double all = costs.leftForPass();
-  EXPECT_NEAR(all, 0.3 * (100.0 * 1000 + 2500.0 * 100), 1e-6);
+  EXPECT_NEAR(all, 0.3 * (100.0 * 100000 + 2500.0 * 1000), 1e-6);
   costs.notePass(1000 * static_cast<long>(costs.pricePerLifted()), 1000);
   EXPECT_EQ(costs.leftForPass(), all);
   costs.notePass(1000, 1000); // a cheap pass does not pay for others
@@ -29,6 +29,28 @@ TEST(CostModel, EachPassMayDoALittleWhateverWasWasted)
   costs.open(1000, 100);
   costs.notePass(100000000, 10);
   EXPECT_NEAR(costs.leftForPass(), 3.0 * 1000, 1e-6);
+}
+
+TEST(CostModel, ASmallMeshMayWasteAsMuchAsALargerOne)
+{
+  CostModel small(Effort::Default), larger(Effort::Default);
+  small.open(10, 1);
+  larger.open(1000, 100);
+  EXPECT_NEAR(small.leftForPass(), 0.3 * 3e6, 1e-6);
+  EXPECT_EQ(small.leftForPass(), larger.leftForPass());
+}
+
+TEST(CostModel, PastTheTargetNothingIsLimited)
+{
+  CostModel costs(Effort::Best);
+  costs.open(1000, 100);
+  costs.notePass(100000000, 10);
+  costs.notePolish(1, 0.1);
+  costs.notePolish(100000000, 0.1);
+  EXPECT_LT(costs.leftForPolish(), 0.0);
+  costs.endLimits();
+  EXPECT_EQ(costs.leftForPass(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(costs.leftForPolish(), std::numeric_limits<double>::infinity());
 }
 
 TEST(CostModel, AQuickRunMayWasteLess)
