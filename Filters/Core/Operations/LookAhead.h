@@ -53,7 +53,7 @@ private:
   using Seed = typename NodeInsertion<D, Shape>::Seed;
 
   static constexpr int Operations = 30, ManyOperations = 120; ///< most tries after the insertion
-  /// Ways to shake that are tried. With half as many dino ends at .34 instead of .46.
+  /// Ways to shake that are tried. With half as many dino ended clearly lower.
   static constexpr int Shakes = 20;
   static constexpr double Promising = 0.3; ///< least quality at first, relative to the old one
 

@@ -120,7 +120,7 @@ private:
   static constexpr double PricePerLifted[] = { 1500.0, 3000.0, 3000.0 };
   static constexpr double WastePerCell[] = { 50.0, 100.0, 100.0 };
   static constexpr double WastePerNode[] = { 1000.0, 2500.0, 2500.0 };
-  static constexpr double FewestWaste[] = { 1e6, 3e6, 3e6 }; ///< a small mesh takes no time
+  static constexpr double FewestWaste[] = { 1e6, 3e6, 3e6 }; ///< a small mesh is quick
   static constexpr double WasteShare = 0.3;                  ///< of what is left, for one pass
   static constexpr double FewestPerPass = 3.0;               ///< for each cell
   /// Until the worst must have risen by ClearRise, relatively; and at least so many in all, since
