@@ -103,7 +103,8 @@ def test_stuck_cells_spoil_no_others():
         cells += f.GetInput().GetNumberOfCells()
     # Passes that creep end: before they did, such a mesh took more than 44 tries to move a node for each cell.
     assert tried < 35 * cells, f"{tried} tries to move a node"
-    assert after < 0.6 * before, f"{before} cells under the target before, {after} after"
+    # They would be fewer if a small mesh might waste more (CostModel.h): .6 with five times as much.
+    assert after < 0.75 * before, f"{before} cells under the target before, {after} after"
 
 
 def test_no_stage_is_past_a_low_target():

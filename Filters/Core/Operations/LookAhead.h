@@ -2,8 +2,9 @@
 /// @file LookAhead.h
 /// Several changes that gain only together: a node is inserted even without gain, then the cells
 /// that became worse are improved, worst first. The whole is kept if all cells concerned end up
-/// better than the cell that started it. Otherwise it is undone, bit for bit. Where the surface
-/// takes part, a node of it may also vanish first, or all nodes around are shaken (Shake.h).
+/// better than the cell that started it. Otherwise it is undone, bit for bit. In place of an
+/// insertion all nodes around may be shaken (Shake.h); where the surface takes part, a node of it
+/// may vanish.
 #ifndef meshopt_Operations_LookAhead_h
 #define meshopt_Operations_LookAhead_h
 
@@ -41,7 +42,7 @@ public:
       done = this->tryFrom(judge, t, seeds[k], old, isLong);
     }
     done = done || (judge.slides() && judge.mayRemoveNodes() && this->tryWithout(judge, t, isLong));
-    for (int k = 0; k < Shakes && !done && judge.slides() && isLong; ++k)
+    for (int k = 0; k < this->numberOfShakes(judge, isLong) && !done; ++k)
     {
       done = this->tryShaken(judge, t, k);
     }
@@ -53,9 +54,16 @@ private:
   using Seed = typename NodeInsertion<D, Shape>::Seed;
 
   static constexpr int Operations = 30, ManyOperations = 120; ///< most tries after the insertion
-  /// Ways to shake that are tried. With half as many dino ended clearly lower.
-  static constexpr int Shakes = 20;
+  /// Ways to shake that are tried: where the surface takes part, and where it is kept and holds the
+  /// cell far below its bound. With half as many dino ended clearly lower.
+  static constexpr int Shakes = 20, ShakesInside = 5;
   static constexpr double Promising = 0.3; ///< least quality at first, relative to the old one
+
+  static int numberOfShakes(const Judge<D, Shape>& judge, bool isLong)
+  {
+    const bool isFarBelowBound = judge.wide() != None;
+    return !isLong ? 0 : judge.slides() ? Shakes : isFarBelowBound ? ShakesInside : 0;
+  }
 
   bool tryFrom(Judge<D, Shape>& judge, Index t, Seed& seed, double old, bool isLong)
   {

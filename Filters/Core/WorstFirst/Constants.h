@@ -40,9 +40,10 @@ inline constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 /// also up to the target.
 inline constexpr double NearBound = 0.97;
 inline constexpr std::size_t MostBelowBound = 80;
-/// What that must gain to be repeated, relative to the worst quality; and how often polishing and
-/// repair follow each other if it does, by effort.
+/// What that must gain, relative to the worst quality, to be repeated more than MostIdleCycles
+/// times; and how often polishing and repair follow each other at most, by effort.
 inline constexpr double WideGain = 0.02;
+inline constexpr int MostIdleCycles = 2;
 inline constexpr int PolishCycles[] = { 2, 8, 8 };
 /// Up to the target, so many look-aheads are spent on polishing in a run: 1 for so many cells, but
 /// at least FewestLooks. Each takes as long as a pass over thousands of cells.

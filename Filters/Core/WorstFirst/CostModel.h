@@ -120,14 +120,14 @@ private:
   static constexpr double PricePerLifted[] = { 1500.0, 3000.0, 3000.0 };
   static constexpr double WastePerCell[] = { 50.0, 100.0, 100.0 };
   static constexpr double WastePerNode[] = { 1000.0, 2500.0, 2500.0 };
-  static constexpr double FewestWaste[] = { 1e6, 3e6, 3e6 }; ///< a small mesh is quick
+  static constexpr double FewestWaste[] = { 4e5, 6e5, 6e5 }; ///< a small mesh is quick
   static constexpr double WasteShare = 0.3;                  ///< of what is left, for one pass
   static constexpr double FewestPerPass = 3.0;               ///< for each cell
   /// Until the worst must have risen by ClearRise, relatively; and at least so many in all, since
   /// in a small mesh one look-ahead takes 1e5.
-  static constexpr double PolishPerCell[] = { 25.0, 80.0, 80.0 };
-  static constexpr double PolishPerNode[] = { 1000.0, 3000.0, 3000.0 };
-  static constexpr double FewestPerRise = 3e5;
+  static constexpr double PolishPerCell[] = { 18.0, 48.0, 48.0 };
+  static constexpr double PolishPerNode[] = { 700.0, 1800.0, 1800.0 };
+  static constexpr double FewestPerRise = 2e5;
   static constexpr double ClearRise = 0.05;
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries
   static constexpr int Step = 2; ///< each pass in vain divides the tries by 2^Step

@@ -16,6 +16,7 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
 {
   const int most = PolishCycles[static_cast<int>(this->options_.effort)];
   bool more = true, again = true;
+  int idle = 0; // cycles in a row without gain: the repair in between may help the next one
   for (int cycle = 0; more && again; ++cycle)
   {
     const double before = this->worst();
@@ -25,8 +26,9 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
       return more;
     }
     const double now = this->worst();
+    idle = now > before * (1.0 + WideGain) ? 0 : idle + 1;
     again = cycle + 1 < most && !(target < this->options_.targetQuality) &&
-      now > before * (1.0 + WideGain) && this->isFarBelowBound();
+      idle <= (this->slides() ? 0 : MostIdleCycles) && this->isFarBelowBound();
     // Where the target is out of reach, the best effort does first what the usual one does: it then
     // ends no lower. (Only caps of edges may differ, by their rounding: they are listed up to
     // another limit.)

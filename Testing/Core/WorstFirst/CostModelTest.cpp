@@ -36,7 +36,7 @@ TEST(CostModel, ASmallMeshMayWasteAsMuchAsALargerOne)
   CostModel small(Effort::Default), larger(Effort::Default);
   small.open(10, 1);
   larger.open(1000, 100);
-  EXPECT_NEAR(small.leftForPass(), 0.3 * 3e6, 1e-6);
+  EXPECT_NEAR(small.leftForPass(), 0.3 * 6e5, 1e-6);
   EXPECT_EQ(small.leftForPass(), larger.leftForPass());
 }
 
@@ -106,14 +106,14 @@ TEST(CostModel, PolishingEndsUnlessTheWorstRises)
   for (CostModel* c : { &costs, &inside })
   {
     c->notePolish(1, 0.1); // the first worst is a rise over nothing
-    c->notePolish(700000, 0.102);
+    c->notePolish(400000, 0.102);
   }
-  EXPECT_NEAR(costs.leftForPolish(), 80.0 * 10000 - 700000, 1e-6);
-  EXPECT_NEAR(inside.leftForPolish(), costs.leftForPolish() + 3000.0 * 1000, 1e-6);
+  EXPECT_NEAR(costs.leftForPolish(), 48.0 * 10000 - 400000, 1e-6);
+  EXPECT_NEAR(inside.leftForPolish(), costs.leftForPolish() + 1800.0 * 1000, 1e-6);
   costs.notePolish(200000, 0.104);
   EXPECT_LT(costs.leftForPolish(), 0.0);
   costs.notePolish(1, 0.106); // 0.1 + 5 % is passed: it starts again
-  EXPECT_NEAR(costs.leftForPolish(), 80.0 * 10000, 1e-6);
+  EXPECT_NEAR(costs.leftForPolish(), 48.0 * 10000, 1e-6);
 }
 
 TEST(CostModel, ASmallMeshMayBePolishedForALookAheadOrTwo)
@@ -121,7 +121,7 @@ TEST(CostModel, ASmallMeshMayBePolishedForALookAheadOrTwo)
   CostModel costs(Effort::Quick);
   costs.open(10, 1);
   costs.notePolish(1, 0.1);
-  costs.notePolish(299999, 0.1);
+  costs.notePolish(199999, 0.1);
   EXPECT_GT(costs.leftForPolish(), 0.0);
   costs.notePolish(2, 0.1);
   EXPECT_LT(costs.leftForPolish(), 0.0);
