@@ -8,6 +8,7 @@
     --effort quick|default|best  default: quick
     --growth G                   growth budget, default .15
     --limit SECONDS              time limit of one run, default 60
+    --scan                       KeepFeatures off: ridges and corners count as surface only
     --judge PROGRAM              called as  PROGRAM AFTER.vtu --before BEFORE.vtu --tolerance T; exit status 0: no fault
     --output FOLDER              where the optimized meshes are written (default: a temporary one)
 
@@ -37,6 +38,7 @@ def optimize(grid, tolerance, arguments):
     if tolerance is not None:
         f.SetBoundaryModeToSlide()
         f.SetSurfaceTolerance(tolerance)
+        f.SetKeepFeatures(not arguments.scan)
     f.Update()
     return f
 
@@ -48,6 +50,7 @@ def main():
     parser.add_argument("--effort", choices=EFFORTS, default="quick")
     parser.add_argument("--growth", type=float, default=0.15)
     parser.add_argument("--limit", type=float, default=60.0)
+    parser.add_argument("--scan", action="store_true")
     parser.add_argument("--judge")
     parser.add_argument("--output")
     arguments = parser.parse_args()

@@ -61,7 +61,7 @@ vtkIdType Find(const Riding& riding, const Facet<3>& key)
 // points.
 Riding ListTriangles(vtkUnstructuredGrid* grid)
 {
-  Riding all, once;
+  Riding all;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
     if (grid->GetCellType(c) == VTK_TRIANGLE)
@@ -72,18 +72,7 @@ Riding ListTriangles(vtkUnstructuredGrid* grid)
       all.emplace_back(KeyOf(ids), c);
     }
   }
-  // Sorted by points: the same three points stand together.
-  std::sort(all.begin(), all.end());
-  for (std::size_t k = 0; k < all.size(); ++k)
-  {
-    const bool isTwice = (k > 0 && all[k - 1].first == all[k].first) ||
-      (k + 1 < all.size() && all[k + 1].first == all[k].first);
-    if (!isTwice)
-    {
-      once.push_back(all[k]);
-    }
-  }
-  return once;
+  return WithoutTwins(all);
 }
 
 /**

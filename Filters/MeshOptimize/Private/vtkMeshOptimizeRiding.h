@@ -11,6 +11,8 @@
 
 #include "Surface/SlidingSurface.h"
 
+#include <algorithm>
+
 namespace vtkMeshOptimizeBridge
 {
 
@@ -30,6 +32,25 @@ void ForKeptFacets(const meshopt::SimplexMesh<3>& mesh, F&& f)
       }
     }
   }
+}
+
+/**
+ * The cells whose points no other one has, sorted; `all` is sorted, too.
+ */
+template <class Key>
+std::vector<std::pair<Key, vtkIdType>> WithoutTwins(std::vector<std::pair<Key, vtkIdType>>& all)
+{
+  std::sort(all.begin(), all.end());
+  std::vector<std::pair<Key, vtkIdType>> once;
+  for (auto first = all.begin(), last = first; first != all.end(); first = last)
+  {
+    last = std::find_if(first, all.end(), [&](const auto& c) { return c.first != first->first; });
+    if (last - first == 1)
+    {
+      once.push_back(*first);
+    }
+  }
+  return once;
 }
 
 /**

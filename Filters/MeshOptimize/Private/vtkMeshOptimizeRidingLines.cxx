@@ -3,6 +3,8 @@
 // the edge of the input that it lies on, and so the line whose data it gets.
 #include "vtkMeshOptimizeRidingLines.h"
 
+#include "vtkMeshOptimizeRiding.h"
+
 #include "vtkMeshBridgeValues.h"
 
 #include "vtkCellType.h"
@@ -42,7 +44,7 @@ std::ptrdiff_t FindEntry(const std::vector<std::pair<Key, vtkIdType>>& entries, 
  */
 Lines ListLines(vtkUnstructuredGrid* grid)
 {
-  Lines all, once;
+  Lines all;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
     vtkIdType n = 0;
@@ -57,18 +59,7 @@ Lines ListLines(vtkUnstructuredGrid* grid)
         meshopt::sortedIds(static_cast<Index>(ids[0]), static_cast<Index>(ids[1])), c);
     }
   }
-  // Sorted by points: lines on the same edge stand together.
-  std::sort(all.begin(), all.end());
-  for (std::size_t k = 0; k < all.size(); ++k)
-  {
-    const bool isTwice = (k > 0 && all[k - 1].first == all[k].first) ||
-      (k + 1 < all.size() && all[k + 1].first == all[k].first);
-    if (!isTwice)
-    {
-      once.push_back(all[k]);
-    }
-  }
-  return once;
+  return WithoutTwins(all);
 }
 
 /// A face of a tetrahedron that has a line as an edge: number of the line, sorted points, region.
