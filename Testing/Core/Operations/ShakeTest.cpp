@@ -47,7 +47,7 @@ TEST(Shake, MovesNodesOfTheSurfaceOnIt)
   Shaking shake;
   const SimplexMesh<3> before = b.mesh;
   const double volume = b.mesh.volume();
-  std::array<int, 4> moved{};
+  std::array<int, NumberOfFreedoms> moved{};
   for (Index t = 0; t < b.mesh.numberOfCellSlots(); ++t)
   {
     b.judge.start();
