@@ -41,10 +41,12 @@ public:
     {
       done = this->tryFrom(judge, t, seeds[k], old, isLong);
     }
-    done = done || (judge.slides() && judge.mayRemoveNodes() && this->tryWithout(judge, t, isLong));
+    done = done ||
+      (judge.slides() && judge.mayRemoveNodes() && this->tryWithout(judge, t, old, isLong));
     for (int k = 0; k < this->numberOfShakes(judge, isLong) && !done; ++k)
     {
-      done = this->tryShaken(judge, t, k);
+      done = this->attempt(
+        judge, old, isLong, [&] { return this->shake_.move(judge, t, k, Promising * old); });
     }
     judge.count(Operation::LookAhead, done);
     return done;
@@ -62,16 +64,17 @@ private:
   static int numberOfShakes(const Judge<D, Shape>& judge, bool isLong)
   {
     const bool isFarBelowBound = judge.wide() != None;
-    return !isLong ? 0 : judge.slides() ? Shakes : isFarBelowBound ? ShakesInside : 0;
+    const int most = judge.slides() ? Shakes : isFarBelowBound ? ShakesInside : 0;
+    return isLong && judge.switches().moveNodes ? most : 0;
   }
 
-  bool tryFrom(Judge<D, Shape>& judge, Index t, Seed& seed, double old, bool isLong)
+  /// Makes the first change; keeps it and what follows if that reaches the goal, or undoes all.
+  template <class First>
+  bool attempt(Judge<D, Shape>& judge, double old, bool isLong, First&& first)
   {
     const auto mark = judge.begin();
-    const Index p = judge.editor().addPoint(seed.x);
     judge.start();
-    if (p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&
-      this->insertion_.fill(judge, p, seed) && this->finish(judge, mark, old, isLong))
+    if (first() && this->finish(judge, mark, old, isLong))
     {
       return true;
     }
@@ -80,12 +83,22 @@ private:
     return false;
   }
 
+  bool tryFrom(Judge<D, Shape>& judge, Index t, Seed& seed, double old, bool isLong)
+  {
+    return this->attempt(judge, old, isLong,
+      [&]
+      {
+        const Index p = judge.editor().addPoint(seed.x);
+        return p != None && this->insertion_.find(judge, t, p, seed, false) > Promising * old &&
+          this->insertion_.fill(judge, p, seed);
+      });
+  }
+
   /// Contracts the edges of the cell that lie on the surface, the shortest first, even without
   /// gain.
-  bool tryWithout(Judge<D, Shape>& judge, Index t, bool isLong)
+  bool tryWithout(Judge<D, Shape>& judge, Index t, double old, bool isLong)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
-    const double old = mesh.quality(t);
     std::vector<std::pair<double, std::array<Index, 2>>> edges;
     for (const auto& e : Local<D>::edges)
     {
@@ -102,37 +115,17 @@ private:
     for (std::size_t k = 0; k < edges.size() && !done; ++k)
     {
       const auto [v, u] = edges[k].second;
-      const auto mark = judge.begin();
-      judge.start();
-      if (mesh.freedom(v) != Freedom::Fixed &&
-        proposeContraction(judge.editor(), judge.surface(), v, u, this->proposal_))
-      {
-        this->proposal_.least = Promising * old;
-        done = judge.measure(this->proposal_) && judge.accept(this->proposal_) &&
-          this->finish(judge, mark, old, isLong);
-      }
-      if (!done)
-      {
-        judge.rollback(mark);
-        judge.start();
-      }
+      done = mesh.freedom(v) != Freedom::Fixed &&
+        this->attempt(judge, old, isLong,
+          [&]
+          {
+            const bool may = proposeContraction(
+              judge.editor(), judge.surface(), v, u, this->proposal_);
+            this->proposal_.least = Promising * old;
+            return may && judge.measure(this->proposal_) && judge.accept(this->proposal_);
+          });
     }
     return done;
-  }
-
-  bool tryShaken(Judge<D, Shape>& judge, Index t, int number)
-  {
-    const double old = judge.mesh().quality(t);
-    const auto mark = judge.begin();
-    judge.start();
-    if (judge.switches().moveNodes && this->shake_.move(judge, t, number, Promising * old) &&
-      this->finish(judge, mark, old, true))
-    {
-      return true;
-    }
-    judge.rollback(mark);
-    judge.start();
-    return false;
   }
 
   /// Improves what the first change affected. Keeps all if that reaches the goal.

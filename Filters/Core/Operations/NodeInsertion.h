@@ -66,8 +66,8 @@ public:
   /// last two are pulled inwards by 10 %.
   static void findSeeds(const SimplexMesh<D>& mesh, Index t, std::vector<Vec<D>>& seeds);
   /// Those, then, if the surface takes part, the midpoints of the cell's edges and the barycentres
-  /// of its facets there.
-  /// `narrow`: those also as they are now (Opening::isNarrow).
+  /// of its facets there; with `narrow` these twice, the second time without a change of the
+  /// surface (Opening::isNarrow).
   static void findAllSeeds(
     const Judge<D, Shape>& judge, Index t, bool narrow, std::vector<Seed>& seeds);
 
@@ -90,6 +90,7 @@ private:
     limits.swallowed = judge.mayRemoveNodes() ? limits.swallowed : 0;
     return limits;
   }
+  static bool isKeptEdge(const SimplexMesh<D>& mesh, Index c, Index a, Index b);
   static void addSurfaceSeed(const Judge<D, Shape>& judge, const std::array<Index, 3>& ids,
     const std::vector<Index>& cells, bool narrow, std::vector<Seed>& seeds);
   double grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed);
@@ -116,47 +117,6 @@ private:
   std::vector<std::pair<double, std::size_t>> ranking_; ///< of the seeds: (-promise, number)
 };
 
-template <int D, class Shape>
-void NodeInsertion<D, Shape>::findSeeds(
-  const SimplexMesh<D>& mesh, Index t, std::vector<Vec<D>>& seeds)
-{
-  constexpr double inwards = 0.1;
-  const Corners<D> c = mesh.corners(t);
-  Vec<D> centre = c[0];
-  for (int i = 1; i <= D; ++i)
-  {
-    centre += c[i];
-  }
-  centre /= D + 1;
-  seeds.clear();
-  if constexpr (D == 3)
-  {
-    for (int i = 0; i <= D; ++i)
-    {
-      if (mesh.isKept(t, i))
-      {
-        const Facet<3> f = mesh.facet(t, i);
-        Vec<3> apex;
-        facetCap(mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2]),
-          std::numeric_limits<double>::infinity(), &apex);
-        seeds.push_back(apex);
-        seeds.push_back(0.5 * (apex + c[i]));
-      }
-    }
-  }
-  seeds.push_back(centre);
-  for (int i = 0; D == 3 && i <= D; ++i)
-  {
-    const Vec<D> f = (Vec<D>(centre * (D + 1)) - c[i]) / D;
-    seeds.push_back(f + inwards * (centre - f));
-  }
-  for (const auto& e : Local<D>::edges)
-  {
-    const Vec<D> m = 0.5 * (c[e[0]] + c[e[1]]);
-    seeds.push_back(m + inwards * (centre - m));
-  }
-}
-
 /// The place of the node as a problem: the facets of the cavity, seen from inside.
 template <int D, class Shape>
 void NodeInsertion<D, Shape>::loadCavity(const Judge<D, Shape>& judge, Index p)
@@ -177,116 +137,6 @@ void NodeInsertion<D, Shape>::loadCavity(const Judge<D, Shape>& judge, Index p)
       std::copy(f.begin(), f.end(), cell.begin());
       cell[D] = p;
       this->problem_.addFacetMetric(model.metric->element(cell));
-    }
-  }
-}
-
-/// Adds the middle of an edge (the last id is None) or of a facet of the surface, if nodes may be
-/// added there. `cells`: all that have it.
-template <int D, class Shape>
-void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
-  const std::array<Index, 3>& ids, const std::vector<Index>& cells, bool narrow,
-  std::vector<Seed>& seeds)
-{
-  const SimplexMesh<D>& mesh = judge.mesh();
-  Seed seed;
-  seed.opening.ids = ids;
-  const auto has = [&](const Facet<D>& f) {
-    return std::all_of(ids.begin(), ids.end(), [&](Index p) { return p == None || hasId(f, p); });
-  };
-  for (Index c : cells)
-  {
-    for (int i = 0; i <= D; ++i)
-    {
-      if (mesh.isKept(c, i) && has(mesh.facet(c, i)))
-      {
-        seed.opening.patches.push_back(mesh.patch(c, i));
-      }
-    }
-  }
-  std::vector<Index>& patches = seed.opening.patches;
-  std::sort(patches.begin(), patches.end());
-  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
-  if (patches.empty() || patches[0] == None)
-  {
-    return;
-  }
-  const Vec<D>&a = mesh.point(ids[0]), &b = mesh.point(ids[1]);
-  seed.place = { Freedom::Patch, patches[0], 0.0 };
-  Vec<D> now = 0.5 * (a + b); // on the surface of the mesh
-  if (ids[2] != None)
-  {
-    now = (a + b + mesh.point(ids[2])) / 3.0;
-    judge.surface()->project(seed.place, now, seed.x);
-  }
-  else
-  {
-    if (!judge.surface()->mayDivide(mesh, cells, ids[0], ids[1]))
-    {
-      return;
-    }
-    const auto span = judge.surface()->span(mesh, ids[0], ids[1]);
-    bool isKept = false;
-    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
-    {
-      const Simplex<D>& t = mesh.nodes(cells[0]);
-      const Index p = t[Local<D>::edges[e][0]], q = t[Local<D>::edges[e][1]];
-      isKept |= mesh.isEdgeKept(cells[0], e) &&
-        ((p == ids[0] && q == ids[1]) || (p == ids[1] && q == ids[0]));
-    }
-    if (isKept)
-    {
-      seed.place = { Freedom::Curve, span->part, 0.5 * (span->from + span->to) };
-      seed.x = judge.surface()->at(span->part, seed.place.parameter);
-    }
-    else
-    {
-      judge.surface()->project(seed.place, now, seed.x);
-    }
-  }
-  seeds.push_back(seed);
-  // What changes the surface may be too far for it. The same without: the node stays where it is.
-  if (narrow)
-  {
-    seed.opening.isNarrow = true;
-    seed.place = judge.surface()->placeNear(seed.place, now, seed.x);
-    seeds.push_back(seed);
-  }
-}
-
-template <int D, class Shape>
-void NodeInsertion<D, Shape>::findAllSeeds(
-  const Judge<D, Shape>& judge, Index t, bool narrow, std::vector<Seed>& seeds)
-{
-  const SimplexMesh<D>& mesh = judge.mesh();
-  std::vector<Vec<D>> inside;
-  findSeeds(mesh, t, inside);
-  for (const Vec<D>& x : inside)
-  {
-    seeds.push_back({ x, {}, {} });
-  }
-  if constexpr (D == 3)
-  {
-    if (!judge.slides())
-    {
-      return;
-    }
-    std::vector<Index> cells;
-    for (const auto& e : Local<3>::edges)
-    {
-      const Index a = mesh.nodes(t)[e[0]], b = mesh.nodes(t)[e[1]];
-      if (mesh.isBoundary(a) && mesh.isBoundary(b) && !mesh.ring(t, a, b, false, cells))
-      {
-        mesh.ring(t, a, b, true, cells);
-        addSurfaceSeed(judge, { a, b, None }, cells, narrow, seeds);
-      }
-    }
-    for (int i = 0; i < 4; ++i)
-    {
-      if (mesh.isKept(t, i))
-      {
-        addSurfaceSeed(judge, mesh.facet(t, i), { t }, narrow, seeds);
-      }
     }
   }
 }
@@ -499,5 +349,7 @@ bool NodeInsertion<D, Shape>::tryGain(
   return done;
 }
 }
+
+#include "Operations/NodeInsertionSeeds.hxx"
 
 #endif

@@ -3,9 +3,8 @@
 // the edge of the input that it lies on, and so the line whose data it gets.
 #include "vtkMeshOptimizeRidingLines.h"
 
-#include "vtkMeshOptimizeRiding.h"
-
 #include "vtkMeshBridgeValues.h"
+#include "vtkMeshOptimizeRiding.h"
 
 #include "vtkCellType.h"
 #include "vtkUnstructuredGrid.h"

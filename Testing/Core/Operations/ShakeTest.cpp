@@ -60,6 +60,7 @@ TEST(Shake, MovesNodesOfTheSurfaceOnIt)
   EXPECT_GT(moved[static_cast<int>(Freedom::Free)], 20);
   EXPECT_GT(moved[static_cast<int>(Freedom::Patch)], 20);
   EXPECT_GT(moved[static_cast<int>(Freedom::Curve)], 10);
+  EXPECT_EQ(moved[static_cast<int>(Freedom::Corner)], 0);
   EXPECT_EQ(moved[static_cast<int>(Freedom::Fixed)], 0);
   EXPECT_GE(sortedQualities(b.mesh).front(), 0.2);
   expectSound(b.mesh);
