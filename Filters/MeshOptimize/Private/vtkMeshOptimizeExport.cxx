@@ -94,6 +94,11 @@ void MapCells(const Model<D>& model, OutputMap& map)
   const vtkMeshBridge::Cells& cells = model.Cells;
   const SimplexMesh<D>& mesh = model.Mesh;
   std::vector<char> isOld(mesh.numberOfCellSlots(), 0);
+  // Lists that double as they grow would take twice the memory.
+  const vtkIdType others = grid->GetNumberOfCells() -
+    static_cast<vtkIdType>(cells.Simplices.size());
+  map.CellToSource.reserve(static_cast<std::size_t>(mesh.countCells() + others));
+  map.CellToSlot.reserve(static_cast<std::size_t>(mesh.countCells() + others));
   const auto add = [&](vtkIdType source, Index slot)
   {
     map.CellToSource.push_back(source);

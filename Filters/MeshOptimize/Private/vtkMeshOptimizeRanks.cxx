@@ -247,6 +247,7 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
       {
         return std::string();
       }
+      cells = {}; // the lists of a whole piece are not needed any more
       const auto start = std::chrono::steady_clock::now();
       rounds.OptimizePieces();
       rounds.OptimizeBorders();

@@ -67,24 +67,6 @@ std::vector<vtkIdType> ReadIds(vtkDataArray* array, const std::vector<vtkIdType>
   return ids;
 }
 
-// Whether a point is fixed travels as a flag of the part, not as an array.
-vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part, PointFlag flag)
-{
-  auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  mask->SetNumberOfValues(part.GetNumberOfPoints());
-  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
-  {
-    mask->SetValue(p, (part.Flags[p] & flag) != 0);
-  }
-  return mask;
-}
-
-// Downwards: the shares of all ranks together must not exceed the whole.
-long Portion(long all, double share)
-{
-  return static_cast<long>(std::floor(static_cast<double>(all) * share));
-}
-
 /**
  * The text of the first rank that has one.
  */
@@ -113,6 +95,7 @@ Rounds::Rounds(const Ranks& ranks, const Request& request, Outcome& outcome)
 std::string Rounds::Read(
   vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension)
 {
+  this->Input = input;
   InputArrays arrays;
   this->All.Agree(FindInputArrays(this->Wanted.Filter, input, arrays));
   // A rank without cells may lack the arrays, too: it takes over those of the others.
@@ -225,7 +208,8 @@ void Rounds::Divide()
                                           : vtkMeshRanks::DivideAnew(this->All, this->Mine);
   const Signature before = this->Sign();
   std::vector<char> isMoved;
-  Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
+  const Part all = std::move(this->Mine);
+  Move(this->All, target, this->Points, this->Cells, all, this->Mine, isMoved);
   const std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(
     problem.empty() ? "" : "After the mesh was divided among the ranks " + problem + ".");
@@ -245,56 +229,6 @@ void Rounds::NumberNew(Part& part)
     before(points, this->Ids.NextPoint), before(cells, this->Ids.NextCell), part);
   this->Ids.NextPoint = std::accumulate(points.begin(), points.end(), this->Ids.NextPoint);
   this->Ids.NextCell = std::accumulate(cells.begin(), cells.end(), this->Ids.NextCell);
-}
-
-/**
- * Runs the optimizer on a part. Of what all ranks may still grow or shrink it may use `weight`
- * times `share`; the weights of all ranks have the sum 1 at most.
- */
-void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
-{
-  // What has grown on all ranks so far, also in rounds before.
-  const bool isFirst = this->Result.Report.history.empty();
-  const vtkIdType now = isFirst ? this->CellsAtFirst : this->Result.NumberOfCells;
-  const long gained = static_cast<long>(now - this->CellsAtFirst);
-  Request request = this->Wanted;
-  request.Options.mostGrowth = Portion(std::max(0L, this->Growth - gained), weight * share);
-  request.Options.mostShrink = Portion(std::max(0L, this->Shrink - std::max(0L, -gained)), weight);
-  request.Options.mostQuality = this->IsBest() ? this->Most : -1.0;
-  request.Control = vtkMeshBridge::MakeControl(
-    request.Filter, request.NumberOfThreads, this->First, this->Last);
-  std::string error;
-  std::vector<Part> parts; // the zone, and what is outside of it
-  if (this->HasZone)
-  {
-    parts = Split(part, std::vector<int>(part.Kept.begin(), part.Kept.end()), 2, 0);
-  }
-  Part& zone = this->HasZone ? parts[0] : part;
-  if (!zone.CellIds.empty())
-  {
-    const auto grid = MakeGrid(zone, this->Points, this->Cells);
-    ForgetCells(zone); // the grid has all that is needed of them: a run takes much memory
-    InputArrays arrays;
-    error = FindInputArrays(request.Filter, grid, arrays);
-    // A mask of the part as it is now: at moved points an interpolated array has fractions.
-    const auto mask = MaskOf(zone, PointFlag::Fixed); // the array is interpolated at moved points
-    arrays.FixedPoints = mask;
-    // With less effort no run goes on after the target, and all cells up to it get their tries.
-    const auto border = MaskOf(zone, Border);
-    arrays.BorderPoints = this->IsBest() ? border : nullptr;
-    vtkNew<vtkUnstructuredGrid> after;
-    error = error.empty() ? OptimizeGrid(grid, arrays, request, after, outcome) : error;
-    if (error.empty())
-    {
-      // After the first run data have been interpolated once already.
-      zone = ReadGrid(after, zone, this->First > 0.0);
-    }
-  }
-  // Also ranks without cells: they wait for the errors of the others.
-  this->All.Agree(error);
-  this->NumberNew(zone);
-  this->All.Agree(this->HasZone ? Join(parts, part) : "");
-  this->IsShort = this->All.IsAny(outcome.Report.stopReason == StopReason::GrowthLimit);
 }
 
 /**
@@ -360,7 +294,7 @@ void Rounds::OptimizePieces()
   double inside = 0.0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
-    const vtkIdType* ids = this->Mine.GetCell(c);
+    const meshopt::Index* ids = this->Mine.GetCell(c);
     inside += !this->Mine.Kept[c] &&
       std::none_of(ids, ids + this->Mine.Corners,
         [&](vtkIdType p) { return (this->Mine.Flags[p] & Waiting) != 0; });
@@ -405,13 +339,12 @@ void Rounds::OptimizeBorders()
       this->Stopped = StopReason::Aborted;
       return;
     }
-    // For a round that is given up. Arrays are not copied.
-    Part before = this->Mine; // shares the arrays
+    Part before = std::move(this->Mine); // for a round that is given up
     const vtkMeshRanks::Numbering ids = this->Ids;
     this->Result.Fault = this->All.Together(
       [&]()
       {
-        this->Round(round);
+        this->Round(round, before);
         return std::string();
       });
     if (!this->Result.Fault.empty())
@@ -424,19 +357,20 @@ void Rounds::OptimizeBorders()
 }
 
 // Every step is collective, also for ranks without a band.
-void Rounds::Round(int round)
+void Rounds::Round(int round, const Part& from)
 {
-  const Signature before = this->Present ? *this->Present : this->Sign();
+  const Signature before = this->Present ? *this->Present
+                                         : vtkMeshRanks::Sign(this->All, from, this->Normal);
   // Ids and places tell whether a move has lost anything.
-  Shared shared = FindShared(this->All, this->Mine);
+  Shared shared = FindShared(this->All, from);
   std::vector<char> isMoved;
   const int layers = this->IsBest() ? std::max(LayersOfBest, Layers[round]) : Layers[round];
-  const std::vector<int> target = FindBands(this->All, this->Mine, shared, layers);
+  const std::vector<int> target = FindBands(this->All, from, shared, layers);
   if (this->IsBest())
   {
-    this->FindGoalOfBands(target);
+    this->FindGoalOfBands(from, target);
   }
-  Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
+  Move(this->All, target, this->Points, this->Cells, from, this->Mine, isMoved);
   shared = FindShared(this->All, this->Mine);
   std::string problem = Compare(before, this->Sign(), true);
   this->All.Agree(problem.empty() ? "" : "After cells have moved between ranks " + problem + ".");
@@ -454,10 +388,10 @@ void Rounds::Round(int round)
   }
   // Part 0 stays, part 1 is the band that this rank runs.
   std::vector<Part> parts = Split(
-    this->Mine, std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
-  this->Mine = Part(); // one copy of the mesh at a time, beside that for a fault
+    std::move(this->Mine), std::vector<int>(isMoved.begin(), isMoved.end()), 2, 0);
   Outcome run;
-  const Part band = this->IsTangled ? parts[1] : Part(); // shares the arrays
+  // What may be taken back. The arrays are shared.
+  const Part rest = this->IsTangled ? parts[0] : Part(), band = this->IsTangled ? parts[1] : Part();
   // Growth is shared out by cells.
   const vtkIdType free = std::count(parts[1].Kept.begin(), parts[1].Kept.end(), 0);
   const double mine = static_cast<double>(free);
@@ -467,7 +401,7 @@ void Rounds::Round(int round)
   this->MayTakeAll = round + 1 == MostRounds || (round > 0 && this->IsShort);
   this->Optimize(
     parts[1], bands > 0.0 ? mine / bands : 0.0, this->MayTakeAll ? 1.0 : ShareOfRound, run);
-  this->All.Agree(Join(parts, this->Mine));
+  this->All.Agree(Join(std::move(parts), this->Mine));
   // As in UndoConflicts(): one rank takes back its band, which may bring up another fault.
   for (bool goesOn = this->IsTangled, isUndone = false; goesOn;)
   {
@@ -475,11 +409,10 @@ void Rounds::Round(int round)
     goesOn = this->All.IsAny(undoes);
     if (undoes)
     {
-      parts[1] = band;
       run = Outcome();
       isUndone = true;
     }
-    this->All.Agree(undoes ? Join(parts, this->Mine) : "");
+    this->All.Agree(undoes ? Join({ rest, band }, this->Mine) : "");
   }
   const Signature after = this->Sign();
   problem = Compare(before, after, false, this->IsTangled);

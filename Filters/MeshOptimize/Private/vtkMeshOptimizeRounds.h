@@ -35,7 +35,8 @@ public:
    * Reads this rank's piece, numbers points and cells over all ranks, and divides the mesh if one
    * rank has all of it, or far more than the others. `simplices`: the cells that are the mesh; all
    * others are copies of those of other ranks, and are dropped. `dimension` is that of the cells of
-   * all ranks. Returns why borders cannot take part, or an empty string.
+   * all ranks. Returns why borders cannot take part, or an empty string. `input` must outlive the
+   * rounds.
    */
   std::string Read(
     vtkUnstructuredGrid* input, const std::vector<vtkIdType>& simplices, int dimension);
@@ -71,15 +72,16 @@ private:
   void ShareGrowth();
   void RunIdle(vtkMeshRanks::Part& part, Outcome& idle);
   void Optimize(vtkMeshRanks::Part& part, double weight, double share, Outcome& outcome);
+  vtkSmartPointer<vtkUnstructuredGrid> Lend(vtkMeshRanks::Part& part, int& home) const;
   void UndoConflicts(const vtkMeshRanks::Part& before, Outcome& run);
   void NumberNew(vtkMeshRanks::Part& part);
-  void Round(int round);
+  void Round(int round, const vtkMeshRanks::Part& from);
   bool IsBest() const { return this->Wanted.Options.effort == meshopt::Effort::Best; }
   double GetGoal() const;
   void MarkBorder(const vtkMeshRanks::Shared& shared, const std::vector<char>& isMoved);
   void WidenBorder(int layers);
   void FindGoalOfPieces();
-  void FindGoalOfBands(const std::vector<int>& target);
+  void FindGoalOfBands(const vtkMeshRanks::Part& part, const std::vector<int>& target);
   bool IsDone();
   void WaitWhereStuck();
   bool MustStop(const Outcome& run);
@@ -97,6 +99,7 @@ private:
   vtkMeshBridge::Frame<2> Plane;                        ///< of triangles
   std::array<double, 3> Normal = { { 0.0, 0.0, 1.0 } }; ///< of that plane
   std::vector<vtkIdType> FirstCell;                     ///< of each rank's input, over all ranks
+  vtkUnstructuredGrid* Input = nullptr;                 ///< of this rank
   vtkMeshRanks::Part Mine;
   vtkIdType CellsAtFirst = 0, PointsAtFirst = 0; ///< of all ranks
   long Growth = 0, Shrink = 0;    ///< how many cells all ranks may gain and lose, from CellsAtFirst

@@ -57,7 +57,7 @@ std::vector<int> FindHomes(const Ranks& ranks, const Part& part, vtkIdType cells
 void Rounds::SendHome()
 {
   Part before;
-  bool isSent = false;
+  bool isSent = false; // `before` has what Mine had
   const std::string fault = this->All.Together(
     [&]()
     {
@@ -66,12 +66,13 @@ void Rounds::SendHome()
       // Moving is collective: all ranks take part, or none.
       if (this->All.IsAny(goes))
       {
-        before = this->Mine; // shares the arrays
+        before = std::move(this->Mine);
         isSent = true;
         // The mesh of all ranks must be the same as before, cell by cell, wherever its cells are.
-        const Signature whole = this->Present ? *this->Present : this->Sign();
+        const Signature whole = this->Present ? *this->Present
+                                              : vtkMeshRanks::Sign(this->All, before, this->Normal);
         std::vector<char> isMoved;
-        Move(this->All, target, this->Points, this->Cells, this->Mine, isMoved);
+        Move(this->All, target, this->Points, this->Cells, before, this->Mine, isMoved);
         const std::string problem = Compare(whole, this->Sign(), true);
         this->All.Agree(problem.empty() ? "" : "After cells have gone home " + problem + ".");
       }

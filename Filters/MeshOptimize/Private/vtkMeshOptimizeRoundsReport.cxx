@@ -96,7 +96,7 @@ void Rounds::RecordInput(const Outcome& run)
  */
 std::vector<long long> Rounds::ReadRegions() const
 {
-  const auto grid = MakeGrid(this->Mine, this->Points, this->Cells);
+  const auto grid = BorrowGrid(this->Mine, this->Points, this->Cells);
   InputArrays arrays;
   FindInputArrays(this->Wanted.Filter, grid, arrays); // has been checked
   std::vector<long long> regions;

@@ -76,7 +76,7 @@ void Rounds::WidenBorder(int layers)
     std::vector<std::uint8_t> next = this->Mine.Flags;
     for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
     {
-      const vtkIdType* ids = this->Mine.GetCell(c);
+      const meshopt::Index* ids = this->Mine.GetCell(c);
       if (std::any_of(ids, ids + this->Mine.Corners,
             [&](vtkIdType p) { return (this->Mine.Flags[p] & Border) != 0; }))
       {
@@ -107,15 +107,15 @@ void Rounds::FindGoalOfPieces()
 
 /**
  * Bands need not be much better than the worst cell that stays outside of all of them. `target`:
- * where cells move; those that stay have none.
+ * where cells of the part move; those that stay have none.
  */
-void Rounds::FindGoalOfBands(const std::vector<int>& target)
+void Rounds::FindGoalOfBands(const Part& part, const std::vector<int>& target)
 {
   double worst = this->Surface.Bound;
   for (std::size_t c = 0; c < target.size(); ++c)
   {
-    const bool counts = target[c] < 0 && !this->Surface.IsCapped[c] && !this->Mine.Kept[c];
-    worst = counts ? std::min(worst, this->Mine.Quality[c]) : worst;
+    const bool counts = target[c] < 0 && !this->Surface.IsCapped[c] && !part.Kept[c];
+    worst = counts ? std::min(worst, part.Quality[c]) : worst;
   }
   const std::vector<double> all = this->All.Gather(worst);
   worst = *std::min_element(all.begin(), all.end());
@@ -131,7 +131,7 @@ bool Rounds::IsDone()
   bool isWaiting = false;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
   {
-    const vtkIdType* ids = this->Mine.GetCell(c);
+    const meshopt::Index* ids = this->Mine.GetCell(c);
     isWaiting = isWaiting ||
       (this->Mine.Quality[c] < this->GetGoal() && !this->Surface.IsCapped[c] &&
         !this->Mine.Kept[c] &&
@@ -179,7 +179,7 @@ void Rounds::WaitWhereStuck()
   {
     if (isStuck(c, most))
     {
-      const vtkIdType* ids = this->Mine.GetCell(c);
+      const meshopt::Index* ids = this->Mine.GetCell(c);
       std::for_each(
         ids, ids + this->Mine.Corners, [&](vtkIdType p) { this->Mine.Flags[p] |= Waiting; });
     }

@@ -51,7 +51,7 @@ void Rounds::FindZone()
     return;
   }
   this->Wanted.OptimizeBelow = 0.0; // the runs get the zone alone
-  const std::vector<vtkIdType> cells = this->Mine.Cells;
+  const std::vector<meshopt::Index> cells = this->Mine.Cells;
   this->RunIdle(this->Mine, this->AtFirst); // leaves all cells in their order
   const Shared shared = FindShared(this->All, this->Mine);
   std::vector<char> isInside(this->Mine.CellIds.size());
@@ -68,7 +68,7 @@ void Rounds::FindZone()
     const std::vector<char> marks = MarkPoints(this->All, this->Mine, shared, isInside);
     for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
     {
-      const vtkIdType* ids = this->Mine.GetCell(c);
+      const meshopt::Index* ids = this->Mine.GetCell(c);
       isInside[c] = std::any_of(
         ids, ids + this->Mine.Corners, [&](vtkIdType p) { return marks[p] != 0; });
     }

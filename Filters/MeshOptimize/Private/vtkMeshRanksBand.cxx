@@ -120,41 +120,48 @@ std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& s
 
 //------------------------------------------------------------------------------
 void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& points,
-  const Schema& cells, Part& part, std::vector<char>& isMoved)
+  const Schema& cells, const Part& from, Part& part, std::vector<char>& isMoved)
 {
   // Cells that stay and cells that have this rank as target must be told apart afterwards.
   const int count = ranks.GetCount();
   std::vector<int> place(target.size());
   std::transform(
     target.begin(), target.end(), place.begin(), [&](int t) { return t < 0 ? count : t; });
-  std::vector<Part> parts = Split(part, place, count + 1, count);
-  const int corners = part.Corners;
-  part = Part(); // one copy of the mesh at a time
+  std::vector<Part> parts = Split(from, place, count + 1, count);
   std::vector<Bytes> out(count);
   for (int r = 0; r < count; ++r)
   {
     // What moves within this rank is not packed at all.
-    out[r] = r == ranks.GetRank() ? Bytes() : Pack(parts[r]);
+    if (r != ranks.GetRank())
+    {
+      out[r] = Pack(parts[r]);
+      parts[r] = Part();
+    }
   }
-  const std::vector<Bytes> in = ranks.Exchange(std::move(out));
+  std::vector<Bytes> in = ranks.Exchange(std::move(out));
   std::vector<Part> here;
   const std::vector<vtkIdType> stayed = parts[count].CellIds;
   here.push_back(std::move(parts[count]));
   here.push_back(std::move(parts[ranks.GetRank()]));
-  for (const Bytes& bytes : in)
+  for (Bytes& bytes : in)
   {
     if (!bytes.empty())
     {
-      here.push_back(Unpack(bytes, corners, points, cells));
+      here.push_back(Unpack(bytes, from.Corners, points, cells));
+      Bytes().swap(bytes);
     }
   }
   // Two ranks that disagree about a cell would have it twice, or not at all.
-  ranks.Agree(Join(here, part));
+  ranks.Agree(Join(std::move(here), part));
   isMoved.assign(part.CellIds.size(), 1);
+  std::size_t at = 0;
   for (const vtkIdType id : stayed) // both ascend
   {
-    isMoved[std::lower_bound(part.CellIds.begin(), part.CellIds.end(), id) - part.CellIds.begin()] =
-      0;
+    while (part.CellIds[at] != id)
+    {
+      ++at;
+    }
+    isMoved[at] = 0;
   }
 }
 

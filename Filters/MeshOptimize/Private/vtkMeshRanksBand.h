@@ -25,11 +25,11 @@ namespace vtkMeshRanks
 std::vector<int> FindBands(const Ranks& ranks, const Part& part, const Shared& shared, int layers);
 
 /**
- * Sends each cell to target[c] (-1: it stays) with its points and data. `part` then has those that
- * are here; isMoved tells of each cell whether it had a target. Collective.
+ * Sends each cell of `from` to target[c] (-1: it stays) with its points and data. `part` then has
+ * those that are here; isMoved tells of each cell whether it had a target. Collective.
  */
 void Move(const Ranks& ranks, const std::vector<int>& target, const Schema& points,
-  const Schema& cells, Part& part, std::vector<char>& isMoved);
+  const Schema& cells, const Part& from, Part& part, std::vector<char>& isMoved);
 
 } // namespace vtkMeshRanks
 

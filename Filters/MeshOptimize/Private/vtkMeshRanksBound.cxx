@@ -204,7 +204,7 @@ struct Ring
 template <class Visit>
 void VisitRims(const Part& part, vtkIdType c, const Visit& visit)
 {
-  const vtkIdType* p = part.GetCell(c);
+  const meshopt::Index* p = part.GetCell(c);
   for (int i = 0; i < part.Corners; ++i)
   {
     for (int k = part.Corners == 4 ? i + 1 : i; k < (part.Corners == 4 ? 4 : i + 1); ++k)

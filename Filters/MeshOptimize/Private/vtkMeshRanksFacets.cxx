@@ -4,9 +4,11 @@
 #include "vtkMeshRanksFacets.h"
 
 #include "Base/Scramble.h"
+#include "Mesh/Types.h"
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace vtkMeshRanks
 {
@@ -132,7 +134,7 @@ Key IdsOf(const Part& part, const CellFacet& facet)
 //------------------------------------------------------------------------------
 std::array<vtkIdType, 3> OrientedNodes(const Part& part, vtkIdType cell, int local)
 {
-  const vtkIdType* ids = part.GetCell(cell);
+  const meshopt::Index* ids = part.GetCell(cell);
   if (part.Corners == 4)
   {
     const int* f = TetrahedronFacets[local];
@@ -141,12 +143,38 @@ std::array<vtkIdType, 3> OrientedNodes(const Part& part, vtkIdType cell, int loc
   return { ids[TriangleFacets[local][0]], ids[TriangleFacets[local][1]], -1 };
 }
 
+namespace
+{
+
+/**
+ * A facet among those with the same lowest node, in little memory: there are four times as many as
+ * cells.
+ */
+struct SmallFacet
+{
+  meshopt::Index Middle, Highest; ///< -1: triangles have no third node
+  vtkIdType Place;                ///< 4 * cell + local
+
+  bool HasNodesOf(const SmallFacet& other) const
+  {
+    return this->Middle == other.Middle && this->Highest == other.Highest;
+  }
+  bool operator<(const SmallFacet& other) const
+  {
+    // Ties by cell, so that visitors get cells in one order.
+    return this->Middle != other.Middle ? this->Middle < other.Middle
+      : this->Highest != other.Highest  ? this->Highest < other.Highest
+                                        : this->Place < other.Place;
+  }
+};
+
+} // namespace
+
 void VisitFacets(const Part& part, const std::vector<char>& isWanted,
   const std::function<void(const CellFacet*, const CellFacet*)>& visit)
 {
   // Sorted into buckets by the lowest node; a bucket is small.
   const int corners = part.Corners;
-  std::vector<CellFacet> facets;
   std::vector<std::size_t> starts(part.PointIds.size() + 1, 0);
   // Called twice: to count, then to fill. Facets of unwanted nodes cost nothing but the test.
   const auto forEach = [&](const auto& call)
@@ -156,37 +184,41 @@ void VisitFacets(const Part& part, const std::vector<char>& isWanted,
       for (int local = 0; local < corners; ++local)
       {
         std::array<vtkIdType, 3> nodes = OrientedNodes(part, c, local);
-        SortFew(nodes, corners - 1);
         if (std::all_of(nodes.begin(), nodes.begin() + corners - 1,
               [&](vtkIdType p) { return isWanted[p] != 0; }))
         {
-          call(CellFacet{ nodes, c, local });
+          SortFew(nodes, corners - 1);
+          call(nodes, 4 * c + local);
         }
       }
     }
   };
   // A counting sort: linear, where a sort of all facets would not be.
-  forEach([&](const CellFacet& facet) { ++starts[facet.Nodes[0] + 1]; });
-  for (std::size_t p = 1; p < starts.size(); ++p)
-  {
-    starts[p] += starts[p - 1];
-  }
-  facets.resize(starts.back());
+  forEach([&](const std::array<vtkIdType, 3>& nodes, vtkIdType) { ++starts[nodes[0] + 1]; });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<SmallFacet> facets(starts.back());
   std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
-  forEach([&](const CellFacet& facet) { facets[next[facet.Nodes[0]]++] = facet; });
+  forEach(
+    [&](const std::array<vtkIdType, 3>& nodes, vtkIdType place)
+    {
+      facets[next[nodes[0]]++] = { static_cast<meshopt::Index>(nodes[1]),
+        static_cast<meshopt::Index>(nodes[2]), place };
+    });
+  std::vector<CellFacet> equal;
   for (std::size_t p = 0; p + 1 < starts.size(); ++p)
   {
     const auto begin = facets.begin() + starts[p], end = facets.begin() + starts[p + 1];
-    // Ties by cell, so that visitors get cells in one order.
-    std::sort(begin, end,
-      [](const CellFacet& a, const CellFacet& b)
-      { return a.Nodes != b.Nodes ? a.Nodes < b.Nodes : a.Cell < b.Cell; });
+    std::sort(begin, end);
     for (auto first = begin; first != end;)
     {
-      const auto last = std::find_if(
-        first, end, [&](const CellFacet& f) { return f.Nodes != first->Nodes; });
-      visit(&*first, &*first + (last - first));
-      first = last;
+      equal.clear();
+      const SmallFacet& f = *first;
+      for (; first != end && first->HasNodesOf(f); ++first)
+      {
+        equal.push_back({ { static_cast<vtkIdType>(p), f.Middle, f.Highest }, first->Place / 4,
+          static_cast<int>(first->Place % 4) });
+      }
+      visit(equal.data(), equal.data() + equal.size());
     }
   }
 }

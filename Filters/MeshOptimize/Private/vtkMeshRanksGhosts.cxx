@@ -31,7 +31,7 @@ std::vector<vtkIdType> Grow(const Part& part, Reach& reach)
   std::vector<vtkIdType> fresh;
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
   {
-    const vtkIdType* ids = part.GetCell(c);
+    const meshopt::Index* ids = part.GetCell(c);
     if (std::any_of(ids, ids + part.Corners, [&](vtkIdType p) { return before[p] != 0; }))
     {
       reach.Cells[c] = 1;
@@ -144,7 +144,7 @@ GhostFlags AddGhosts(
     }
   }
   Part joined;
-  ranks.Agree(Join(parts, joined));
+  ranks.Agree(Join(std::move(parts), joined));
   GhostFlags flags;
   // All are ghosts at first; what belongs to this rank is freed below.
   flags.Points.assign(joined.PointIds.size(), vtkDataSetAttributes::DUPLICATEPOINT);

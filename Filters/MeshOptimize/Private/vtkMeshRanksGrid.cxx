@@ -11,10 +11,14 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <type_traits>
 
 namespace vtkMeshRanks
 {
@@ -39,13 +43,78 @@ void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes*
   }
 }
 
-void AddIds(const std::vector<vtkIdType>& ids, vtkDataSetAttributes* data)
+/**
+ * A list as an array: a copy, or the list itself.
+ */
+template <class Array, class T>
+vtkSmartPointer<Array> MakeArray(
+  const std::vector<T>& values, const char* name, int components, bool borrows)
 {
-  vtkNew<vtkIdTypeArray> array;
-  array->SetName(IdName);
-  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
-  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
-  data->SetGlobalIds(array); // moved points keep theirs, new ones get -1
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  if (borrows && !values.empty())
+  {
+    constexpr int save = 1; // the array never frees it
+    array->SetArray(const_cast<T*>(values.data()), static_cast<vtkIdType>(values.size()), save);
+    return array;
+  }
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+/**
+ * Narrow ids are those of the part itself, which needs half the memory; wide ones are a copy.
+ */
+template <class Ids>
+vtkSmartPointer<vtkCellArray> CellsOf(const Part& part, bool borrows)
+{
+  vtkNew<Ids> offsets;
+  offsets->SetNumberOfValues(part.GetNumberOfCells() + 1);
+  for (vtkIdType c = 0; c <= part.GetNumberOfCells(); ++c)
+  {
+    offsets->SetValue(c, static_cast<typename Ids::ValueType>(c * part.Corners));
+  }
+  vtkSmartPointer<Ids> corners;
+  if constexpr (std::is_same_v<typename Ids::ValueType, meshopt::Index>)
+  {
+    corners = MakeArray<Ids>(part.Cells, nullptr, 1, borrows);
+  }
+  else
+  {
+    corners = vtkSmartPointer<Ids>::New();
+    corners->SetNumberOfValues(static_cast<vtkIdType>(part.Cells.size()));
+    std::copy(part.Cells.begin(), part.Cells.end(), corners->GetPointer(0));
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, corners);
+  return cells;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> GridOf(const Part& part, const Schema& pointSchema,
+  const Schema& cellSchema, bool borrows, vtkCellArray* cells)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  // Double, whatever the input had: moved points must not be rounded at each round.
+  const auto coordinates = MakeArray<vtkDoubleArray>(part.Coordinates, nullptr, 3, borrows);
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  grid->SetPoints(points);
+  grid->SetCells(part.Corners == 4 ? VTK_TETRA : VTK_TRIANGLE, cells);
+  AddArrays(part.PointArrays, pointSchema, grid->GetPointData());
+  AddArrays(part.CellArrays, cellSchema, grid->GetCellData());
+  // Moved points keep their ids, new ones get -1.
+  grid->GetPointData()->SetGlobalIds(MakeArray<vtkIdTypeArray>(part.PointIds, IdName, 1, borrows));
+  grid->GetCellData()->SetGlobalIds(MakeArray<vtkIdTypeArray>(part.CellIds, IdName, 1, borrows));
+  // Origin and home are cell data, so that the run hands them on from parents to new cells, as it
+  // does with those of the user.
+  grid->GetCellData()->AddArray(MakeArray<vtkIdTypeArray>(part.Origin, OriginName, 1, borrows));
+  if (!part.Home.empty())
+  {
+    grid->GetCellData()->AddArray(MakeArray<vtkIntArray>(part.Home, HomeName, 1, borrows));
+  }
+  return grid;
 }
 
 /**
@@ -80,7 +149,10 @@ void ReadCells(vtkUnstructuredGrid* grid, Part& part)
   part.Quality.assign(quality->GetPointer(0), quality->GetPointer(0) + n);
   auto home = vtkIntArray::SafeDownCast(grid->GetCellData()->GetArray(HomeName));
   part.Origin.assign(origin->GetPointer(0), origin->GetPointer(0) + n);
-  part.Home.assign(home->GetPointer(0), home->GetPointer(0) + n);
+  if (home)
+  {
+    part.Home.assign(home->GetPointer(0), home->GetPointer(0) + n);
+  }
   part.Kept.assign(n, 0); // it has taken part in one
   part.Cells.reserve(n * part.Corners);
   for (vtkIdType c = 0; c < n; ++c)
@@ -88,7 +160,8 @@ void ReadCells(vtkUnstructuredGrid* grid, Part& part)
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     grid->GetCellPoints(c, size, ids);
-    part.Cells.insert(part.Cells.end(), ids, ids + size);
+    std::transform(ids, ids + size, std::back_inserter(part.Cells),
+      [](vtkIdType p) { return static_cast<meshopt::Index>(p); });
   }
 }
 
@@ -114,7 +187,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
     grid->GetCellPoints(c, n, ids);
     std::for_each(ids, ids + n, [&](vtkIdType p) { use[p] |= 2; });
   }
-  std::vector<vtkIdType> index(use.size(), -1);
+  std::vector<meshopt::Index> index(use.size(), -1);
   const std::size_t most = use.size() - std::count(use.begin(), use.end(), 1);
   pointsOfGrid.reserve(most);
   part.Coordinates.reserve(3 * most);
@@ -128,7 +201,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
     // A point of simplices, or of no cell at all. Those of other cells only stay where they are.
     if (use[p] != 1)
     {
-      index[p] = static_cast<vtkIdType>(pointsOfGrid.size());
+      index[p] = static_cast<meshopt::Index>(pointsOfGrid.size());
       pointsOfGrid.push_back(p);
       double x[3];
       grid->GetPoint(p, x);
@@ -174,45 +247,36 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
-  const Part& part, const Schema& pointSchema, const Schema& cellSchema)
+  const Part& part, const Schema& points, const Schema& cellData)
 {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  // Double, whatever the input had: moved points must not be rounded at each round.
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(part.GetNumberOfPoints());
-  std::copy(part.Coordinates.begin(), part.Coordinates.end(), coordinates->GetPointer(0));
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
-  grid->SetPoints(points);
-  vtkNew<vtkIdTypeArray> offsets, connectivity;
-  offsets->SetNumberOfValues(part.GetNumberOfCells() + 1);
-  for (vtkIdType c = 0; c <= part.GetNumberOfCells(); ++c)
+  return GridOf(part, points, cellData, false, CellsOf<vtkTypeInt64Array>(part, false));
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> BorrowGrid(
+  const Part& part, const Schema& points, const Schema& cellData, vtkCellArray* cells)
+{
+  vtkSmartPointer<vtkCellArray> own;
+  if (!cells)
   {
-    offsets->SetValue(c, c * part.Corners);
+    own = part.Cells.size() <= static_cast<std::size_t>(VTK_INT_MAX)
+      ? CellsOf<vtkTypeInt32Array>(part, true)
+      : CellsOf<vtkTypeInt64Array>(part, true);
   }
-  connectivity->SetNumberOfValues(static_cast<vtkIdType>(part.Cells.size()));
-  std::copy(part.Cells.begin(), part.Cells.end(), connectivity->GetPointer(0));
-  vtkNew<vtkCellArray> cells;
-  cells->SetData(offsets, connectivity);
-  grid->SetCells(part.Corners == 4 ? VTK_TETRA : VTK_TRIANGLE, cells);
-  AddArrays(part.PointArrays, pointSchema, grid->GetPointData());
-  AddArrays(part.CellArrays, cellSchema, grid->GetCellData());
-  AddIds(part.PointIds, grid->GetPointData());
-  AddIds(part.CellIds, grid->GetCellData());
-  // Origin and home are cell data, so that the run hands them on from parents to new cells, as it
-  // does with those of the user.
-  vtkNew<vtkIdTypeArray> origin;
-  origin->SetName(OriginName);
-  origin->SetNumberOfValues(part.GetNumberOfCells());
-  std::copy(part.Origin.begin(), part.Origin.end(), origin->GetPointer(0));
-  grid->GetCellData()->AddArray(origin);
-  vtkNew<vtkIntArray> home;
-  home->SetName(HomeName);
-  home->SetNumberOfValues(part.GetNumberOfCells());
-  std::copy(part.Home.begin(), part.Home.end(), home->GetPointer(0));
-  grid->GetCellData()->AddArray(home);
-  return grid;
+  return GridOf(part, points, cellData, true, cells ? cells : own.Get());
+}
+
+bool HasSameCells(vtkUnstructuredGrid* grid, const Part& part)
+{
+  bool isSame = grid->GetNumberOfCells() == part.GetNumberOfCells() &&
+    grid->GetNumberOfPoints() == part.GetNumberOfPoints();
+  for (vtkIdType c = 0; c < part.GetNumberOfCells() && isSame; ++c)
+  {
+    vtkIdType n = 0;
+    const vtkIdType* ids = nullptr;
+    grid->GetCellPoints(c, n, ids);
+    isSame = n == part.Corners && std::equal(ids, ids + n, part.GetCell(c));
+  }
+  return isSame;
 }
 
 void ForgetCells(Part& part)

@@ -231,6 +231,11 @@ void Spread(
   }
 }
 
+bool AreAscending(const std::vector<vtkIdType>& ids)
+{
+  return std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end();
+}
+
 bool HasTwins(std::vector<vtkIdType> ids)
 {
   std::sort(ids.begin(), ids.end());
@@ -272,10 +277,11 @@ void CheckIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const char*
   const Numbering& numbering)
 {
   const bool isNegative = std::any_of(ids.begin(), ids.end(), [](vtkIdType id) { return id < 0; });
-  ranks.Agree(isNegative || HasTwins(ids) ? std::string("The global ids of ") + what +
+  ranks.Agree(isNegative || (!AreAscending(ids) && HasTwins(ids))
+      ? std::string("The global ids of ") + what +
         " are negative or occur twice in one piece. Remove the array, or give unique ids" +
         numbering.Else + "."
-                                          : "");
+      : "");
 }
 
 /**
@@ -283,26 +289,34 @@ void CheckIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const char*
  */
 void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const Numbering& numbering)
 {
-  std::vector<std::vector<vtkIdType>> lists(ranks.GetCount());
+  std::vector<Bytes> out(ranks.GetCount());
+  for (Bytes& bytes : out)
+  {
+    // Scrambled, ids are dealt out evenly, but for some.
+    bytes.reserve((ids.size() / out.size() + ids.size() / 64 + 64) * sizeof(vtkIdType));
+  }
   for (const vtkIdType id : ids)
   {
-    lists[meshopt::scramble(static_cast<std::uint64_t>(id)) % ranks.GetCount()].push_back(id);
+    // Each id is looked at by one rank, the same for all.
+    Put(out[meshopt::scramble(static_cast<std::uint64_t>(id)) % out.size()], id);
   }
-  std::vector<Bytes> out(ranks.GetCount());
-  for (int r = 0; r < ranks.GetCount(); ++r)
-  {
-    PutAll(out[r], lists[r]);
-  }
+  std::vector<Bytes> in = ranks.Exchange(std::move(out));
   std::vector<vtkIdType> all;
-  for (const Bytes& bytes : ranks.Exchange(std::move(out)))
+  all.reserve(std::accumulate(in.begin(), in.end(), std::size_t(0),
+    [](std::size_t n, const Bytes& bytes) { return n + bytes.size() / sizeof(vtkIdType); }));
+  for (Bytes& bytes : in)
   {
-    const std::vector<vtkIdType> some = Reader(bytes).TakeAll<vtkIdType>();
-    all.insert(all.end(), some.begin(), some.end());
+    for (Reader reader(bytes); !reader.IsAtEnd();)
+    {
+      all.push_back(reader.Take<vtkIdType>());
+    }
+    Bytes().swap(bytes);
   }
-  ranks.Agree(HasTwins(all) ? std::string("A global cell id occurs on two ranks. Ghost cells must "
-                                          "be marked by vtkGhostType") +
+  ranks.Agree(HasTwins(std::move(all))
+      ? std::string("A global cell id occurs on two ranks. Ghost cells must "
+                    "be marked by vtkGhostType") +
         numbering.Else + "."
-                            : "");
+      : "");
 }
 
 /**
@@ -310,31 +324,29 @@ void CheckCellIds(const Ranks& ranks, const std::vector<vtkIdType>& ids, const N
  */
 void Order(Part& part)
 {
-  const auto ascend = [](const std::vector<vtkIdType>& ids)
-  { return std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end(); };
-  if (ascend(part.PointIds) && ascend(part.CellIds))
+  if (AreAscending(part.PointIds) && AreAscending(part.CellIds))
   {
     return; // mostly they do
   }
   // Join() orders by id, also a single part.
-  Part ordered;
-  Join({ part }, ordered); // ids are unique
-  part = std::move(ordered);
+  std::vector<Part> one(1);
+  one[0] = std::move(part);
+  Join(std::move(one), part); // ids are unique
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
-  const std::vector<vtkIdType>& gridCellIds, const std::vector<CellFacet>& open,
-  Numbering& numbering, Part& part)
+void Number(const Ranks& ranks, std::vector<vtkIdType> gridPointIds,
+  std::vector<vtkIdType> gridCellIds, const std::vector<CellFacet>& open, Numbering& numbering,
+  Part& part)
 {
   // Cells first: of cells that come twice their ids tell more than their points.
   if (numbering.HasCellIds)
   {
     CheckIds(ranks, gridCellIds, "cells", numbering);
     CheckCellIds(ranks, gridCellIds, numbering);
-    part.CellIds = gridCellIds;
+    part.CellIds = std::move(gridCellIds);
     numbering.NextCell = EndOf(ranks, part.CellIds);
   }
   else
@@ -345,7 +357,7 @@ void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
   if (numbering.HasPointIds)
   {
     CheckIds(ranks, gridPointIds, "points", numbering);
-    part.PointIds = gridPointIds;
+    part.PointIds = std::move(gridPointIds);
     numbering.NextPoint = EndOf(ranks, part.PointIds);
   }
   else

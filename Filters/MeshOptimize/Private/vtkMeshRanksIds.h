@@ -35,9 +35,9 @@ struct Numbering
  * Fails for: ids that are not unique; facets of more than two cells;
  * points of one rank that would become one.
  */
-void Number(const Ranks& ranks, const std::vector<vtkIdType>& gridPointIds,
-  const std::vector<vtkIdType>& gridCellIds, const std::vector<CellFacet>& open,
-  Numbering& numbering, Part& part);
+void Number(const Ranks& ranks, std::vector<vtkIdType> gridPointIds,
+  std::vector<vtkIdType> gridCellIds, const std::vector<CellFacet>& open, Numbering& numbering,
+  Part& part);
 
 } // namespace vtkMeshRanks
 

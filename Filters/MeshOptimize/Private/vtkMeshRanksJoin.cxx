@@ -6,6 +6,8 @@
 #include "vtkIdList.h"
 #include "vtkNew.h"
 
+#include "Mesh/Types.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -22,7 +24,7 @@ struct Source
 {
   vtkIdType Id;
   int Part;
-  vtkIdType Index;
+  meshopt::Index Index;
   bool operator<(const Source& other) const
   {
     // The lower part comes first, and gives the values of points that several have.
@@ -41,7 +43,7 @@ std::vector<Source> ListSources(const std::vector<Part>& parts, std::vector<vtkI
     const auto first = static_cast<std::ptrdiff_t>(sources.size());
     for (std::size_t i = 0; i < list.size(); ++i)
     {
-      sources.push_back({ list[i], static_cast<int>(k), static_cast<vtkIdType>(i) });
+      sources.push_back({ list[i], static_cast<int>(k), static_cast<meshopt::Index>(i) });
     }
     // Mostly they ascend, and a large part meets small ones: nothing is sorted then.
     const auto middle = sources.begin() + first;
@@ -55,11 +57,36 @@ std::vector<Source> ListSources(const std::vector<Part>& parts, std::vector<vtkI
 }
 
 /**
+ * The joined list of the parts' lists, `n` values of each source. The parts give back their memory.
+ */
+template <class T>
+void Collect(std::vector<Part>& parts, const std::vector<Source>& sources,
+  std::vector<T> Part::*list, int n, Part& result)
+{
+  std::vector<T>& joined = result.*list;
+  joined.reserve(sources.size() * n);
+  for (const Source& o : sources)
+  {
+    const auto first = (parts[o.Part].*list).begin() + static_cast<std::ptrdiff_t>(o.Index) * n;
+    joined.insert(joined.end(), first, first + n);
+  }
+  for (Part& part : parts)
+  {
+    std::vector<T>().swap(part.*list);
+  }
+}
+
+/**
  * Arrays whose tuple i is that of sources[i].
  */
-void Collect(const std::vector<Part>& parts, const std::vector<Source>& sources,
+void CollectArrays(const std::vector<Part>& parts, const std::vector<Source>& sources,
   Arrays Part::*arrays, Arrays& result)
 {
+  result.clear();
+  if ((parts[0].*arrays).empty())
+  {
+    return;
+  }
   // Tuples are copied part by part, in one call each, and not one by one.
   std::vector<vtkNew<vtkIdList>> from(parts.size()), to(parts.size());
   for (std::size_t i = 0; i < sources.size(); ++i)
@@ -67,7 +94,6 @@ void Collect(const std::vector<Part>& parts, const std::vector<Source>& sources,
     from[sources[i].Part]->InsertNextId(sources[i].Index);
     to[sources[i].Part]->InsertNextId(static_cast<vtkIdType>(i));
   }
-  result.clear();
   for (std::size_t a = 0; a < (parts[0].*arrays).size(); ++a)
   {
     vtkSmartPointer<vtkAbstractArray> array = MakeLike((parts[0].*arrays)[a]);
@@ -87,84 +113,75 @@ void Collect(const std::vector<Part>& parts, const std::vector<Source>& sources,
  * Joins the points; newIndex[k][i] is where point i of part k is in the result.
  */
 std::string JoinPoints(
-  const std::vector<Part>& parts, Part& result, std::vector<std::vector<vtkIdType>>& newIndex)
+  std::vector<Part>& parts, Part& result, std::vector<std::vector<meshopt::Index>>& newIndex)
 {
-  std::vector<Source> sources;
+  std::vector<Source> sources = ListSources(parts, &Part::PointIds);
   for (const Part& part : parts)
   {
     newIndex.emplace_back(part.PointIds.size());
   }
-  const std::vector<Source> all = ListSources(parts, &Part::PointIds);
-  sources.reserve(all.size());
-  result.PointIds.reserve(all.size());
-  result.Coordinates.reserve(3 * all.size());
-  result.Flags.reserve(all.size());
-  result.Hint.reserve(all.size());
-  for (const Source& o : all)
+  std::size_t n = 0; // points so far: the first n of sources
+  result.Flags.reserve(sources.size());
+  for (const Source& o : sources)
   {
     // Sorted by id: the same point of several parts comes in a row.
     const Part& part = parts[o.Part];
-    const double* x = part.GetPoint(o.Index);
-    if (sources.empty() || sources.back().Id != o.Id)
+    if (n == 0 || sources[n - 1].Id != o.Id)
     {
-      sources.push_back(o);
-      result.PointIds.push_back(o.Id);
-      result.Coordinates.insert(result.Coordinates.end(), x, x + 3);
+      sources[n++] = o;
       result.Flags.push_back(0);
-      result.Hint.push_back(part.Hint[o.Index]);
     }
-    else if (!IsSamePlace(&result.Coordinates[result.Coordinates.size() - 3], x))
+    else if (!IsSamePlace(
+               parts[sources[n - 1].Part].GetPoint(sources[n - 1].Index), part.GetPoint(o.Index)))
     {
       return "Point " + std::to_string(o.Id) + " is at two places.";
     }
     // What any part knows of a point holds: it may be fixed or waiting.
     result.Flags.back() |= part.Flags[o.Index];
-    newIndex[o.Part][o.Index] = result.GetNumberOfPoints() - 1;
+    newIndex[o.Part][o.Index] = static_cast<meshopt::Index>(n) - 1;
   }
-  Collect(parts, sources, &Part::PointArrays, result.PointArrays);
+  sources.resize(n);
+  Collect(parts, sources, &Part::PointIds, 1, result);
+  Collect(parts, sources, &Part::Coordinates, 3, result);
+  Collect(parts, sources, &Part::Hint, 1, result);
+  CollectArrays(parts, sources, &Part::PointArrays, result.PointArrays);
   return {};
 }
 
 std::string JoinCells(
-  const std::vector<Part>& parts, const std::vector<std::vector<vtkIdType>>& newIndex, Part& result)
+  std::vector<Part>& parts, const std::vector<std::vector<meshopt::Index>>& newIndex, Part& result)
 {
   const std::vector<Source> sources = ListSources(parts, &Part::CellIds);
-  result.CellIds.reserve(sources.size());
-  result.Cells.reserve(sources.size() * result.Corners);
-  result.Quality.reserve(sources.size());
-  result.Origin.reserve(sources.size());
-  result.Home.reserve(sources.size());
-  result.Kept.reserve(sources.size());
-  for (const Source& o : sources)
+  // Points may be shared, cells may not.
+  const auto twice = std::adjacent_find(
+    sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.Id == b.Id; });
+  if (twice != sources.end())
   {
-    // Points may be shared, cells may not.
-    const Part& part = parts[o.Part];
-    if (!result.CellIds.empty() && result.CellIds.back() == o.Id)
-    {
-      return "Cell " + std::to_string(o.Id) + " was there twice.";
-    }
-    result.CellIds.push_back(o.Id);
-    for (int i = 0; i < part.Corners; ++i)
-    {
-      result.Cells.push_back(newIndex[o.Part][part.GetCell(o.Index)[i]]);
-    }
-    result.Quality.push_back(part.Quality[o.Index]);
-    result.Origin.push_back(part.Origin[o.Index]);
-    result.Home.push_back(part.Home[o.Index]);
-    result.Kept.push_back(part.Kept[o.Index]);
+    return "Cell " + std::to_string(twice->Id) + " was there twice.";
   }
-  Collect(parts, sources, &Part::CellArrays, result.CellArrays);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    std::for_each(
+      parts[k].Cells.begin(), parts[k].Cells.end(), [&](meshopt::Index& p) { p = newIndex[k][p]; });
+  }
+  Collect(parts, sources, &Part::Cells, result.Corners, result);
+  Collect(parts, sources, &Part::CellIds, 1, result);
+  Collect(parts, sources, &Part::Quality, 1, result);
+  Collect(parts, sources, &Part::Origin, 1, result);
+  Collect(parts, sources, &Part::Home, 1, result);
+  Collect(parts, sources, &Part::Kept, 1, result);
+  CollectArrays(parts, sources, &Part::CellArrays, result.CellArrays);
   return {};
 }
 
 } // namespace
 
 //------------------------------------------------------------------------------
-std::string Join(const std::vector<Part>& parts, Part& result)
+std::string Join(std::vector<Part> parts, Part& result)
 {
   result = Part();
   result.Corners = parts[0].Corners;
-  std::vector<std::vector<vtkIdType>> newIndex;
+  std::vector<std::vector<meshopt::Index>> newIndex;
   // Cells need the new numbers of their points.
   const std::string error = JoinPoints(parts, result, newIndex);
   return error.empty() ? JoinCells(parts, newIndex, result) : error;

@@ -28,10 +28,10 @@ vtkSmartPointer<vtkIdList> MakeList(const std::vector<vtkIdType>& ids)
   return list;
 }
 
-template <class T>
 /**
  * `n`: values of each id.
  */
+template <class T>
 std::vector<T> Chosen(const std::vector<T>& values, const std::vector<vtkIdType>& ids, int n = 1)
 {
   std::vector<T> chosen;
@@ -53,29 +53,122 @@ void SelectAll(const Arrays& sources, const std::vector<vtkIdType>& ids, Arrays&
 }
 
 /**
- * The part with these points and cells of another; `newIndex` maps points.
+ * Which points and cells of a part each of the parts gets into which it is divided.
  */
-Part Extract(const Part& part, const std::vector<vtkIdType>& points,
-  const std::vector<vtkIdType>& cells, const std::vector<vtkIdType>& newIndex)
+struct Division
 {
-  Part result;
-  result.Corners = part.Corners;
-  result.PointIds = Chosen(part.PointIds, points);
-  result.Coordinates = Chosen(part.Coordinates, points, 3);
-  result.Flags = Chosen(part.Flags, points);
-  result.CellIds = Chosen(part.CellIds, cells);
-  result.Cells = Chosen(part.Cells, cells, part.Corners);
-  result.Quality = Chosen(part.Quality, cells);
-  result.Origin = Chosen(part.Origin, cells);
-  result.Home = Chosen(part.Home, cells);
-  result.Kept = Chosen(part.Kept, cells);
-  result.Hint = Chosen(part.Hint, points);
-  for (vtkIdType& p : result.Cells)
+  std::vector<std::vector<vtkIdType>> Points, Cells;
+  std::vector<char> IsShared; ///< of each point: several parts get it
+};
+
+Division DivideInto(const Part& part, const std::vector<int>& target, int parts, int rest)
+{
+  Division division;
+  division.Points.resize(parts);
+  division.Cells.resize(parts);
+  // Counted first: lists that double as they grow would take twice the memory.
+  std::vector<std::size_t> counts(parts, 0);
+  std::for_each(target.begin(), target.end(), [&](int k) { ++counts[k]; });
+  for (int k = 0; k < parts; ++k)
   {
-    p = newIndex[p];
+    division.Cells[k].reserve(counts[k]);
   }
-  SelectAll(part.PointArrays, points, result.PointArrays);
-  SelectAll(part.CellArrays, cells, result.CellArrays);
+  const vtkIdType n = part.GetNumberOfPoints();
+  // Points on a cut belong to all parts that use them.
+  std::vector<int> user(n, -1); // -1: none; -2: several parts
+  for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
+  {
+    division.Cells[target[c]].push_back(c);
+    for (int i = 0; i < part.Corners; ++i)
+    {
+      int& u = user[part.GetCell(c)[i]];
+      u = u == -1 || u == target[c] ? target[c] : -2;
+    }
+  }
+  std::vector<char> isUsed(n, 0);
+  for (int k = 0; k < parts; ++k)
+  {
+    // Most parts of a piece get nothing: no need to look at all points for them.
+    if (k != rest && division.Cells[k].empty())
+    {
+      continue;
+    }
+    std::fill(isUsed.begin(), isUsed.end(), 0);
+    for (const vtkIdType c : division.Cells[k])
+    {
+      for (int i = 0; i < part.Corners; ++i)
+      {
+        isUsed[part.GetCell(c)[i]] = 1;
+      }
+    }
+    // In the order of the part, so that ids stay ascending.
+    for (vtkIdType p = 0; p < n; ++p)
+    {
+      if (isUsed[p] || (k == rest && user[p] == -1))
+      {
+        division.Points[k].push_back(p);
+      }
+    }
+  }
+  division.IsShared.resize(n);
+  std::transform(
+    user.begin(), user.end(), division.IsShared.begin(), [](int u) { return u == -2; });
+  return division;
+}
+
+/**
+ * Gives each of `parts` its values of one list, `n` of each id. The memory of a source that is
+ * `consumed` is given back at once.
+ */
+template <class T>
+void Deal(std::vector<T> Part::*list, int n, const std::vector<std::vector<vtkIdType>>& ids,
+  const Part& source, Part* consumed, std::vector<Part>& parts)
+{
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    parts[k].*list = Chosen(source.*list, ids[k], n);
+  }
+  if (consumed)
+  {
+    std::vector<T>().swap(consumed->*list);
+  }
+}
+
+/**
+ * `consumed`: `part` itself, if nobody needs it any more; or nullptr.
+ */
+std::vector<Part> SplitInto(
+  const Part& part, Part* consumed, const std::vector<int>& target, int parts, int rest)
+{
+  const vtkIdType n = part.GetNumberOfPoints();
+  const Division division = DivideInto(part, target, parts, rest);
+  std::vector<Part> result(parts);
+  // List after list: where the source is consumed, no more than one is there twice.
+  Deal(&Part::Cells, part.Corners, division.Cells, part, consumed, result);
+  Deal(&Part::CellIds, 1, division.Cells, part, consumed, result);
+  Deal(&Part::Quality, 1, division.Cells, part, consumed, result);
+  Deal(&Part::Origin, 1, division.Cells, part, consumed, result);
+  Deal(&Part::Home, 1, division.Cells, part, consumed, result);
+  Deal(&Part::Kept, 1, division.Cells, part, consumed, result);
+  Deal(&Part::PointIds, 1, division.Points, part, consumed, result);
+  Deal(&Part::Coordinates, 3, division.Points, part, consumed, result);
+  Deal(&Part::Flags, 1, division.Points, part, consumed, result);
+  Deal(&Part::Hint, 1, division.Points, part, consumed, result);
+  std::vector<meshopt::Index> newIndex(n, -1);
+  for (int k = 0; k < parts; ++k)
+  {
+    result[k].Corners = part.Corners;
+    for (std::size_t i = 0; i < division.Points[k].size(); ++i)
+    {
+      const vtkIdType p = division.Points[k][i];
+      newIndex[p] = static_cast<meshopt::Index>(i);
+      result[k].Flags[i] |= division.IsShared[p] ? Skin : 0;
+    }
+    std::for_each(
+      result[k].Cells.begin(), result[k].Cells.end(), [&](meshopt::Index& p) { p = newIndex[p]; });
+    SelectAll(part.PointArrays, division.Points[k], result[k].PointArrays);
+    SelectAll(part.CellArrays, division.Cells[k], result[k].CellArrays);
+  }
   return result;
 }
 
@@ -213,54 +306,13 @@ Part MakePart(int corners, const Schema& points, const Schema& cells)
 //------------------------------------------------------------------------------
 std::vector<Part> Split(const Part& part, const std::vector<int>& target, int parts, int rest)
 {
-  const vtkIdType n = part.GetNumberOfPoints();
-  std::vector<std::vector<vtkIdType>> cells(parts);
-  // Points on a cut belong to all parts that use them.
-  std::vector<int> user(n, -1); // -1: none; -2: several parts
-  for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
-  {
-    cells[target[c]].push_back(c);
-    for (int i = 0; i < part.Corners; ++i)
-    {
-      int& u = user[part.GetCell(c)[i]];
-      u = u == -1 || u == target[c] ? target[c] : -2;
-    }
-  }
-  std::vector<char> isUsed(n, 0);
-  std::vector<Part> result;
-  std::vector<vtkIdType> newIndex(n, -1);
-  for (int k = 0; k < parts; ++k)
-  {
-    // Most parts of a piece get nothing: no need to look at all points for them.
-    if (k != rest && cells[k].empty())
-    {
-      result.push_back(Extract(part, {}, {}, newIndex));
-      continue;
-    }
-    std::fill(isUsed.begin(), isUsed.end(), 0);
-    for (const vtkIdType c : cells[k])
-    {
-      for (int i = 0; i < part.Corners; ++i)
-      {
-        isUsed[part.GetCell(c)[i]] = 1;
-      }
-    }
-    std::vector<vtkIdType> points;
-    // In the order of the part, so that ids stay ascending.
-    for (vtkIdType p = 0; p < n; ++p)
-    {
-      if (isUsed[p] || (k == rest && user[p] == -1))
-      {
-        newIndex[p] = static_cast<vtkIdType>(points.size());
-        points.push_back(p);
-      }
-    }
-    result.push_back(Extract(part, points, cells[k], newIndex));
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      result.back().Flags[i] |= user[points[i]] == -2 ? Skin : 0;
-    }
-  }
+  return SplitInto(part, nullptr, target, parts, rest);
+}
+
+std::vector<Part> Split(Part&& part, const std::vector<int>& target, int parts, int rest)
+{
+  std::vector<Part> result = SplitInto(part, &part, target, parts, rest);
+  part = Part();
   return result;
 }
 
@@ -351,7 +403,7 @@ Part Unpack(const Bytes& bytes, int corners, const Schema& points, const Schema&
   part.Coordinates = reader.TakeAll<double>();
   part.Flags = reader.TakeAll<std::uint8_t>();
   part.CellIds = reader.TakeAll<vtkIdType>();
-  part.Cells = reader.TakeAll<vtkIdType>();
+  part.Cells = reader.TakeAll<meshopt::Index>();
   part.Quality = reader.TakeAll<double>();
   part.Origin = reader.TakeAll<vtkIdType>();
   part.Home = reader.TakeAll<int>();

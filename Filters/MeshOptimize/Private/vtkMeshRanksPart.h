@@ -8,6 +8,8 @@
 
 #include "vtkMeshRanksExchange.h"
 
+#include "Mesh/Types.h"
+
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
@@ -18,6 +20,7 @@
 #include <vector>
 
 class vtkAbstractArray;
+class vtkCellArray;
 class vtkDataArray;
 class vtkDataSetAttributes;
 class vtkUnstructuredGrid;
@@ -69,13 +72,13 @@ using Arrays = std::vector<vtkSmartPointer<vtkAbstractArray>>;
 
 struct Part
 {
-  int Corners = 4;                 ///< of a cell
-  std::vector<vtkIdType> PointIds; ///< ascending
-  std::vector<double> Coordinates; ///< 3 of each point
-  std::vector<std::uint8_t> Flags; ///< PointFlag of each point
-  std::vector<vtkIdType> CellIds;  ///< ascending
-  std::vector<vtkIdType> Cells;    ///< corners of each cell, as indices of points
-  std::vector<double> Quality;     ///< of each cell; 0 before the first run
+  int Corners = 4;                   ///< of a cell
+  std::vector<vtkIdType> PointIds;   ///< ascending
+  std::vector<double> Coordinates;   ///< 3 of each point
+  std::vector<std::uint8_t> Flags;   ///< PointFlag of each point
+  std::vector<vtkIdType> CellIds;    ///< ascending
+  std::vector<meshopt::Index> Cells; ///< corners of each cell, as indices of points
+  std::vector<double> Quality;       ///< of each cell; 0 before the first run
   /// The cell of the input that each cell comes from: numbered over all ranks (see Origins).
   std::vector<vtkIdType> Origin;
   std::vector<int> Home;  ///< the rank that each cell, or its parent, had at first
@@ -87,7 +90,7 @@ struct Part
 
   vtkIdType GetNumberOfPoints() const { return static_cast<vtkIdType>(this->PointIds.size()); }
   vtkIdType GetNumberOfCells() const { return static_cast<vtkIdType>(this->CellIds.size()); }
-  const vtkIdType* GetCell(vtkIdType c) const { return &this->Cells[c * this->Corners]; }
+  const meshopt::Index* GetCell(vtkIdType c) const { return &this->Cells[c * this->Corners]; }
   const double* GetPoint(vtkIdType p) const { return &this->Coordinates[3 * p]; }
 };
 
@@ -114,10 +117,16 @@ Part MakePart(int corners, const Schema& points, const Schema& cells);
 std::vector<Part> Split(const Part& part, const std::vector<int>& target, int parts, int rest);
 
 /**
- * Joins parts by ids; cells and points are ordered by id, whatever the order of the parts. Returns
- * an error if two have a cell in common, or a point at two places.
+ * The same for a part that is not needed any more: its memory is given back on the way.
  */
-std::string Join(const std::vector<Part>& parts, Part& result);
+std::vector<Part> Split(Part&& part, const std::vector<int>& target, int parts, int rest);
+
+/**
+ * Joins parts by ids; cells and points are ordered by id, whatever the order of the parts. Returns
+ * an error if two have a cell in common, or a point at two places. Parts that are given away, not
+ * copied, give back their memory on the way.
+ */
+std::string Join(std::vector<Part> parts, Part& result);
 
 /**
  * To bytes, and back.
@@ -146,6 +155,20 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
  */
 vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
   const Part& part, const Schema& points, const Schema& cells);
+
+/**
+ * The same for a run or a look: the grid has the lists of the part itself, not copies. It must not
+ * be written to, and must not outlive the part. `cells`: those of the part, if somebody else has
+ * them, too (see HasSameCells()), and the part needs them no more; or nullptr.
+ */
+vtkSmartPointer<vtkUnstructuredGrid> BorrowGrid(
+  const Part& part, const Schema& points, const Schema& cellData, vtkCellArray* cells = nullptr);
+
+/**
+ * Whether a grid has the cells of the part, and no others, in the same order and by the same
+ * numbers of points.
+ */
+bool HasSameCells(vtkUnstructuredGrid* grid, const Part& part);
 
 /**
  * Frees the memory of all that a part knows of its cells, for a ReadGrid() that follows.

@@ -164,7 +164,7 @@ Part Gather(const Ranks& ranks, Piece& piece)
     }
   }
   Part whole;
-  ranks.Agree(ranks.IsFirst() ? Join(parts, whole) : "");
+  ranks.Agree(ranks.IsFirst() ? Join(std::move(parts), whole) : "");
   return whole;
 }
 
