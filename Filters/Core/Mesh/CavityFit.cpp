@@ -5,6 +5,7 @@
 #include "Mesh/EulerCharacteristic.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <numeric>
@@ -35,47 +36,79 @@ Facets<D> facetsOf(const std::vector<Simplex<D>>& cells)
   return facets;
 }
 
+/// A point or an edge, or neither: None stands for no point.
+using Face = std::array<Index, 2>;
+
 template <int D>
-bool has(const Facet<D>& f, const std::vector<Index>& face)
+bool has(const Facet<D>& f, const Face& face)
 {
-  return std::includes(f.begin(), f.end(), face.begin(), face.end());
+  const auto isIn = [&f](Index p)
+  { return p == None || f[0] == p || f[1] == p || (D == 3 && f[D - 1] == p); };
+  return isIn(face[0]) && isIn(face[1]);
+}
+
+/// A facet that two cells have.
+template <int D>
+struct Joint
+{
+  Facet<D> facet;
+  std::size_t one, other;
+};
+
+/// Of sorted facets, in their order.
+template <int D>
+std::vector<Joint<D>> jointsOf(const Facets<D>& facets)
+{
+  std::vector<Joint<D>> joints;
+  for (std::size_t k = 1; k < facets.size(); ++k)
+  {
+    if (facets[k].first == facets[k - 1].first)
+    {
+      joints.push_back({ facets[k].first, facets[k - 1].second, facets[k].second });
+    }
+  }
+  return joints;
 }
 
 /// One number per cell, equal for cells that are connected over facets that contain all of `face`.
+/// `part` has the size of the number of cells.
 template <int D>
-std::vector<std::size_t> parts(
-  const Facets<D>& facets, std::size_t numberOfCells, const std::vector<Index>& face)
+void findParts(
+  const std::vector<Joint<D>>& joints, const Face& face, std::vector<std::size_t>& part)
 {
   // Every cell is a part of its own at first. O(n) for each join: n is the number of cells of a
   // cavity.
-  std::vector<std::size_t> part(numberOfCells);
   std::iota(part.begin(), part.end(), std::size_t(0));
-  for (std::size_t k = 1; k < facets.size(); ++k)
+  for (const Joint<D>& joint : joints)
   {
-    const std::size_t one = part[facets[k - 1].second], other = part[facets[k].second];
-    if (facets[k].first == facets[k - 1].first && one != other && has<D>(facets[k].first, face))
+    const std::size_t one = part[joint.one], other = part[joint.other];
+    if (one != other && has<D>(joint.facet, face))
     {
       std::replace(part.begin(), part.end(), other, one);
     }
   }
-  return part;
 }
 
-/// Whether cells that are connected at a point (D = 3: or an edge) of the boundary before are so
-/// after, for every such point and edge. `outer`: the boundary, with the old cells; `within`: the
-/// new cells, in the same order.
 template <int D>
-bool staysTogether(const std::vector<Simplex<D>>& old, const std::vector<Simplex<D>>& cells,
-  const Facets<D>& outer, const std::vector<std::size_t>& within)
+bool isOnePiece(const std::vector<Joint<D>>& joints, std::size_t numberOfCells)
 {
-  const Facets<D> oldFacets = facetsOf<D>(old), newFacets = facetsOf<D>(cells);
-  // All points (D = 3: and edges) of the boundary.
-  std::vector<std::vector<Index>> faces;
-  for (const auto& f : outer)
+  std::vector<std::size_t> part(numberOfCells);
+  // Nothing is in all facets: cells connected in any way.
+  findParts<D>(joints, { None, None }, part);
+  return std::adjacent_find(part.begin(), part.end(), std::not_equal_to<>()) == part.end();
+}
+
+/// All points (D = 3: and edges) of facets.
+template <int D>
+std::vector<Face> facesOf(const Facets<D>& facets)
+{
+  std::vector<Face> faces;
+  faces.reserve(facets.size() * (D == 3 ? 6 : 2));
+  for (const auto& f : facets)
   {
     for (int i = 0; i < D; ++i)
     {
-      faces.push_back({ f.first[i] });
+      faces.push_back({ f.first[i], None });
       for (int j = 0; D == 3 && j < i; ++j)
       {
         faces.push_back({ f.first[j], f.first[i] });
@@ -84,11 +117,23 @@ bool staysTogether(const std::vector<Simplex<D>>& old, const std::vector<Simplex
   }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  for (const std::vector<Index>& face : faces)
+  return faces;
+}
+
+/// Whether cells that are connected at a point (D = 3: or an edge) of the boundary before are so
+/// after, for every such point and edge. `outer`: the boundary, with the old cells; `within`: the
+/// new cells, in the same order.
+template <int D>
+bool staysTogether(std::size_t numberOfOld, const std::vector<Joint<D>>& oldJoints,
+  std::size_t numberOfNew, const std::vector<Joint<D>>& newJoints, const Facets<D>& outer,
+  const std::vector<std::size_t>& within)
+{
+  std::vector<std::size_t> before(numberOfOld), after(numberOfNew), now(numberOfOld);
+  for (const Face& face : facesOf<D>(outer))
   {
-    const std::vector<std::size_t> before = parts<D>(oldFacets, old.size(), face);
-    const std::vector<std::size_t> after = parts<D>(newFacets, cells.size(), face);
-    std::vector<std::size_t> now(old.size(), None); // for each part before: the part after
+    findParts<D>(oldJoints, face, before);
+    findParts<D>(newJoints, face, after);
+    std::fill(now.begin(), now.end(), std::size_t(None)); // for each part before: the part after
     for (std::size_t k = 0; k < outer.size(); ++k)
     {
       if (has<D>(outer[k].first, face))
@@ -158,14 +203,13 @@ bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
     }
     k += static_cast<std::size_t>(n);
   }
-  // The empty face is in all facets: cells connected in any way.
-  const std::vector<std::size_t> whole = parts<D>(facets, cells.size(), {});
   // All of the boundary is filled; the new cells are one piece; no handle and no hollow came or
   // went; nothing was torn apart or joined at the boundary.
-  return within.size() == outer.size() &&
-    std::adjacent_find(whole.begin(), whole.end(), std::not_equal_to<>()) == whole.end() &&
+  const std::vector<Joint<D>> joints = jointsOf<D>(facets);
+  return within.size() == outer.size() && isOnePiece<D>(joints, cells.size()) &&
     eulerCharacteristic<D>(cells) == eulerCharacteristic<D>(old) &&
-    staysTogether<D>(old, cells, outer, within);
+    staysTogether<D>(
+      old.size(), jointsOf<D>(facetsOf<D>(old)), cells.size(), joints, outer, within);
 }
 
 template <int D>

@@ -19,6 +19,9 @@ long eulerCharacteristic(const std::vector<Simplex<D>>& cells)
   std::vector<Index> points;
   std::vector<std::array<Index, 2>> edges;
   std::vector<Facet<D>> facets;
+  points.reserve(cells.size() * (D + 1));
+  edges.reserve(cells.size() * std::size(Local<D>::edges));
+  facets.reserve(cells.size() * (D + 1));
   for (const Simplex<D>& c : cells)
   {
     points.insert(points.end(), c.begin(), c.end());
