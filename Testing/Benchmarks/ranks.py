@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What Mesh Optimize reaches on many ranks, and what it costs there, beside one rank of the same build; a Markdown table.
 
-    /usr/bin/python3 Testing/Benchmarks/ranks.py [options] MESH.vtu ...
+    /usr/bin/python3 Testing/Benchmarks/ranks.py [options] MESH ...
 
+    MESH             a file of VTK, or lattice:CUBES:THROW, the mesh of large.py
     --ranks N ...    numbers of ranks (default: 1 2 3 4)
     --effort NAME    quick, default or best (default: default)
     --kept           also with the borders kept (OptimizeBorders off)
@@ -33,6 +34,9 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructured
 
 # glibc otherwise keeps what reading the mesh has freed, and a run then seems to need that much less.
 GIVE_BACK = {"MALLOC_MMAP_THRESHOLD_": "1000000"}
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from large import lattice  # noqa: E402
+
 EFFORTS = {"quick": 0, "default": 1, "best": 2}
 
 
@@ -134,6 +138,26 @@ def gather(folder, ranks):
     return make_grid(x, cells), np.concatenate([p["quality"] for p in parts])
 
 
+def write(grid, path):
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressorTypeToNone()
+    writer.SetFileName(str(path))
+    writer.Write()
+
+
+def file_of(mesh, folder):
+    """The file of a mesh, which is made there if it is a lattice."""
+    if not mesh.startswith("lattice:"):
+        return pathlib.Path(mesh)
+    cubes, throw = mesh.split(":")[1:]
+    path = folder / f"lattice{cubes}.vtu"
+    write(make_grid(*lattice(int(cubes), float(throw))), path)
+    return path
+
+
 def row(opt, mesh, ranks, borders, serial):
     """One line of the table; the figures of it, and whether all is well."""
     with tempfile.TemporaryDirectory() as folder:
@@ -144,11 +168,7 @@ def row(opt, mesh, ranks, borders, serial):
         said = [json.loads(pathlib.Path(f"{folder}/{r}.json").read_text()) for r in range(ranks)]
         grid, quality = gather(folder, ranks)
     path = opt.output / f"{mesh.stem}.{ranks}{'' if borders else '.kept'}.vtu"
-    writer = vtkXMLUnstructuredGridWriter()
-    writer.SetInputData(grid)
-    writer.SetDataModeToBinary()
-    writer.SetFileName(str(path))
-    writer.Write()
+    write(grid, path)
     fault = "-"
     if opt.judge:
         command = [sys.executable, str(opt.judge / "check_mesh.py"), str(path), "--before", str(mesh)]
@@ -166,7 +186,7 @@ def row(opt, mesh, ranks, borders, serial):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("meshes", nargs="+", type=pathlib.Path)
+    parser.add_argument("meshes", nargs="+")
     parser.add_argument("--ranks", nargs="+", type=int, default=[1, 2, 3, 4])
     parser.add_argument("--effort", choices=EFFORTS, default="default")
     parser.add_argument("--kept", action="store_true")
@@ -177,7 +197,7 @@ def main():
     opt.output.mkdir(parents=True, exist_ok=True)
     print("| mesh | ranks | worst | under .2 | cells | s | MB | in bands | stop | fault |\n" + "|---" * 10 + "|")
     good = True
-    for mesh in opt.meshes:
+    for mesh in (file_of(name, opt.output) for name in opt.meshes):
         serial = None
         for ranks in opt.ranks:
             for borders in (True, False)[:2 if opt.kept and ranks > 1 else 1]:
