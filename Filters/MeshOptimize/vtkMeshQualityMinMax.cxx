@@ -457,6 +457,7 @@ int vtkMeshQualityMinMax::RequestData(
   {
     // Nothing of a part of the data is told: it would look like all.
     run.Figures = quality::Figures(1);
+    run.Options = quality::Options(); // the measure may be none
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
     {
       vtkDataObject::GetData(outputVector, port)->Initialize();

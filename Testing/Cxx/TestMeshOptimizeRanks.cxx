@@ -71,7 +71,7 @@ public:
         std::memcpy(&coordinates, bytes + 8 + 8 * points, 8);
       }
     }
-    if (points == 0 || coordinates != 3 * points)
+    if (coordinates == 0 || coordinates != 3 * points) // other bytes make any number of points
     {
       return this->Superclass::SendVoidArray(data, length, type, remoteHandle, tag);
     }
