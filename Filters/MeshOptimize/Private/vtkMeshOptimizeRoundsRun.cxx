@@ -83,13 +83,17 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   request.Control = vtkMeshBridge::MakeControl(
     request.Filter, request.NumberOfThreads, this->First, this->Last);
   std::string error;
-  std::vector<Part> parts; // the zone, and what is outside of it
+  std::vector<Part> parts(1); // the zone, and what is outside of it, if there is one
   if (this->HasZone)
   {
     const std::vector<int> target(part.Kept.begin(), part.Kept.end());
     parts = Split(std::move(part), target, 2, 0);
   }
-  Part& zone = this->HasZone ? parts[0] : part;
+  else
+  {
+    parts[0] = std::move(part);
+  }
+  Part& zone = parts[0];
   if (!zone.CellIds.empty())
   {
     int home = -1;
@@ -116,7 +120,14 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   // Also ranks without cells: they wait for the errors of the others.
   this->All.Agree(error);
   this->NumberNew(zone);
-  this->All.Agree(this->HasZone ? Join(std::move(parts), part) : "");
+  if (this->HasZone)
+  {
+    this->All.Agree(Join(std::move(parts), part));
+  }
+  else
+  {
+    part = std::move(zone);
+  }
   this->IsShort = this->All.IsAny(outcome.Report.stopReason == StopReason::GrowthLimit);
 }
 
