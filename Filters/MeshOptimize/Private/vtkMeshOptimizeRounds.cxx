@@ -7,22 +7,18 @@
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeValues.h"
 #include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeRun.h"
 #include "vtkMeshRanksBand.h"
 #include "vtkMeshRanksCheck.h"
 #include "vtkMeshRanksDivide.h"
 #include "vtkMeshRanksPlane.h"
 
 #include "vtkCellData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <sstream>

@@ -154,7 +154,7 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
  * The part as a grid. Ids are its global ids; origins are a cell array.
  */
 vtkSmartPointer<vtkUnstructuredGrid> MakeGrid(
-  const Part& part, const Schema& points, const Schema& cells);
+  const Part& part, const Schema& points, const Schema& cellData);
 
 /**
  * The same for a run or a look: the grid has the lists of the part itself, not copies. It must not
