@@ -44,7 +44,7 @@ void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes*
 }
 
 /**
- * A list as an array: a copy, or the list itself.
+ * A list as an array: a copy, or the list itself, if it has the type of the array.
  */
 template <class Array, class T>
 vtkSmartPointer<Array> MakeArray(
@@ -53,11 +53,14 @@ vtkSmartPointer<Array> MakeArray(
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
-  if (borrows && !values.empty())
+  if constexpr (std::is_same_v<typename Array::ValueType, T>)
   {
-    constexpr int save = 1; // the array never frees it
-    array->SetArray(const_cast<T*>(values.data()), static_cast<vtkIdType>(values.size()), save);
-    return array;
+    if (borrows && !values.empty())
+    {
+      constexpr int save = 1; // the array never frees it
+      array->SetArray(const_cast<T*>(values.data()), static_cast<vtkIdType>(values.size()), save);
+      return array;
+    }
   }
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
@@ -76,19 +79,8 @@ vtkSmartPointer<vtkCellArray> CellsOf(const Part& part, bool borrows)
   {
     offsets->SetValue(c, static_cast<typename Ids::ValueType>(c * part.Corners));
   }
-  vtkSmartPointer<Ids> corners;
-  if constexpr (std::is_same_v<typename Ids::ValueType, meshopt::Index>)
-  {
-    corners = MakeArray<Ids>(part.Cells, nullptr, 1, borrows);
-  }
-  else
-  {
-    corners = vtkSmartPointer<Ids>::New();
-    corners->SetNumberOfValues(static_cast<vtkIdType>(part.Cells.size()));
-    std::copy(part.Cells.begin(), part.Cells.end(), corners->GetPointer(0));
-  }
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, corners);
+  cells->SetData(offsets, MakeArray<Ids>(part.Cells, nullptr, 1, borrows));
   return cells;
 }
 
