@@ -6,6 +6,7 @@
 #include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
+#include "vtkMeshOptimizeGeometry.h"
 #include "vtkMeshOptimizeHistory.h"
 #include "vtkMeshOptimizeRanks.h"
 #include "vtkMeshOptimizeRun.h"
@@ -259,6 +260,7 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   request.Surface.tolerance = filter->GetSurfaceTolerance();
   request.ToleranceIsAbsolute = filter->GetToleranceIsAbsolute();
   request.Geometry = geometry;
+  request.HasGeometryCorners = bridge::HasCornerArray(filter, geometry);
   return request;
 }
 
@@ -344,9 +346,8 @@ std::string CheckRequest(const bridge::Request& request, std::vector<Task>& task
     return "The boundary mode Slide needs the algorithm WorstFirst.";
   }
   // Corners may be marked in the geometry alone: the grids then need no such array.
-  const bool inGeometry = bridge::HasCornerArray(request.Filter, request.Geometry);
   const std::string error = bridge::CheckArraysAreThere(
-    request.Filter, grids, inGeometry ? bridge::CornerArray : -1);
+    request.Filter, grids, request.HasGeometryCorners ? bridge::CornerArray : -1);
   return error.empty() ? request.Options.check(hasSizes) : error;
 }
 
@@ -361,17 +362,6 @@ int CountGhostLevels(vtkInformation* info)
 {
   const auto levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
   return info->Has(levels) ? info->Get(levels) : 0;
-}
-
-/**
- * The border of a piece is not a boundary of the mesh, so it cannot slide.
- */
-std::string CheckPieces(vtkMeshOptimizeFilter* filter, int pieces)
-{
-  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && pieces > 1
-    ? "The boundary mode Slide needs the whole mesh in one piece; it cannot work on distributed "
-      "data."
-    : "";
 }
 
 bool HasTetrahedra(vtkUnstructuredGrid* grid)
@@ -423,6 +413,18 @@ bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
 }
 
 /**
+ * The border of a piece is not a boundary of the mesh, so it cannot slide.
+ */
+std::string CheckPieces(vtkMeshOptimizeFilter* filter, const Ports& ports)
+{
+  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && ports.NumberOfPieces > 1 &&
+      !HasRanks(filter, ports)
+    ? "The boundary mode Slide needs the whole mesh in one piece, or triangles on several ranks "
+      "with OptimizeBorders on."
+    : "";
+}
+
+/**
  * Of each task, whether its triangles alone are no mesh, since other ranks have volumes.
  */
 std::vector<char> FindPiecesOfVolumes(
@@ -463,7 +465,7 @@ std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
   request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
   request.NumberOfGhostLevels = std::max(
     filter->GetNumberOfGhostLevels(), ports.NumberOfGhostLevels);
-  // On several ranks no surface slides: see CheckPieces().
+  // On several ranks no surface of tetrahedra slides.
   bridge::StartHistory(ports.History, tree != nullptr, false);
   bridge::Outcome all;
   for (const int block : blocks)
@@ -538,6 +540,10 @@ std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridg
     if (!error.empty() || obstacle.empty())
     {
       return error;
+    }
+    if (request.Slide)
+    {
+      return "The boundary mode Slide cannot be used on several ranks here: " + obstacle + ".";
     }
     if (filter->GetController()->GetLocalProcessId() == 0)
     {
@@ -629,7 +635,7 @@ int vtkMeshOptimizeFilter::RequestData(
   std::string error;
   try
   {
-    error = CheckPieces(this, ports.NumberOfPieces);
+    error = CheckPieces(this, ports);
     error = error.empty() ? OptimizeAll(this, ports, results.Outcome) : error;
   }
   catch (const std::bad_alloc&)

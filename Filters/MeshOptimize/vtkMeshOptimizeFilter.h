@@ -319,7 +319,7 @@ public:
   ///@{
   /**
    * The treatment of the boundary, including interfaces between regions and the sides of cracks.
-   * Slide needs WorstFirst and the whole mesh in one piece. Default: Fixed.
+   * Slide needs WorstFirst, and tetrahedra in one piece. Default: Fixed.
    *
    * Slide, triangles: nodes slide along the curves that the boundary follows, edges on them are
    * split and contracted, and new nodes lie on the curve. Corners stay. The curves come from the
@@ -476,8 +476,8 @@ public:
    *
    * This is for tetrahedra, or triangles in one plane. In composite data the grids of all ranks
    * with the same flat index are one mesh. With sizes, a metric or other cells, one warning says
-   * that the borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide on several
-   * pieces is an error.
+   * that the borders are kept. Ghost cells of the input are dropped. BoundaryMode Slide is for
+   * triangles without sizes; in all other cases it is an error on several pieces.
    *
    * It has an effect if the number of pieces that is asked for is that of the controller's ranks,
    * as in ParaView, or by UpdatePiece(rank, ranks, 0). All ranks must then update together.

@@ -2,7 +2,7 @@
 """Random small meshes in random pieces through vtkMeshOptimizeFilter on several ranks, with OptimizeBorders, beside one rank.
 
     eval "$(./bootstrap.sh env)"
-    /usr/bin/python3 Testing/Fuzz/fuzz_ranks.py FIRST COUNT [--ranks N] [--limit SECONDS] [--least SHARE] [--verbose]
+    /usr/bin/python3 Testing/Fuzz/fuzz_ranks.py FIRST COUNT [--slide] [--ranks N] [--limit SECONDS] [--least SHARE] [--verbose]
 
 Runs the seeds FIRST ... FIRST + COUNT - 1 on N (2) ranks of this computer; each is a mesh, a division and options of its own,
 always the same. Every line of output but the last is a seed to look at. The last says how many ended at less than .98 of one
@@ -14,6 +14,8 @@ What is checked:
 - no error, but that the points need global ids where a crack and a border meet, or that one rank has an error, too;
 - surface, interfaces and volume are as before, no facet has three cells, on the gathered mesh; where points have no ids, this
   is seen by places, which cannot tell the sides of a crack apart where cells lie on each other;
+- with --slide the meshes are triangles whose boundary slides: it stays near the lines of before (as near as in fuzz_boundary.py),
+  as many lines meet at each point, and fixed points stay;
 - figures are the same on all ranks; worst, mean and bound of the input are those of one rank, unless cells are inverted, flat
   or coincide: which side of a piece is up is then decided for each piece.
 """
@@ -45,6 +47,11 @@ def divide(random, mesh, ranks):
     return np.full(len(centers), random.integers(ranks)), "on one rank"
 
 
+def choose_sliding(random):
+    return {"BoundaryMode": 1, "BoundaryCurve": int(random.random() < 0.5),
+            "CornerAngle": float(random.choice([0.0, 10.0, 45.0, 45.0, 90.0, 180.0]))}
+
+
 def choose(random, mesh):
     options = {"TargetQuality": float(random.choice([0.3, 0.6, 0.6, 0.8])), "Effort": int(random.choice([0, 1, 1, 1]))}
     for name in ("MoveNodes", "Reconnect", "InsertNodes", "RemoveNodes", "LookAhead"):
@@ -61,17 +68,21 @@ def choose(random, mesh):
 class Case:
     """One seed, the same on all ranks."""
 
-    def __init__(self, seed, ranks):
+    def __init__(self, seed, ranks, slides=False):
+        from fuzz_boundary import plane_mesh
         from fuzz_meshes import random_mesh
-        random = np.random.default_rng(seed)
-        mesh = random_mesh(random)
+        random = np.random.default_rng([seed, 3] if slides else seed)
+        mesh = plane_mesh(random) if slides else random_mesh(random)
         mesh["others"] = []
         self.mesh = mesh
         self.text = mesh["text"]
         self.owner, how = divide(random, mesh, ranks) if len(mesh["cells"]) else (np.zeros(0, int), "nothing")
         self.options, self.arrays = choose(random, mesh)
         self.ids = random.random() < 0.6
-        if random.random() < 0.15:
+        self.slides = slides
+        if slides:
+            self.options.update(choose_sliding(random))
+        elif random.random() < 0.15:
             self.options.update(OptimizeBelow=float(random.choice([0.1, 0.3])), NumberOfLayers=int(random.integers(4)))
         self.text += f", {how}, {'ids' if self.ids else 'no ids'}, {self.options}, {self.arrays}"
 
@@ -133,6 +144,29 @@ def kept_of(cells, regions):
     return unique[(count != 2) | (low != high)], count.max()
 
 
+def lines_of(kept):
+    """Kept facets of triangles as the places of their ends."""
+    return kept.view("f8").reshape(-1, 2, 4)
+
+
+def look_at_boundary(case, old, new):
+    """What is wrong with a boundary that slides."""
+    from fuzz_boundary import distance_to_lines
+    old, new = lines_of(old), lines_of(new)
+    x = case.mesh["points"]
+    extent = np.ptp(x, axis=0).max()
+    longest = np.linalg.norm(old[:, 1, :3] - old[:, 0, :3], axis=1).max()
+    share = 1.2 * 0.5 * np.tan(np.radians(case.options["CornerAngle"]) / 4.0) if case.options["BoundaryCurve"] else 0.0
+    away = distance_to_lines(new.reshape(-1, 4)[:, :3], old[:, :, :3]).max()
+    if away > share * longest + 1e-9 * extent + 1e-13 * np.abs(x).max():
+        return f"the boundary went {away} away (extent {extent})"
+    meet = [np.unique(e.reshape(-1, 4), axis=0, return_counts=True)[1] for e in (old, new)]
+    before, after = (sorted(m[m != 2].tolist()) for m in meet)
+    if before != after and ("cracked" not in case.text or case.ids):  # by places alone both sides of a crack are one line
+        return f"points where boundaries meet: {before} became {after}"
+    return ""
+
+
 def volume_of(cells):
     edges = cells[:, 1:, :3] - cells[:, :1, :3]
     if cells.shape[1] == 4:
@@ -160,9 +194,16 @@ def look(case, f, serial, after, figures):
         cells = tuple(np.concatenate(p) for p in zip(*mine))
         (old, most), (new, now) = kept_of(*before), kept_of(*cells)
         blind = "at one place" in case.text or (tangled and "cracked" in case.text and not case.ids)
-        if (now > most or not np.array_equal(old, new)) and not blind:
+        if (now > max(most, 2) or not (case.slides or np.array_equal(old, new))) and not blind:
             return f"another surface or interface, {len(old)} and {len(new)} facets, {now} cells", 1.0
-        if not tangled and abs(volume_of(cells[0]) - volume_of(before[0])) > 1e-9 * volume_of(before[0]):
+        wrong = look_at_boundary(case, old, new) if case.slides and not blind else ""
+        if wrong:
+            return wrong, 1.0
+        places = {tuple(x) for x in cells[0].reshape(-1, 4)[:, :3]}
+        used = np.unique(case.mesh["cells"])
+        if case.mesh["fixed"] is not None and not all(tuple(case.mesh["points"][p]) in places for p in used[case.mesh["fixed"][used]]):
+            return "a fixed point is gone", 1.0
+        if not tangled and not case.slides and abs(volume_of(cells[0]) - volume_of(before[0])) > 1e-9 * volume_of(before[0]):
             return "another volume", 1.0
     a, b = f.GetWorstQualityAfter(), serial.GetWorstQualityAfter()
     if a < f.GetWorstQualityBefore() and not tangled:
@@ -170,7 +211,7 @@ def look(case, f, serial, after, figures):
     return "", (a / b if b > 1e-9 else 1.0 if a > b - 0.02 else 0.0)
 
 
-def work(first, count, report):
+def work(first, count, report, slides):
     """On each rank: runs the seeds, and the first rank writes a line for each."""
     sys.path.insert(0, str(pathlib.Path(__file__).parent))
     sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "ParaView"))
@@ -179,7 +220,7 @@ def work(first, count, report):
     import ranks_case as rc
     sys.excepthook = rc.fail
     for seed in range(first, first + count):
-        case = Case(seed, rc.ranks)
+        case = Case(seed, rc.ranks, slides)
         serial = case.run(case.grid(np.ones(len(case.mesh["cells"]), bool)), False) if rc.rank == 0 else None
         f = case.run(case.grid(case.owner == rc.rank), True)
         path = f"{rc.folder}/fuzz.{rc.ranks}.{{}}.pickle"
@@ -198,7 +239,7 @@ def work(first, count, report):
 def run_seeds(opt, first, last, report):
     """The seeds that are done: all, or those before one that hangs or crashes."""
     command = ["mpirun.openmpi", "--oversubscribe", "-np", opt.ranks, "pvbatch", "--symmetric", __file__, "--worker",
-               first, last - first, report]
+               first, last - first, report, int(opt.slide)]
     environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_mpi_yield_when_idle": "1",  # ranks that wait take the time of those that work, where cores are few
                    "MESHOPTIMIZE_OUTPUT": str(report.parent)}
@@ -220,6 +261,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("first", type=int)
     parser.add_argument("count", type=int)
+    parser.add_argument("--slide", action="store_true")
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--limit", type=float, default=60.0)
     parser.add_argument("--least", type=float, default=0.95)
@@ -249,6 +291,6 @@ def main():
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--worker"]:
-        work(int(sys.argv[2]), int(sys.argv[3]), sys.argv[4])  # without sys.exit(): pvbatch has to end MPI
+        work(int(sys.argv[2]), int(sys.argv[3]), sys.argv[4], sys.argv[5] == "1")  # without sys.exit(): pvbatch has to end MPI
     else:
         sys.exit(main())

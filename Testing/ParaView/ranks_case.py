@@ -132,10 +132,11 @@ def corners(grid):
 
 def gather(**arrays):
     """The arrays of all ranks, a list for each name, on all ranks."""
+    script = os.path.basename(sys.argv[0])  # tests run side by side
     for name, values in arrays.items():
-        np.save(f"{folder}/ranks{ranks}.{name}.{rank}.npy", values)
+        np.save(f"{folder}/{script}.{ranks}.{name}.{rank}.npy", values)
     controller.Barrier()
-    all_of = {name: [np.load(f"{folder}/ranks{ranks}.{name}.{r}.npy") for r in range(ranks)] for name in arrays}
+    all_of = {name: [np.load(f"{folder}/{script}.{ranks}.{name}.{r}.npy") for r in range(ranks)] for name in arrays}
     controller.Barrier()
     return all_of
 

@@ -9,24 +9,15 @@
 #include "Surface/LineNetwork.h"
 #include "Surface/PlaneCurve.h"
 #include "Surface/Surface.h"
+#include "Surface/WholeBoundary.h"
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace meshopt
 {
-struct CurveOptions
-{
-  /// Degrees. A point where lines turn by more than this is a corner. A point where they turn back
-  /// (by 179 degrees), as at the tip of a slit, is always one.
-  double cornerAngle = 45.0;
-  /// Cubic B-splines through the points between two corners; otherwise straight lines. There are
-  /// additional corners where a spline would be farther from its points than a circle that turns by
-  /// cornerAngle from point to point: so a straight side that continues in an arc stays straight. A
-  /// single point that turns by more than 10 degrees between points that do not is also a corner.
-  bool splines = true;
-};
-
 /// The kept facets of a mesh are divided into pieces. Each runs from one corner to the next, or is
 /// closed. A corner is a point where not exactly two kept facets meet, where the line turns
 /// sharply, or that the caller fixed. Each piece lies on a curve: one through its own points, or a
@@ -47,6 +38,12 @@ public:
   /// of the geometry without a point of the mesh. The mesh then has no places.
   std::string build(MeshEditor<2>& editor, const LineNetwork& geometry, const CurveOptions& options,
     const std::vector<std::uint8_t>& corners = {});
+
+  /// Puts the boundary of a part of a mesh on the curves of the whole.
+  void build(MeshEditor<2>& editor, const WholeBoundary& whole, const PartOfBoundary& part);
+  /// After that: where a point of this mesh is in the whole; no piece if it is fixed, or not on it.
+  WholeBoundary::Place inWhole(
+    const WholeBoundary& whole, const SimplexMesh<2>& mesh, Index point) const;
 
   std::size_t numberOfPieces() const { return this->pieces_.size(); }
 
@@ -81,18 +78,14 @@ public:
   bool mayBeNeighbours(const Span& s) const { return this->pieces_.mayBeNeighbours(s); }
 
 private:
-  void markWhereSplinesOvershoot(LineNetwork& network, const CurveOptions& options) const;
-  PlaneCurve curve(const LineNetwork& network, const LineChain& chain, bool splines) const;
-  std::string matchCorners(const SimplexMesh<2>& mesh, const LineNetwork& geometry,
-    double tolerance, LineNetwork& boundary) const;
-  void addPiece(MeshEditor<2>& editor, const LineChain& chain, Index curve,
-    const std::vector<double>& parameters);
-  Index nearestCurve(const SimplexMesh<2>& mesh, const LineChain& chain, double tolerance,
-    Index& farthest, double& distance) const;
-  std::string place(MeshEditor<2>& editor, const LineChain& chain, double tolerance);
+  void keep(const LineChain& chain);
+  /// `geometry` may be nullptr.
+  std::string buildAll(MeshEditor<2>& editor, const LineNetwork* geometry,
+    const CurveOptions& options, const std::vector<std::uint8_t>& corners);
 
   std::vector<PlaneCurve> curves_;
   CurvePieces pieces_;
+  std::vector<Index> wholes_; ///< of a part: the piece of the whole that each piece is on
 };
 }
 

@@ -117,7 +117,7 @@ std::optional<Span> CurvePieces::span(Index a, const Place& pa, Index b, const P
         {
           continue;
         }
-        if (found->second == None)
+        if (found->second == None || this->pieces_[found->second].curve == None)
         {
           return std::nullopt;
         }

@@ -16,7 +16,7 @@ namespace meshopt
 {
 struct CurvePiece
 {
-  Index curve = None;
+  Index curve = None;                      ///< None: neighbours on it are on no curve
   std::array<Index, 2> ends{ None, None }; ///< points of the mesh; None: closed
   std::array<double, 2> range{ 0.0, 0.0 }; ///< parameters of the ends
   double period = 0.0;                     ///< of a closed piece

@@ -16,6 +16,7 @@ struct LineNetwork
   std::vector<Vec<2>> points;
   std::vector<std::array<Index, 2>> lines;
   std::vector<std::uint8_t> corners; ///< nonzero: the point is a corner; one per point, or empty
+  std::vector<std::int64_t> names;   ///< of points, for messages; empty: their numbers
 };
 
 /// The lines from one corner to the next, or a closed line; points by their ids.

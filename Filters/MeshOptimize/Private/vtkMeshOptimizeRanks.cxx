@@ -33,7 +33,11 @@ namespace
  */
 std::string FindObstacle(const Request& request)
 {
-  return request.UsesSizes() || vtkMeshBridge::IsWanted(request.Filter, MetricArray)
+  // Without Beta a boundary that is kept does not look at sizes.
+  const bool hasSizes = request.Options.desiredSize > 0.0 ||
+    vtkMeshBridge::IsWanted(request.Filter, SizeArray);
+  return request.Options.beta > 0.0 || (request.Slide && hasSizes) ||
+      vtkMeshBridge::IsWanted(request.Filter, MetricArray)
     ? "sizes or a metric are used"
     : "";
 }
@@ -142,6 +146,10 @@ std::string FindObstacle(const Ranks& ranks, const Request& request, vtkUnstruct
     dimension = *std::max_element(all.begin(), all.end());
     const bool isMixed = mine != 0 && mine != dimension;
     obstacle = isMixed ? "some ranks have triangles only, others tetrahedra" : obstacle;
+    if (request.Slide && dimension == 3)
+    {
+      obstacle = "the surface of tetrahedra slides on one rank only";
+    }
     const std::string arrays = CompareArrays(ranks, input);
     obstacle = obstacle.empty() ? arrays : obstacle;
   }
@@ -227,6 +235,7 @@ std::string OptimizeOnRanks(vtkMultiProcessController* controller, Request& requ
   return ranks.Together(
     [&]()
     {
+      request.HasGeometryCorners = ranks.IsAny(request.HasGeometryCorners);
       ranks.Agree(check());
       // Each rank for itself would take all cores of the computer.
       if (request.NumberOfThreads <= 0)

@@ -51,6 +51,11 @@ struct Request
   bool IsPieceOfVolume = false;
   /// The plane of the triangles, if they are a part of a mesh; nullptr: they say themselves.
   const vtkMeshBridge::Frame<2>* Plane = nullptr;
+  /// The boundary of all triangles, if they are a part of a mesh and it slides; and what of it this
+  /// part has, which a run replaces by what it has left.
+  const meshopt::WholeBoundary* Boundary = nullptr;
+  meshopt::PartOfBoundary* BoundaryOfPart = nullptr;
+  bool HasGeometryCorners = false; ///< Geometry has the corner array, on many ranks that of any
 
   /// Whether sizes are used: in the quality, or because the boundary follows them.
   bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }

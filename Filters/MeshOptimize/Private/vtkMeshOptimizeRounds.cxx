@@ -160,6 +160,7 @@ std::string Rounds::Read(
   this->PointsAtFirst = Measure(this->All, this->Mine, shared, 0.0).Points;
   this->CellsInZone = this->CellsAtFirst;
   this->ShareGrowth();
+  this->GatherBoundary();
   return {};
 }
 
@@ -286,6 +287,10 @@ void Rounds::OptimizePieces()
   {
     this->FindGoalOfPieces();
   }
+  else if (this->Wanted.Slide)
+  {
+    this->MarkBorder(FindShared(this->All, this->Mine), {});
+  }
   // What is at a border cannot get much better now: its share is left for the rounds.
   double inside = 0.0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
@@ -378,7 +383,7 @@ void Rounds::Round(int round, const Part& from)
       this->Mine.Flags[p] &= static_cast<std::uint8_t>(~Waiting);
     }
   }
-  if (this->IsBest())
+  if (this->IsBest() || this->Wanted.Slide)
   {
     this->MarkBorder(shared, isMoved);
   }
@@ -411,7 +416,8 @@ void Rounds::Round(int round, const Part& from)
     this->All.Agree(undoes ? Join({ rest, band }, this->Mine) : "");
   }
   const Signature after = this->Sign();
-  problem = Compare(before, after, false, this->IsTangled);
+  // A boundary that slides is another one now; what may not change is seen to after each run.
+  problem = this->Wanted.Slide ? "" : Compare(before, after, false, this->IsTangled);
   this->All.Agree(problem.empty() ? "" : "After a round at the borders " + problem + ".");
   this->Result.NumberOfOperations += this->All.Sum(run.NumberOfOperations);
   this->Result.Report.evaluations += this->All.Sum(run.Report.evaluations);

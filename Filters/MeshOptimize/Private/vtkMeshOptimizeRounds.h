@@ -11,6 +11,7 @@
 #include "vtkMeshRanksIds.h"
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +69,12 @@ private:
   void FindPlane(vtkUnstructuredGrid* input, const std::vector<vtkIdType>& triangles);
   vtkMeshRanks::Signature Sign() const;
   void Divide();
+  void GatherBoundary();
+  meshopt::LineNetwork GatherGeometry() const;
+  meshopt::PartOfBoundary ReadBoundary(const vtkMeshRanks::Part& part) const;
+  void FinishBoundary(vtkMeshRanks::Part& part, const std::vector<std::uint64_t>& hull,
+    const meshopt::PartOfBoundary& boundary) const;
+  void CloseBoundary();
   void FindZone();
   void ShareGrowth();
   void RunIdle(vtkMeshRanks::Part& part, Outcome& idle);
@@ -78,6 +85,7 @@ private:
   void Round(int round, const vtkMeshRanks::Part& from);
   bool IsBest() const { return this->Wanted.Options.effort == meshopt::Effort::Best; }
   double GetGoal() const;
+  void FindCaps(const vtkMeshRanks::Shared& shared);
   void MarkBorder(const vtkMeshRanks::Shared& shared, const std::vector<char>& isMoved);
   void WidenBorder(int layers);
   void FindGoalOfPieces();
@@ -102,6 +110,9 @@ private:
   vtkUnstructuredGrid* Input = nullptr;                 ///< of this rank
   vtkMeshRanks::Part Mine;
   vtkIdType CellsAtFirst = 0, PointsAtFirst = 0; ///< of all ranks
+  meshopt::WholeBoundary Boundary;               ///< of all ranks, if it slides
+  std::map<vtkIdType, meshopt::Index> Corners;   ///< of the same: id and number in it
+  double AreaAtFirst = 0.0;                      ///< the same
   long Growth = 0, Shrink = 0;    ///< how many cells all ranks may gain and lose, from CellsAtFirst
   bool HasZone = false;           ///< some cells may not change: those that are Kept
   vtkIdType CellsInZone = 0;      ///< of all ranks, at first

@@ -118,6 +118,20 @@ std::vector<long long> Rounds::ReadRegions() const
 }
 
 /**
+ * What the surface allows. As on one rank, nothing is known of one that slides.
+ */
+void Rounds::FindCaps(const Shared& shared)
+{
+  this->Surface = SurfaceFigures();
+  this->Surface.IsCapped.assign(this->Mine.CellIds.size(), 0);
+  if (!this->Wanted.Slide)
+  {
+    this->Surface = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
+      this->Wanted.Options.measure, this->GetGoal(), this->Plane);
+  }
+}
+
+/**
  * Adds a row of all ranks to the history.
  */
 void Rounds::Record(const char* stage, const Outcome& run)
@@ -153,8 +167,7 @@ void Rounds::Record(const char* stage, const Outcome& run)
   }
   else
   {
-    this->Surface = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
-      this->Wanted.Options.measure, this->GetGoal(), this->Plane);
+    this->FindCaps(shared);
   }
   vtkIdType capped = 0;
   for (vtkIdType c = 0; c < this->Mine.GetNumberOfCells(); ++c)
@@ -194,6 +207,7 @@ StopReason Rounds::FindReason() const
 
 void Rounds::Write(vtkUnstructuredGrid* input, vtkUnstructuredGrid* output)
 {
+  this->CloseBoundary();
   SampleOnce(
     this->All, input, this->FirstCell, this->Points, this->FirstNewPoint, this->Plane, this->Mine);
   GhostFlags ghosts;

@@ -24,13 +24,13 @@ namespace
 {
 
 // Whether a point is fixed travels as a flag of the part, not as an array.
-vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part, PointFlag flag)
+vtkSmartPointer<vtkUnsignedCharArray> MaskOf(const Part& part, int flags)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
   mask->SetNumberOfValues(part.GetNumberOfPoints());
   for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
   {
-    mask->SetValue(p, (part.Flags[p] & flag) != 0);
+    mask->SetValue(p, (part.Flags[p] & flags) != 0);
   }
   return mask;
 }
@@ -94,6 +94,9 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
     parts[0] = std::move(part);
   }
   Part& zone = parts[0];
+  const auto hull = this->Wanted.Slide ? HashesOfHull(zone) : std::vector<std::uint64_t>();
+  meshopt::PartOfBoundary boundary = this->ReadBoundary(zone);
+  request.BoundaryOfPart = &boundary;
   if (!zone.CellIds.empty())
   {
     int home = -1;
@@ -101,7 +104,8 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
     InputArrays arrays;
     error = FindInputArrays(request.Filter, grid, arrays);
     // A mask of the part as it is now: at moved points an interpolated array has fractions.
-    const auto mask = MaskOf(zone, PointFlag::Fixed); // the array is interpolated at moved points
+    // A part of a boundary that slides may not move where other parts have it, too.
+    const auto mask = MaskOf(zone, this->Wanted.Slide ? PointFlag::Fixed | Hull : PointFlag::Fixed);
     arrays.FixedPoints = mask;
     // With less effort no run goes on after the target, and all cells up to it get their tries.
     const auto border = MaskOf(zone, Border);
@@ -119,6 +123,7 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   }
   // Also ranks without cells: they wait for the errors of the others.
   this->All.Agree(error);
+  this->FinishBoundary(zone, hull, boundary);
   this->NumberNew(zone);
   if (this->HasZone)
   {

@@ -61,7 +61,8 @@ void Rounds::MarkBorder(const Shared& shared, const std::vector<char>& isMoved)
   {
     const bool isBetween = shared.Has(p) || (stays[p] && runs[p]);
     std::uint8_t& flags = this->Mine.Flags[p];
-    flags = static_cast<std::uint8_t>(flags & ~Border);
+    flags = static_cast<std::uint8_t>(flags & ~(Border | Hull));
+    flags |= isBetween ? Hull : 0;
     flags |= isBetween && !(flags & PointFlag::Fixed) ? Border : 0;
   }
 }
@@ -100,9 +101,8 @@ void Rounds::FindGoalOfPieces()
     // Not measured yet, but positive: on which side of its facets a cell lies is certain.
     this->Mine.Quality.assign(this->Mine.CellIds.size(), 1.0);
   }
-  this->Most = MeasureSurface(this->All, this->Mine, shared, this->ReadRegions(),
-    this->Wanted.Options.measure, this->GetGoal(), this->Plane)
-                 .Bound;
+  this->FindCaps(shared);
+  this->Most = this->Surface.Bound;
 }
 
 /**

@@ -176,6 +176,7 @@ void Export(const Request& request, const typename SurfaceOf<D>::type& surface, 
   if (request.Slide)
   {
     AddBoundaryPlace(model, map, output);
+    KeepPlaces(request, model, map, surface);
     outcome.HasSurfaceDistance = D == 3;
     outcome.SurfaceDistance = DistanceOf(surface, model.Mesh);
   }

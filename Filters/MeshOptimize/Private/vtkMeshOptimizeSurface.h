@@ -6,6 +6,7 @@
 #ifndef vtkMeshOptimizeSurface_h
 #define vtkMeshOptimizeSurface_h
 
+#include "vtkMeshOptimizeExport.h"
 #include "vtkMeshOptimizeModel.h"
 #include "vtkMeshOptimizeRequest.h"
 
@@ -15,17 +16,10 @@
 #include <string>
 #include <vector>
 
-class vtkAlgorithm;
-class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace vtkMeshOptimizeBridge
 {
-
-/**
- * Whether `geometry` has the corner array that the caller of `filter` chose.
- */
-bool HasCornerArray(vtkAlgorithm* filter, vtkPolyData* geometry);
 
 /**
  * What the boundary of a mesh slides along.
@@ -57,6 +51,15 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
  */
 std::string BuildSurface(const Request& request, Model<2>& model, meshopt::BoundaryCurves& curves);
 std::string BuildSurface(const Request& request, Model<3>& model, meshopt::SlidingSurface& surface);
+
+/**
+ * Of a part of a mesh: replaces what its points have of the whole boundary by what those of the
+ * output have.
+ */
+void KeepPlaces(const Request& request, const Model<2>& model, const OutputMap& map,
+  const meshopt::BoundaryCurves& curves);
+void KeepPlaces(const Request& request, const Model<3>& model, const OutputMap& map,
+  const meshopt::SlidingSurface& surface);
 
 /**
  * A sentence about facets that stay because they lie on one another, or nothing.

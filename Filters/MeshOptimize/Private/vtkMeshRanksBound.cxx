@@ -18,19 +18,6 @@ namespace
 
 using meshopt::Index;
 
-/**
- * One side of a kept facet, as the ranks tell each other of it.
- */
-struct Side
-{
-  std::array<vtkIdType, 3>
-    Ids; ///< D of them; with a node on this side appended, a positive simplex
-  std::array<double, 9> Places;
-  long long Region;
-  bool IsOriented;
-  vtkIdType Cell; ///< of the part; -1: of another rank
-};
-
 long long RegionOf(const std::vector<long long>& regions, vtkIdType c)
 {
   return regions.empty() ? 0 : regions[c];
@@ -73,6 +60,9 @@ std::vector<char> FindCandidates(const Part& part, const std::vector<long long>&
   return isWanted;
 }
 
+} // namespace
+
+//------------------------------------------------------------------------------
 std::vector<Side> FindSides(
   const Ranks& ranks, const Part& part, const Shared& shared, const std::vector<long long>& regions)
 {
@@ -106,6 +96,9 @@ std::vector<Side> FindSides(
   }
   return sides;
 }
+
+namespace
+{
 
 /**
  * Adds sides of other ranks at edges (of triangles: nodes) that this rank has, too: an angle

@@ -11,10 +11,30 @@
 
 #include "Quality/Measure.h"
 
+#include <array>
 #include <vector>
 
 namespace vtkMeshRanks
 {
+
+/**
+ * One side of a facet of the surface, or between two regions.
+ */
+struct Side
+{
+  std::array<vtkIdType, 3>
+    Ids; ///< D of them; with a node on this side appended, a positive simplex
+  std::array<double, 9> Places;
+  long long Region;
+  bool IsOriented; ///< known: the cell is not flat or inverted
+  vtkIdType Cell;  ///< of the part; -1: of another rank
+};
+
+/**
+ * The sides that are those of this part's cells; `regions` as in MeasureSurface(). Collective.
+ */
+std::vector<Side> FindSides(const Ranks& ranks, const Part& part, const Shared& shared,
+  const std::vector<long long>& regions);
 
 struct SurfaceFigures
 {

@@ -30,6 +30,16 @@ std::uint64_t HashOfPoint(const Part& part, vtkIdType p)
   return hash;
 }
 
+std::vector<std::uint64_t> HashesOfPoints(const Part& part)
+{
+  std::vector<std::uint64_t> hashes(part.PointIds.size());
+  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
+  {
+    hashes[p] = HashOfPoint(part, p);
+  }
+  return hashes;
+}
+
 /**
  * The hash of a facet, in whatever order its nodes are.
  */
@@ -101,11 +111,7 @@ Figures Measure(const Ranks& ranks, const Part& part, const Shared& shared, doub
 //------------------------------------------------------------------------------
 Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal)
 {
-  std::vector<std::uint64_t> hashes(part.PointIds.size());
-  for (vtkIdType p = 0; p < part.GetNumberOfPoints(); ++p)
-  {
-    hashes[p] = HashOfPoint(part, p);
-  }
+  const std::vector<std::uint64_t> hashes = HashesOfPoints(part);
   const Vector up(normal[0], normal[1], normal[2]);
   Signature mine;
   mine.Cells = part.GetNumberOfCells();
@@ -130,6 +136,22 @@ Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>
     sum.Surface ^= one.Surface;
   }
   return sum;
+}
+
+std::vector<std::uint64_t> HashesOfHull(const Part& part)
+{
+  const std::vector<std::uint64_t> points = HashesOfPoints(part);
+  std::vector<std::uint64_t> hashes;
+  for (const CellFacet& facet : FindOpenFacets(part))
+  {
+    if (std::all_of(facet.Nodes.begin(), facet.Nodes.begin() + part.Corners - 1,
+          [&](vtkIdType p) { return (part.Flags[p] & Hull) != 0; }))
+    {
+      hashes.push_back(HashOfFacet(facet.Nodes, part.Corners - 1, points));
+    }
+  }
+  std::sort(hashes.begin(), hashes.end());
+  return hashes;
 }
 
 bool HasNotPositive(const Part& part, const std::array<double, 3>& normal)

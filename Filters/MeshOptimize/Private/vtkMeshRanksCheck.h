@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace vtkMeshRanks
 {
@@ -47,6 +48,12 @@ struct Signature
  * `normal`: of the plane of triangles, whose areas have signs.
  */
 Signature Sign(const Ranks& ranks, const Part& part, const std::array<double, 3>& normal);
+
+/**
+ * The hashes, ascending, of the facets that one cell of this part has and whose nodes all are on
+ * the Hull: by ids and bits of coordinates.
+ */
+std::vector<std::uint64_t> HashesOfHull(const Part& part);
 
 /**
  * Whether a cell of this part is flat, or numbered as if it were inverted.

@@ -48,7 +48,8 @@ enum PointFlag : std::uint8_t
   Fixed = 2,   ///< of the caller's fixed points
   Loose = 4,   ///< no cell of the input uses it
   Skin = 8,    ///< may be on the surface, or on several ranks
-  Border = 16  ///< cells outside of the part that runs, or ran last, use it
+  Border = 16, ///< the run leaves the cells around it to others: it is on the Hull, or near it
+  Hull = 32    ///< cells outside of the part that runs, or ran last, use it
 };
 
 /**
