@@ -2,39 +2,29 @@
 // Properties, ports and errors. The work is done by the functions of Private, one grid at a time.
 #include "vtkMeshOptimizeFilter.h"
 
-#include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
+#include "vtkMeshOptimizeArrays.h"
 #include "vtkMeshOptimizeGeometry.h"
-#include "vtkMeshOptimizeHistory.h"
-#include "vtkMeshOptimizeRanks.h"
-#include "vtkMeshOptimizeRun.h"
-#include "vtkMeshOptimizeSurface.h"
+#include "vtkMeshOptimizeTasks.h"
 #include "vtkMeshOptimizeWarnings.h"
 
-#include "vtkCellType.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
-#include "vtkDataObjectTree.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkErrorCode.h"
-#include "vtkFieldData.h"
-#include "vtkGenericCell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <new>
-#include <vector>
+#include <string>
 
 vtkStandardNewMacro(vtkMeshOptimizeFilter);
 vtkCxxSetObjectMacro(vtkMeshOptimizeFilter, Controller, vtkMultiProcessController);
@@ -199,29 +189,6 @@ int vtkMeshOptimizeFilter::RequestDataObject(
 namespace
 {
 
-/**
- * The data on all ports.
- */
-struct Ports
-{
-  vtkDataObject* Input;
-  vtkPolyData* Geometry;
-  vtkDataObject* Output;
-  vtkTable* History;
-  int NumberOfPieces, NumberOfGhostLevels;
-};
-
-/**
- * A grid to optimize, with its arrays and its output.
- */
-struct Task
-{
-  vtkUnstructuredGrid* Input;
-  vtkUnstructuredGrid* Output;
-  int Block;
-  bridge::InputArrays Arrays;
-};
-
 bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry)
 {
   bridge::Request request;
@@ -264,93 +231,6 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   return request;
 }
 
-/**
- * The grids in `input`, with an output for each. Other leaves of a tree are passed on unchanged.
- */
-std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
-{
-  std::vector<Task> tasks;
-  if (auto grid = vtkUnstructuredGrid::SafeDownCast(input))
-  {
-    tasks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(output), 0, {} });
-    return tasks;
-  }
-  auto tree = vtkDataObjectTree::SafeDownCast(input);
-  auto copy = vtkDataObjectTree::SafeDownCast(output);
-  // The same tree with leaves of its own: those of the input must not change.
-  copy->CopyStructure(tree);
-  copy->GetFieldData()->DeepCopy(tree->GetFieldData());
-  auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(tree->NewIterator());
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    vtkDataObject* object = leaf->GetCurrentDataObject();
-    auto fresh = vtkSmartPointer<vtkDataObject>::Take(object->NewInstance());
-    copy->SetDataSet(leaf, fresh);
-    if (auto grid = vtkUnstructuredGrid::SafeDownCast(object))
-    {
-      tasks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(fresh),
-        static_cast<int>(leaf->GetCurrentFlatIndex()), {} });
-    }
-    else
-    {
-      fresh->ShallowCopy(object);
-    }
-  }
-  return tasks;
-}
-
-std::vector<vtkUnstructuredGrid*> GridsOf(const std::vector<Task>& tasks)
-{
-  std::vector<vtkUnstructuredGrid*> grids;
-  grids.reserve(tasks.size());
-  for (const Task& task : tasks)
-  {
-    grids.push_back(task.Input);
-  }
-  return grids;
-}
-
-/**
- * Finds the arrays of all tasks. Returns a sentence about the first unusable part of the request.
- */
-std::string CheckRequest(const bridge::Request& request, std::vector<Task>& tasks)
-{
-  const std::vector<vtkUnstructuredGrid*> grids = GridsOf(tasks);
-  bool hasSizes = false;
-  for (Task& task : tasks)
-  {
-    const std::string error = bridge::FindInputArrays(request.Filter, task.Input, task.Arrays);
-    if (!error.empty())
-    {
-      return error;
-    }
-    // Sizes in one grid are enough for the options that need them.
-    hasSizes |= task.Arrays.Size != nullptr;
-  }
-  // Written so that what is not a number is refused, too.
-  if (!(request.OptimizeBelow >= 0.0))
-  {
-    return "OptimizeBelow, the quality under which cells may change, must be a number.";
-  }
-  if (!(request.Surface.tolerance >= 0.0) || !(request.Surface.featureAngle >= 0.0) ||
-    !(request.Surface.cornerAngle >= 0.0))
-  {
-    return "SurfaceTolerance, FeatureAngle and CornerAngle must be numbers.";
-  }
-  if (request.Slide && request.OptimizeBelow > 0.0)
-  {
-    return "The boundary mode Slide works on the whole mesh; it cannot be used with OptimizeBelow.";
-  }
-  if (request.Slide && request.Options.algorithm != meshopt::Algorithm::WorstFirst)
-  {
-    return "The boundary mode Slide needs the algorithm WorstFirst.";
-  }
-  // Corners may be marked in the geometry alone: the grids then need no such array.
-  const std::string error = bridge::CheckArraysAreThere(
-    request.Filter, grids, request.HasGeometryCorners ? bridge::CornerArray : -1);
-  return error.empty() ? request.Options.check(hasSizes) : error;
-}
-
 int CountPieces(vtkInformation* info)
 {
   // Who asks for no pieces gets the whole.
@@ -362,230 +242,6 @@ int CountGhostLevels(vtkInformation* info)
 {
   const auto levels = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS();
   return info->Has(levels) ? info->Get(levels) : 0;
-}
-
-bool HasTetrahedra(vtkUnstructuredGrid* grid)
-{
-  vtkIdType c = 0;
-  while (c < grid->GetNumberOfCells() && grid->GetCellType(c) != VTK_TETRA)
-  {
-    ++c;
-  }
-  return c < grid->GetNumberOfCells();
-}
-
-bool HasVolumes(vtkUnstructuredGrid* grid)
-{
-  vtkNew<vtkGenericCell> cell;
-  int last = VTK_EMPTY_CELL; // neighbours mostly are of one type
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type != last)
-    {
-      cell->SetCellType(type);
-      if (cell->GetCellDimension() == 3)
-      {
-        return true;
-      }
-      last = type;
-    }
-  }
-  return false;
-}
-
-/**
- * Whether all ranks have been asked for their pieces of one mesh.
- */
-bool HasPieces(vtkMeshOptimizeFilter* filter, const Ports& ports)
-{
-  vtkMultiProcessController* controller = filter->GetController();
-  return controller && controller->GetNumberOfProcesses() > 1 &&
-    ports.NumberOfPieces == controller->GetNumberOfProcesses();
-}
-
-/**
- * The same, and the borders of the pieces take part.
- */
-bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports)
-{
-  return filter->GetOptimizeBorders() && HasPieces(filter, ports);
-}
-
-/**
- * The border of a piece is not a boundary of the mesh, so it cannot slide.
- */
-std::string CheckPieces(vtkMeshOptimizeFilter* filter, const Ports& ports)
-{
-  return filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide && ports.NumberOfPieces > 1 &&
-      !HasRanks(filter, ports)
-    ? "The boundary mode Slide needs the whole mesh in one piece, or triangles on several ranks "
-      "with OptimizeBorders on."
-    : "";
-}
-
-/**
- * Of each task, whether its triangles alone are no mesh, since other ranks have volumes.
- */
-std::vector<char> FindPiecesOfVolumes(
-  vtkMeshOptimizeFilter* filter, const Ports& ports, const std::vector<Task>& tasks)
-{
-  std::vector<int> blocks;
-  std::vector<char> volumes;
-  for (const Task& task : tasks)
-  {
-    blocks.push_back(task.Block);
-    volumes.push_back(HasPieces(filter, ports) && HasVolumes(task.Input));
-  }
-  return HasPieces(filter, ports) ? bridge::FindVolumes(filter->GetController(), blocks, volumes)
-                                  : volumes;
-}
-
-/**
- * Optimizes the meshes that all ranks have: one, or one in each block. If it is not built for this
- * input and request, an obstacle says why, and what has been done does not count.
- */
-std::string OptimizeWhole(vtkMeshOptimizeFilter* filter, const Ports& ports,
-  bridge::Request& request, std::vector<Task>& tasks, bridge::Outcome& outcome,
-  std::string& obstacle)
-{
-  vtkMultiProcessController* controller = filter->GetController();
-  auto tree = vtkDataObjectTree::SafeDownCast(ports.Output);
-  std::vector<int> here, blocks;
-  for (const Task& task : tasks)
-  {
-    here.push_back(task.Block);
-  }
-  const std::vector<int> places = tree ? vtkMeshBridge::ListPlaces(tree) : here;
-  if (!bridge::ListBlocks(controller, here, places, blocks))
-  {
-    obstacle = "the blocks of the ranks differ";
-    return {};
-  }
-  request.NumberOfThreads = filter->GetNumberOfThreads(); // 0: a share of the cores
-  request.NumberOfGhostLevels = std::max(
-    filter->GetNumberOfGhostLevels(), ports.NumberOfGhostLevels);
-  // On several ranks no surface of tetrahedra slides.
-  bridge::StartHistory(ports.History, tree != nullptr, false);
-  bridge::Outcome all;
-  for (const int block : blocks)
-  {
-    const auto mine = std::find_if(
-      tasks.begin(), tasks.end(), [block](const Task& task) { return task.Block == block; });
-    vtkNew<vtkUnstructuredGrid> empty, fresh; // other ranks alone have this block
-    const bool isHere = mine != tasks.end();
-    vtkUnstructuredGrid* output = isHere ? mine->Output : fresh.Get();
-    const std::string title = tree ? "Block " + std::to_string(block) + ": " : "";
-    bridge::Outcome one;
-    const std::string error = bridge::OptimizeOnRanks(
-      controller, request, [&]() { return CheckRequest(request, tasks); },
-      isHere ? mine->Input : empty.Get(), output, one, obstacle);
-    if (!error.empty())
-    {
-      return title + error;
-    }
-    if (!obstacle.empty())
-    {
-      // Blocks before this one are made again, by each rank for itself.
-      for (const int done : blocks)
-      {
-        if (tree && std::find(here.begin(), here.end(), done) == here.end())
-        {
-          vtkMeshBridge::SetLeaf(tree, done, nullptr);
-        }
-      }
-      for (const Task& task : tasks)
-      {
-        task.Output->Initialize();
-      }
-      ports.History->Initialize();
-      return {};
-    }
-    if (!isHere && output->GetNumberOfCells() > 0)
-    {
-      vtkMeshBridge::SetLeaf(tree, block, output);
-    }
-    // The rows are the same on all ranks: one table will do.
-    if (controller->GetLocalProcessId() == 0)
-    {
-      bridge::AppendHistory(one.Report, block, ports.History);
-    }
-    for (std::string* text : { &one.Overlap, &one.Tangle, &one.Sizes, &one.Fault })
-    {
-      *text = text->empty() ? "" : title + *text;
-    }
-    const std::string fault = all.Fault.empty() ? one.Fault : all.Fault;
-    const bool isFirst = block == blocks.front();
-    const vtkIdType bands = all.NumberOfCellsInBands + one.NumberOfCellsInBands;
-    isFirst ? void(all = one) : all.Add(one);
-    all.Fault = fault;
-    all.NumberOfCellsInBands = bands;
-  }
-  outcome = all;
-  return {};
-}
-
-/**
- * Optimizes all grids. Returns an empty string, or a sentence about the first unusable thing.
- */
-std::string OptimizeAll(vtkMeshOptimizeFilter* filter, const Ports& ports, bridge::Outcome& outcome)
-{
-  std::vector<Task> tasks = ListTasks(ports.Input, ports.Output);
-  const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
-  bridge::Request request = MakeRequest(filter, ports.Geometry);
-  if (HasRanks(filter, ports))
-  {
-    std::string obstacle;
-    const std::string error = OptimizeWhole(filter, ports, request, tasks, outcome, obstacle);
-    if (!error.empty() || obstacle.empty())
-    {
-      return error;
-    }
-    if (request.Slide)
-    {
-      return "The boundary mode Slide cannot be used on several ranks here: " + obstacle + ".";
-    }
-    if (filter->GetController()->GetLocalProcessId() == 0)
-    {
-      vtkWarningWithObjectMacro(
-        filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
-    }
-  }
-  const std::vector<char> volumes = FindPiecesOfVolumes(filter, ports, tasks);
-  std::string error = CheckRequest(request, tasks);
-  if (!error.empty())
-  {
-    return error;
-  }
-  // Faces that two blocks share stay in both, so that the blocks still fit together.
-  const auto locked = bridge::PrepareSurface(request, GridsOf(tasks));
-  const bool slides = request.Slide &&
-    std::any_of(tasks.begin(), tasks.end(), [](const Task& t) { return HasTetrahedra(t.Input); });
-  // The columns are decided before the first grid, so that all rows have the same.
-  bridge::StartHistory(ports.History, isComposite, slides);
-  for (std::size_t i = 0; i < tasks.size(); ++i)
-  {
-    const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
-    const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
-    request.Control = vtkMeshBridge::MakeControl(filter, request.NumberOfThreads, first, last);
-    request.Surface.locked = locked[i];
-    request.IsPieceOfVolume = volumes[i] != 0;
-    const Task& task = tasks[i];
-    const std::string title = isComposite ? "Block " + std::to_string(task.Block) + ": " : "";
-    bridge::Outcome one;
-    error = bridge::OptimizeGrid(task.Input, task.Arrays, request, task.Output, one);
-    if (!error.empty())
-    {
-      return title + error;
-    }
-    bridge::AppendHistory(one.Report, task.Block, ports.History);
-    for (std::string* text : { &one.Twins, &one.Overlap, &one.Tangle, &one.Sizes })
-    {
-      *text = text->empty() ? "" : title + *text;
-    }
-    outcome.Add(one);
-  }
-  return {};
 }
 
 } // namespace
@@ -625,18 +281,17 @@ void vtkMeshOptimizeFilter::StoreResults(const Results& results)
 int vtkMeshOptimizeFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const Ports ports{ vtkDataObject::GetData(inputVector[0]), vtkPolyData::GetData(inputVector[1]),
-    vtkDataObject::GetData(outputVector, 0), vtkTable::GetData(outputVector, 1),
-    CountPieces(outputVector->GetInformationObject(0)),
+  const bridge::Ports ports{ vtkDataObject::GetData(inputVector[0]),
+    vtkPolyData::GetData(inputVector[1]), vtkDataObject::GetData(outputVector, 0),
+    vtkTable::GetData(outputVector, 1), CountPieces(outputVector->GetInformationObject(0)),
     CountGhostLevels(outputVector->GetInformationObject(0)) };
   // What all ranks know is told by the first.
-  const bool isTold = HasRanks(this, ports) && this->Controller->GetLocalProcessId() > 0;
+  const bool isTold = bridge::HasRanks(this, ports) && this->Controller->GetLocalProcessId() > 0;
   Results results;
   std::string error;
   try
   {
-    error = CheckPieces(this, ports);
-    error = error.empty() ? OptimizeAll(this, ports, results.Outcome) : error;
+    error = bridge::OptimizeAll(this, ports, MakeRequest(this, ports.Geometry), results.Outcome);
   }
   catch (const std::bad_alloc&)
   {

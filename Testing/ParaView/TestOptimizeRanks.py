@@ -203,6 +203,24 @@ def test_uneven():
             check(stayed, f"uneven: cells have left their rank at {np.bincount(owner)} cells")
 
 
+def test_work():
+    """A mesh on one rank is divided by work: where cells are bad a rank gets fewer, but no rank gets more than 1.3 of the mean."""
+    mesh = Mesh(n=9, keep=lambda x: x[:, 0] > 0.35)
+    mesh.x[:, 0] *= 1.2  # cut across the longest side
+    empty = mesh.grid(np.zeros(len(mesh.cells), bool))
+    for target, most in ((0.35, 8.0), (0.5, 7.0)):  # few bad cells; more than .3 of the work
+        f = run(mesh.whole() if rank == 0 else empty, TargetQuality=target, MoveNodes=0, Reconnect=0, InsertNodes=0, RemoveNodes=0,
+                LookAhead=0)
+        quality = vtk_to_numpy(f.GetOutput().GetCellData().GetArray("MeshQuality"))
+        every = gather(n=np.array(len(quality)), bad=np.array((quality < target).sum()))
+        cells, bad = np.array(every["n"]), np.array(every["bad"])
+        mean, more = len(mesh.cells) / ranks, min(8.0, 0.3 * len(mesh.cells) / bad.sum())
+        work = cells + bad * more
+        check(more <= most and bad.max() > 1.5 * bad.mean(), f"work: {bad}, {more}: the test is too easy")
+        check(cells[bad.argmax()] < 0.95 * mean and cells.max() < 1.31 * mean, f"work: {cells} cells, {bad} bad")
+        check(work.max() - work.min() < 20, f"work: {work}")
+
+
 def test_budget():
     """The growth budget is that of the whole run, all ranks and rounds together."""
     mesh = Mesh()

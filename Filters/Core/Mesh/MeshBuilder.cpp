@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace meshopt
 {
@@ -77,33 +78,23 @@ struct MeshBuilder
   /// Lengths of arrays, and whether all numbers of cells fit into their types.
   std::optional<MeshError> checkLengths()
   {
-    const auto wrong = [&](const char* what, std::size_t have, std::size_t want, const char* of)
-    {
-      return this->error(std::string(what) + " has " + std::to_string(have) + " values for " +
-        std::to_string(want) + " " + of + ".");
-    };
     if (this->input.cells.size() > static_cast<std::size_t>(MaximumNumberOfCells))
     {
-      // Handles are then under 2^31: they fit into an Index, and with a bit for parity into 32
-      // bits.
+      // Handles are then under 2^31: with a bit for parity they fit into 32 bits.
       return this->error("More than 2^29 cells.");
     }
-    if (!this->input.regions.empty() && this->input.regions.size() != this->input.cells.size())
+    const std::size_t cells = this->input.cells.size(), points = this->input.points.size();
+    using List = std::tuple<const char*, std::size_t, std::size_t, const char*>;
+    for (const auto& [what, have, want, of] :
+      { List("The region array", this->input.regions.size(), cells, "cells"),
+        List("The mask of fixed points", this->input.fixedPoints.size(), points, "points"),
+        List("The mask of points at a border", this->input.borderPoints.size(), points, "points") })
     {
-      return wrong(
-        "The region array", this->input.regions.size(), this->input.cells.size(), "cells");
-    }
-    if (!this->input.fixedPoints.empty() &&
-      this->input.fixedPoints.size() != this->input.points.size())
-    {
-      return wrong("The mask of fixed points", this->input.fixedPoints.size(),
-        this->input.points.size(), "points");
-    }
-    if (!this->input.borderPoints.empty() &&
-      this->input.borderPoints.size() != this->input.points.size())
-    {
-      return wrong("The mask of points at a border", this->input.borderPoints.size(),
-        this->input.points.size(), "points");
+      if (have != 0 && have != want)
+      {
+        return this->error(std::string(what) + " has " + std::to_string(have) + " values for " +
+          std::to_string(want) + " " + of + ".");
+      }
     }
     return std::nullopt;
   }

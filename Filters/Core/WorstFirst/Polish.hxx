@@ -72,8 +72,12 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
   // With tiny caps on facets the next worst cells and their surroundings are spared on purpose:
   // there the search does not widen without need.
   const bool widens = past && !this->sparesTiny();
-  const std::size_t most = widens ? MostPolishedCells : MostBelowBound;
-  std::size_t wanted = PolishedCells;
+  const auto times = static_cast<std::size_t>(this->options_.effort == Effort::Best
+      ? std::max<Index>(1, this->mesh().numberOfCellSlots() / CellsPerPolish)
+      : 1);
+  const std::size_t least = times * PolishedCells;
+  const std::size_t most = times * (widens ? MostPolishedCells : MostBelowBound);
+  std::size_t wanted = least;
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
   {
     const double worstOfAll = this->findWorst(target, wanted, worst);
@@ -94,21 +98,21 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     this->caps_.setReached(reached);
     // The target lies just above the last of these cells, so that the stage takes them and no
     // others.
-    const bool isWide = !past && wanted > PolishedCells;
+    const bool isWide = !past && wanted > least;
     more = this->stage(std::nextafter(worst.back().first, 1.0));
     if (this->mostEvaluations() < 0.0)
     {
       break;
     }
     // The worst cell gained enough: start again with the smallest neighbourhood.
-    const double least = isWide ? WideGain : RoundGain * this->gain_;
+    const double leastGained = isWide ? WideGain : RoundGain * this->gain_;
     // Few cells cost little: where the surface takes part, these go on while they gain at all.
     const double now = this->worst();
     const bool areFew = this->slides() && worst.size() < wanted && now > before;
-    if (now > before + least * std::fabs(before) || areFew)
+    if (now > before + leastGained * std::fabs(before) || areFew)
     {
       layers = 0;
-      wanted = isWide ? wanted : PolishedCells;
+      wanted = isWide ? wanted : least;
     }
     else if ((widens || isHopeful) && !nearCap && worst.size() == wanted && wanted < most)
     {
@@ -118,7 +122,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
     else if (widens && !nearCap && more && ++layers <= LiftedLayers)
     {
       // The worst cells may be others by now.
-      wanted = PolishedCells;
+      wanted = least;
       this->findWorst(target, wanted, worst);
       more = worst.empty() || this->liftAround(worst, layers);
     }

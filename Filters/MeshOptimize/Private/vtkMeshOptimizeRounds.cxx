@@ -201,8 +201,11 @@ void Rounds::Divide()
   {
     return;
   }
-  const std::vector<int> target = isOnOne ? vtkMeshRanks::Divide(this->Mine, this->All.GetCount())
-                                          : vtkMeshRanks::DivideAnew(this->All, this->Mine);
+  const std::vector<double> work = PredictWork(this->All, this->Mine, this->Wanted.Options.measure,
+    this->Wanted.Options.targetQuality, this->Plane);
+  const std::vector<int> target = isOnOne
+    ? vtkMeshRanks::Divide(this->Mine, work, this->All.GetCount())
+    : vtkMeshRanks::DivideAnew(this->All, this->Mine, work);
   const Signature before = this->Sign();
   std::vector<char> isMoved;
   const Part all = std::move(this->Mine);

@@ -56,7 +56,8 @@ public:
 
   /**
    * Cells go back to the rank that had them, or their parents, at first; except to ranks that would
-   * have more than 1.2 of the mean. If that fails, they stay, and outcome.Fault says why.
+   * have more than 1.2 of the mean, and more than any rank has without. If that fails, they stay,
+   * and outcome.Fault says why.
    */
   void SendHome();
 

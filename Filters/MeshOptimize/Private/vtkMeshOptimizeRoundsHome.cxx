@@ -15,7 +15,8 @@ using namespace vtkMeshRanks;
 namespace
 {
 
-/// A rank with more than this times the mean does not get back its cells.
+/// A rank that would have more than this times the mean, and more than any rank has without, does
+/// not get back its cells.
 constexpr double MostOfMean = 1.2;
 
 /**
@@ -40,7 +41,9 @@ std::vector<int> FindHomes(const Ranks& ranks, const Part& part, vtkIdType cells
     here += Reader(bytes).Take<vtkIdType>();
   }
   const std::vector<vtkIdType> loads = ranks.Gather(here);
-  const double most = MostOfMean * static_cast<double>(cells) / ranks.GetCount();
+  const std::vector<vtkIdType> now = ranks.Gather(part.GetNumberOfCells());
+  const double most = std::max(MostOfMean * static_cast<double>(cells) / ranks.GetCount(),
+    static_cast<double>(*std::max_element(now.begin(), now.end())));
   std::vector<int> target(part.Home.size(), -1);
   for (std::size_t c = 0; c < target.size(); ++c)
   {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * All grids that a filter is given, one after the other, or as one mesh of many ranks.
+ */
+#ifndef vtkMeshOptimizeTasks_h
+#define vtkMeshOptimizeTasks_h
+
+#include "vtkMeshOptimizeRequest.h"
+
+#include <string>
+
+class vtkDataObject;
+class vtkMeshOptimizeFilter;
+class vtkPolyData;
+class vtkTable;
+
+namespace vtkMeshOptimizeBridge
+{
+
+/**
+ * The data on all ports.
+ */
+struct Ports
+{
+  vtkDataObject* Input;
+  vtkPolyData* Geometry;
+  vtkDataObject* Output;
+  vtkTable* History;
+  int NumberOfPieces, NumberOfGhostLevels;
+};
+
+/**
+ * Whether all ranks have been asked for their pieces of one mesh, and the borders take part.
+ */
+bool HasRanks(vtkMeshOptimizeFilter* filter, const Ports& ports);
+
+/**
+ * Optimizes all grids. Returns an empty string, or a sentence about the first unusable thing.
+ */
+std::string OptimizeAll(
+  vtkMeshOptimizeFilter* filter, const Ports& ports, Request request, Outcome& outcome);
+
+} // namespace vtkMeshOptimizeBridge
+
+#endif
