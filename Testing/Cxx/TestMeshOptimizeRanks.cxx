@@ -5,6 +5,7 @@
 #include "vtkMeshRanksNode.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCell.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkCommunicator.h"
@@ -214,6 +215,85 @@ void TestLastGoodState(vtkMPIController* controller)
 }
 
 /**
+ * The slab of this rank of a square of n^2 * 2 triangles. Inner nodes are moved, nodes on the sides
+ * along these.
+ */
+void MakePlanePiece(int n, int rank, int ranks, vtkUnstructuredGrid* grid)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> move(-0.4, 0.4);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  std::map<vtkIdType, vtkIdType> local;
+  const int first = n * rank / ranks, last = n * (rank + 1) / ranks;
+  for (vtkIdType id = 0; id < (n + 1) * (n + 1); ++id)
+  {
+    const double at[2] = { double(id / (n + 1)), double(id % (n + 1)) };
+    double x[3] = { at[0], at[1], 0.0 };
+    for (int k = 0; k < 2; ++k)
+    {
+      const double away = move(random);
+      x[k] += at[k] > 0 && at[k] < n ? away : 0.0;
+    }
+    if (first <= at[0] && at[0] <= last)
+    {
+      local[id] = points->InsertNextPoint(x);
+    }
+  }
+  grid->SetPoints(points);
+  grid->Allocate();
+  for (vtkIdType id = first * (n + 1); id < last * (n + 1); ++id)
+  {
+    if (id % (n + 1) < n)
+    {
+      const vtkIdType a[3] = { local[id], local[id + n + 1], local[id + n + 2] };
+      const vtkIdType b[3] = { local[id], local[id + n + 2], local[id + 1] };
+      grid->InsertNextCell(VTK_TRIANGLE, 3, a);
+      grid->InsertNextCell(VTK_TRIANGLE, 3, b);
+    }
+  }
+}
+
+/**
+ * A boundary that slides, along straight lines and splines, in pieces and from one rank.
+ */
+void TestSlide(vtkMPIController* controller)
+{
+  constexpr int n = 12;
+  const int rank = controller->GetLocalProcessId(), ranks = controller->GetNumberOfProcesses();
+  for (int kind : { 0, 1, 2 })
+  {
+    const bool isOnOne = kind == 2;
+    vtkNew<vtkUnstructuredGrid> piece;
+    MakePlanePiece(n, isOnOne ? 0 : rank, isOnOne ? 1 : ranks, piece);
+    vtkNew<vtkUnstructuredGrid> nothing;
+    vtkNew<vtkMeshOptimizeFilter> f;
+    f->SetBoundaryModeToSlide();
+    f->SetBoundaryCurve(
+      kind == 0 ? vtkMeshOptimizeFilter::Straight : vtkMeshOptimizeFilter::BSpline);
+    f->SetInputData(isOnOne && rank > 0 ? nothing : piece);
+    f->UpdatePiece(rank, ranks, 0);
+    Check(f->GetErrorCode() == 0, "sliding: an error");
+    Check(
+      f->GetWorstQualityAfter() >= 0.6, "sliding: " + std::to_string(f->GetWorstQualityAfter()));
+    auto output = vtkUnstructuredGrid::SafeDownCast(f->GetOutputDataObject(0));
+    double area = 0.0, all = 0.0;
+    for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+    {
+      double x[3][3];
+      for (int i = 0; i < 3; ++i)
+      {
+        output->GetPoint(output->GetCell(c)->GetPointId(i), x[i]);
+      }
+      area += 0.5 *
+        ((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]));
+    }
+    controller->AllReduce(&area, &all, 1, vtkCommunicator::SUM_OP);
+    Check(std::abs(all - n * n) < 1e-9, "sliding: area " + std::to_string(all));
+  }
+}
+
+/**
  * A rank that fails at any place, outside of any function of Ranks, ends the work of all.
  */
 void TestFailure(vtkMPIController* controller)
@@ -287,6 +367,7 @@ int main(int argc, char* argv[])
   TestFailure(controller);
   TestShareOfCores(controller);
   TestLastGoodState(controller);
+  TestSlide(controller);
   int all = 0;
   controller->AllReduce(&failures, &all, 1, vtkCommunicator::SUM_OP);
   vtkMultiProcessController::SetGlobalController(nullptr);
