@@ -14,6 +14,14 @@ namespace meshopt
 {
 inline const double Pi = std::acos(-1.0);
 
+inline CurveOptions curveOptions(double cornerAngle, bool splines)
+{
+  CurveOptions result;
+  result.cornerAngle = cornerAngle;
+  result.splines = splines;
+  return result;
+}
+
 inline Vec<2> onCircle(double turns, double radius = 1.0)
 {
   return Vec<2>(radius * std::cos(2.0 * Pi * turns), radius * std::sin(2.0 * Pi * turns));

@@ -40,14 +40,6 @@ Made make(const MeshInput<2>& in, const LineNetwork& geometry, const CurveOption
   return made;
 }
 
-CurveOptions options(double cornerAngle, bool splines)
-{
-  CurveOptions result;
-  result.cornerAngle = cornerAngle;
-  result.splines = splines;
-  return result;
-}
-
 /// The boundary points without a place: corners.
 std::vector<Vec<2>> corners(const SimplexMesh<2>& mesh)
 {
@@ -96,7 +88,7 @@ TEST(BoundaryCurves, SlitsHaveTwoSidesAndTheirTipsAreCorners)
 {
   for (double angle : { 45.0, 170.0, 180.0 })
   {
-    const Made inside = make(slitSquare(8, 0.25, 0.75), options(angle, true));
+    const Made inside = make(slitSquare(8, 0.25, 0.75), curveOptions(angle, true));
     EXPECT_EQ(inside.curves.numberOfPieces(), 4u + 2u) << angle; // single turns are corners anyway
     EXPECT_TRUE(contains(corners(inside.mesh), Vec<2>(0.25, 0.5)));
     EXPECT_TRUE(contains(corners(inside.mesh), Vec<2>(0.75, 0.5)));
@@ -129,17 +121,17 @@ TEST(BoundaryCurves, InterfacesAndHoles)
 TEST(BoundaryCurves, CornersByAngleAndByFlag)
 {
   const MeshInput<2> in = disc(16); // turns by 22.5 degrees
-  EXPECT_EQ(make(in, options(30.0, true)).curves.numberOfPieces(), 1u);
-  const Made all = make(in, options(20.0, true));
+  EXPECT_EQ(make(in, curveOptions(30.0, true)).curves.numberOfPieces(), 1u);
+  const Made all = make(in, curveOptions(20.0, true));
   EXPECT_EQ(all.curves.numberOfPieces(), 16u);
   EXPECT_TRUE(slidingPoints(all.mesh).empty());
   std::vector<std::uint8_t> flags(17, 0);
   flags[3] = 1;
-  const Made one = make(in, options(45.0, true), flags);
+  const Made one = make(in, curveOptions(45.0, true), flags);
   EXPECT_EQ(one.curves.numberOfPieces(), 1u); // from the corner around to itself
   EXPECT_EQ(corners(one.mesh).size(), 1u);
   flags[11] = 1;
-  const Made two = make(in, options(45.0, true), flags);
+  const Made two = make(in, curveOptions(45.0, true), flags);
   EXPECT_EQ(two.curves.numberOfPieces(), 2u);
   MeshInput<2> fixed = in;
   fixed.fixedPoints.assign(17, 0);
@@ -151,7 +143,7 @@ TEST(BoundaryCurves, FinerGeometry)
 {
   for (bool splines : { false, true })
   {
-    const Made made = make(disc(16), loop(circle(64, 1.0, 0.5)), options(45.0, splines));
+    const Made made = make(disc(16), loop(circle(64, 1.0, 0.5)), curveOptions(45.0, splines));
     ASSERT_EQ(made.error, "");
     EXPECT_EQ(made.curves.numberOfPieces(), 1u);
     EXPECT_EQ(slidingPoints(made.mesh).size(), 16u);
@@ -320,8 +312,8 @@ TEST(BoundaryCurves, LensOfTwoArcs)
     for (bool given : { false, true })
     {
       const MeshInput<2> in = fan(points, Vec<2>(0.5, 0.0));
-      const CurveOptions o = options(43.0, true); // at the tips it turns by 2 (90 - 21.8)
-      Made made = given ? make(in, loop(fine), o) : make(in, options(60.0, true));
+      const CurveOptions o = curveOptions(43.0, true); // at the tips it turns by 2 (90 - 21.8)
+      Made made = given ? make(in, loop(fine), o) : make(in, curveOptions(60.0, true));
       ASSERT_EQ(made.error, "");
       EXPECT_EQ(made.curves.numberOfPieces(), 2u) << n << given;
       EXPECT_EQ(corners(made.mesh).size(), 2u);

@@ -102,13 +102,6 @@ struct Whole
   }
 };
 
-CurveOptions options(double cornerAngle, bool splines)
-{
-  CurveOptions result;
-  result.cornerAngle = cornerAngle;
-  result.splines = splines;
-  return result;
-}
 }
 
 // All of the mesh is its largest part: the same pieces as without the detour.
@@ -134,8 +127,8 @@ TEST(WholeBoundary, TheWholeIsAPart)
 // Closed curves and straight sides, cut anywhere, with and without corners.
 TEST(WholeBoundary, PartsAreOnTheSamePieces)
 {
-  for (const CurveOptions& o : { options(45.0, true), options(45.0, false), options(180.0, true),
-         options(0.0, false), options(0.0, true) })
+  for (const CurveOptions& o : { curveOptions(45.0, true), curveOptions(45.0, false),
+         curveOptions(180.0, true), curveOptions(0.0, false), curveOptions(0.0, true) })
   {
     for (const MeshInput<2>& in : { jitteredGrid<2>(6, 0.2), ring(12, 0.5, 1.0), disc(9) })
     {
@@ -158,7 +151,7 @@ TEST(WholeBoundary, PartsAreOnTheSamePieces)
 TEST(WholeBoundary, SidesOfASlitAreToldApart)
 {
   const MeshInput<2> in = slitSquare(8, 0.25, 0.75);
-  const Whole whole(in, options(180.0, true));
+  const Whole whole(in, curveOptions(180.0, true));
   int sliding = 0;
   const auto n = static_cast<Index>(in.cells.size());
   for (Index from = 0; from < n; from += 3)
@@ -173,7 +166,7 @@ TEST(WholeBoundary, SidesOfASlitAreToldApart)
 // Two points of the hull that are the ends of one piece, and neighbours across the part, too.
 TEST(WholeBoundary, HullBetweenTheEndsOfAPiece)
 {
-  const Whole whole(disc(6), options(180.0, true));
+  const Whole whole(disc(6), curveOptions(180.0, true));
   Part part = whole.part([](Index c) { return c < 2; }); // 0, 1, 2 and the centre
   BoundaryCurves curves;
   EXPECT_EQ(whole.compare(part, curves), 1);
@@ -185,7 +178,7 @@ TEST(WholeBoundary, HullBetweenTheEndsOfAPiece)
 TEST(WholeBoundary, WhatCannotBeToldStays)
 {
   const MeshInput<2> in = disc(8);
-  const CurveOptions smooth = options(180.0, true);
+  const CurveOptions smooth = curveOptions(180.0, true);
   Whole whole(in, smooth);
   whole.network.corners[0] = 1; // the only one: the circle begins and ends there
   whole.boundary = WholeBoundary();
