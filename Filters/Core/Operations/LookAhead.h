@@ -114,7 +114,7 @@ private:
     bool done = false;
     for (std::size_t k = 0; k < edges.size() && !done; ++k)
     {
-      const auto [v, u] = edges[k].second;
+      const Index v = edges[k].second[0], u = edges[k].second[1];
       done = mesh.freedom(v) != Freedom::Fixed &&
         this->attempt(judge, old, isLong,
           [&]
