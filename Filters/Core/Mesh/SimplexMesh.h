@@ -12,6 +12,7 @@
 #include "Mesh/Types.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -106,10 +107,14 @@ public:
     Index owner = 0;                ///< chunk that may edit around the point (parallel passes)
     std::uint8_t flags = 0;
 
-    /// Copies all of `old` except the owner, which threads of other chunks may be reading.
+    /// Copies all of `old` except the owner, which threads of other chunks may be reading. They may
+    /// also read coordinates next to their chunk: these have not changed, and are not written.
     void restore(const Point& old)
     {
-      this->x = old.x;
+      if (std::memcmp(this->x.data(), old.x.data(), sizeof(old.x)) != 0)
+      {
+        this->x = old.x;
+      }
       this->cell = old.cell;
       this->stamp = old.stamp;
       this->moveFailed = old.moveFailed;
