@@ -8,6 +8,7 @@
 #include "vtkMeshOptimizeGeometry.h"
 #include "vtkMeshOptimizeSizes.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 namespace vtkMeshOptimizeBridge
@@ -180,17 +180,12 @@ void Rounds::GatherBoundary()
   {
     MarkTwins(boundary);
   }
-  double low[2] = { 0.0, 0.0 }, high[2] = { 0.0, 0.0 };
-  for (std::size_t k = 0; k < ids.size(); ++k)
+  vtkBoundingBox box;
+  for (const meshopt::Vec<2>& x : boundary.points)
   {
-    for (int i = 0; i < 2; ++i)
-    {
-      const double x = boundary.points[k][i];
-      low[i] = k == 0 ? x : std::min(low[i], x);
-      high[i] = k == 0 ? x : std::max(high[i], x);
-    }
+    box.AddPoint(x[0], x[1], 0.0);
   }
-  const double size = std::hypot(high[0] - low[0], high[1] - low[1]);
+  const double size = box.IsValid() ? box.GetDiagonalLength() : 0.0;
   std::vector<meshopt::WholeBoundary::Place> places;
   LineNetwork geometry;
   const bool hasGeometry = this->All.IsAny(this->Wanted.Geometry != nullptr);
