@@ -15,6 +15,7 @@ namespace vtkMeshBridge
 
 void AcceptBlocks(vtkInformation* info)
 {
+  // The tree is named, too: the executive would otherwise call the filter block by block.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObjectTree");
 }
@@ -25,6 +26,7 @@ void MakeOutputLikeInput(vtkInformationVector** inputVector, vtkInformationVecto
   vtkDataObject* output = vtkDataObject::GetData(outputVector, 0);
   // Without an input the executive reports one error later; a second one would only confuse.
   const char* type = input ? input->GetClassName() : "vtkUnstructuredGrid";
+  // An output that fits stays: others may hold it already.
   if (!output || !output->IsA(type))
   {
     vtkSmartPointer<vtkDataObject> fresh = input
@@ -45,8 +47,11 @@ std::vector<Block> ListBlocks(vtkAlgorithm* filter, vtkDataObject* input, vtkDat
   auto tree = vtkDataObjectTree::SafeDownCast(input);
   auto copy = vtkDataObjectTree::SafeDownCast(output);
   // The same tree with leaves of its own: those of the input must not change.
+  // Field data are no part of the structure.
   copy->CopyStructure(tree);
   copy->GetFieldData()->DeepCopy(tree->GetFieldData());
+  // This iterator skips empty leaves. They stay empty in the output, like those that are skipped
+  // with a warning: the places of all others remain what they were.
   auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(tree->NewIterator());
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
@@ -85,6 +90,7 @@ std::vector<int> ListPlaces(vtkDataObjectTree* tree)
 void SetLeaf(vtkDataObjectTree* tree, int index, vtkDataObject* object)
 {
   auto leaf = vtkSmartPointer<vtkDataObjectTreeIterator>::Take(tree->NewTreeIterator());
+  // The leaf to be set may be empty on this rank.
   leaf->SkipEmptyNodesOff();
   for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
   {
@@ -98,6 +104,7 @@ void SetLeaf(vtkDataObjectTree* tree, int index, vtkDataObject* object)
 
 bool AsksForPieces(vtkInformation* outInfo, int processes)
 {
+  // Update() on one process asks for a single piece: to wait for the others would be for ever.
   const auto pieces = vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES();
   return processes > 1 && outInfo->Has(pieces) && outInfo->Get(pieces) == processes;
 }

@@ -221,9 +221,8 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   request.Surface.cornerAngle = filter->GetCornerAngle();
   // A facet cannot stand for both sides of an edge that turns by much more. Right angles stay.
   constexpr double least = 80.0;
-  request.Surface.featureAngle = filter->GetKeepFeatures()
-    ? filter->GetFeatureAngle()
-    : std::max(filter->GetFeatureAngle(), least);
+  request.Surface.featureAngle = filter->GetFeatureAngle();
+  request.Surface.releaseAngle = filter->GetKeepFeatures() ? 0.0 : least;
   request.Surface.tolerance = filter->GetSurfaceTolerance();
   request.ToleranceIsAbsolute = filter->GetToleranceIsAbsolute();
   request.Geometry = geometry;

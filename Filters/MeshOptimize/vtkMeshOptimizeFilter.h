@@ -378,10 +378,11 @@ public:
 
   ///@{
   /**
-   * For BoundaryMode Slide with tetrahedra: whether ridges stay. If off, FeatureAngle counts as 80
-   * at least: for scans, whose noise has angles. Ridges that turn by less are surface like any
-   * other, and may be cut off as far as the tolerance allows. Regions, patches, lines, marked and
-   * fixed points stay. It does not matter if the tolerance is 0. Default: on.
+   * For BoundaryMode Slide with tetrahedra: whether ridges stay. If off, those that turn by less
+   * than 80 degrees are given up where the target is not reached with them: for scans, whose noise
+   * has angles. From then on they are surface like any other, and may be cut off as far as the
+   * tolerance allows. Regions, patches, lines, marked and fixed points stay. It does not matter if
+   * the tolerance is 0. Default: on.
    */
   vtkSetMacro(KeepFeatures, bool);
   vtkGetMacro(KeepFeatures, bool);

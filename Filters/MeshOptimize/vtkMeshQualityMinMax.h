@@ -33,13 +33,13 @@
  * (and these facets between regions) can have a worst element above Bound. CappedCells elements
  * belong to facets that keep them below TargetQuality, whatever is done inside. Blocks are treated
  * separately: facets between them count as surface. Facets between the pieces of a block on several
- * ranks do not: they are the same if their corners have the same global ids or, if some piece has
- * none, the same coordinates. (A crack of doubled nodes along a border is then taken for border;
- * the bound is still one.) Nor do facets to ghost cells; vtkMeshOptimizeFilter keeps these, so that
- * its own bound can be lower. The bound
- * is known for triangles in a plane and for tetrahedra. With the measure Shape it follows from
- * facets and dihedral angles, with Mean Ratio and Volume Length from facets. Otherwise, and with a
- * metric array, it is the value of the regular element.
+ * ranks do not. Two such facets are the same if their corners have the same global ids; if some
+ * piece has no ids, if their corners have the same coordinates. (Then a crack of doubled nodes
+ * along a border is taken for a part of the border; the bound still holds.) Facets to ghost cells
+ * do not count as surface either. vtkMeshOptimizeFilter keeps them, so that its own bound can be
+ * lower. The bound is known for triangles in a plane and for tetrahedra. With the measure Shape it
+ * follows from facets and dihedral angles, with Mean Ratio and Volume Length from facets.
+ * Otherwise, and with a metric array, it is the value of the regular element.
  *
  * Input arrays, by SetInputArrayToProcess() or the setters below:
  *  - 0, cells: region, integers, one component;

@@ -45,6 +45,7 @@ void vtkTetGenFilter::PrintSelf(ostream& os, vtkIndent indent)
 }
 
 //------------------------------------------------------------------------------
+// Five numbers each, in the order of TetGen's own list of regions.
 void vtkTetGenFilter::AddRegion(
   double x, double y, double z, double attribute, double maximumVolume)
 {
@@ -84,6 +85,7 @@ void vtkTetGenFilter::SetInteriorPointsData(vtkPointSet* points) { this->SetInpu
 int vtkTetGenFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkPointSet");
+  // Points inside are a wish: TetGen finds its own where it needs them.
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -119,6 +121,7 @@ std::string vtkTetGenFilter::CheckOptions()
   // Five numbers per region: a point, its attribute, its greatest volume.
   for (std::size_t i = 3; i < this->Regions.size(); i += 5)
   {
+    // It becomes the integer array Region.
     const double attribute = this->Regions[i];
     if (attribute != std::floor(attribute) || std::abs(attribute) > 1e9)
     {
@@ -152,6 +155,7 @@ std::string vtkTetGenFilter::MakeJob(
   {
     double x[3];
     interior->GetPoint(p, x);
+    // Those of the surface have been checked by CheckSurface().
     if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
     {
       return "Interior point " + std::to_string(p) + " has coordinates that are not finite.";
@@ -202,6 +206,9 @@ std::string FindRegionOutside(const std::string& text, const std::vector<double>
   return message.str();
 }
 
+/**
+ * Without the line end, and without empty lines behind it.
+ */
 std::string LastLine(const std::string& text)
 {
   const std::size_t last = text.find_last_not_of(" \n\r\t");
@@ -233,6 +240,7 @@ std::string vtkTetGenFilter::ExplainFailure(const bridge::Surface& surface, brid
   job.Regions.clear();
   job.Holes.clear();
   job.InteriorPoints.clear();
+  // The bar stands still: it must not begin again.
   bridge::Mesh none;
   const bridge::ChildOutcome outcome = bridge::RunInChild(
     job, [this](double, const std::string& phase) { return this->ReportProgress(0.9, phase); },
@@ -263,6 +271,7 @@ std::string vtkTetGenFilter::Run(
     [this](double fraction, const std::string& phase)
     { return this->ReportProgress(fraction, phase); },
     mesh);
+  // A failure of the child is an answer: the application goes on, with an error.
   switch (outcome.State)
   {
     case bridge::ChildOutcome::Aborted:
@@ -274,6 +283,7 @@ std::string vtkTetGenFilter::Run(
     case bridge::ChildOutcome::Done:
       break;
   }
+  // TetGen itself takes that for a success.
   if (mesh.Regions.empty())
   {
     return job.Holes.empty()
@@ -346,6 +356,7 @@ int vtkTetGenFilter::RequestData(
   }
   catch (const std::bad_alloc&)
   {
+    // Of this process: if the child has none left, it fails, and Run() says so.
     error = "Not enough memory for this mesh.";
   }
   if (!error.empty())

@@ -35,7 +35,9 @@ namespace bridge = vtkThermoelasticBridge;
 //------------------------------------------------------------------------------
 vtkThermoelasticFilter::vtkThermoelasticFilter()
 {
+  // The solution, and the history of the solver.
   this->SetNumberOfOutputPorts(2);
+  // Null unless the application has one: then there is one process.
   this->SetController(vtkMultiProcessController::GetGlobalController());
 }
 
@@ -161,6 +163,7 @@ int vtkThermoelasticFilter::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkThermoelasticFilter::FillOutputPortInformation(int, vtkInformation* info)
 {
+  // The class follows that of the input: ProcessRequest() makes the object.
   info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
   return 1;
 }
@@ -175,6 +178,7 @@ vtkTypeBool vtkThermoelasticFilter::ProcessRequest(
   {
     return this->Superclass::ProcessRequest(request, input, output);
   }
+  // Not the superclass: its output would be a grid, whatever the input is.
   vtkMeshBridge::MakeOutputLikeInput(input, output);
   const bool isTree = vtkDataObjectTree::GetData(input[0]) != nullptr;
   vtkDataObject* history = vtkDataObject::GetData(output, 1);
@@ -210,6 +214,7 @@ bridge::Request MakeRequest(vtkThermoelasticFilter* filter)
   request.ReferenceTemperature = filter->GetReferenceTemperature();
   request.Material = { filter->GetYoungsModulus(), filter->GetPoissonsRatio(),
     filter->GetThermalExpansion() };
+  // Casts are safe: vtkThermoelasticEnums.cxx holds the numbers equal at compile time.
   request.PlaneState = static_cast<meshopt::fem::PlaneState>(filter->GetPlaneState());
   request.GeneralizedPlaneStrain = filter->GetGeneralizedPlaneStrain();
   request.Axis = filter->GetAxis();
@@ -238,6 +243,7 @@ std::string CheckDistribution(
     mine = std::max(mine, block.Index);
   }
   controller->AllReduce(&mine, &most, 1, vtkCommunicator::MAX_OP);
+  // Of each index 1 or 0: the sum is the number of processes that have cells of the block.
   std::vector<int> here(most + 1, 0), all(most + 1, 0);
   for (const vtkMeshBridge::Block& block : blocks)
   {
@@ -245,6 +251,7 @@ std::string CheckDistribution(
   }
   controller->AllReduce(
     here.data(), all.data(), static_cast<vtkIdType>(all.size()), vtkCommunicator::SUM_OP);
+  // Different blocks may well be on different processes: each is a body of its own.
   const int processes = *std::max_element(all.begin(), all.end());
   return processes <= 1 ? std::string()
                         : "The mesh is spread over " + std::to_string(processes) +
@@ -286,6 +293,7 @@ int vtkThermoelasticFilter::RequestData(
   const std::vector<vtkMeshBridge::Block> blocks = vtkMeshBridge::ListBlocks(
     this, input, vtkDataObject::GetData(outputVector, 0));
   auto histories = vtkMultiBlockDataSet::GetData(outputVector, 1);
+  // Tables of an earlier run must not stay: there may be fewer blocks now.
   if (histories)
   {
     histories->Initialize();
@@ -302,6 +310,7 @@ int vtkThermoelasticFilter::RequestData(
     // Returning 0 would make the executive add an error of its own.
     vtkErrorMacro(<< error);
   }
+  // Without any block, too, figures of an earlier run must be gone.
   this->StoreResults(Results());
   for (const vtkMeshBridge::Block& block : blocks)
   {
@@ -311,6 +320,7 @@ int vtkThermoelasticFilter::RequestData(
       history = vtkSmartPointer<vtkTable>::New();
       histories->SetBlock(histories->GetNumberOfBlocks(), history);
     }
+    // All processes have the same error or none, so that all skip or all solve.
     if (error.empty())
     {
       this->Solve(vtkMeshBridge::TitleOf(input, block), block.Input, block.Output, history);
@@ -325,7 +335,8 @@ int vtkThermoelasticFilter::RequestData(
 }
 
 /**
- * Solves on one grid. What it stores are the results of this grid.
+ * Solves on one grid. What it stores are the results of this grid: after several blocks those of
+ * the last one stay. An error of one block does not keep the others from being solved.
  */
 void vtkThermoelasticFilter::Solve(const std::string& title, vtkUnstructuredGrid* input,
   vtkUnstructuredGrid* output, vtkTable* history)
@@ -336,6 +347,7 @@ void vtkThermoelasticFilter::Solve(const std::string& title, vtkUnstructuredGrid
   const int threads = vtkMeshBridge::ResolveNumberOfThreads(this->NumberOfThreads);
   request.Control = vtkMeshBridge::MakeControl(this, threads, 0.0, 1.0);
   std::string error;
+  // A factorization can need far more memory than the mesh: that must not end the application.
   try
   {
     error = bridge::SolveGrid(input, request, output, history, outcome);

@@ -9,7 +9,9 @@
     --growth G                   growth budget, default .15
     --limit SECONDS              time limit of one run, default 60
     --scan                       KeepFeatures off: ridges and corners count as surface only
-    --judge PROGRAM              called as  PROGRAM AFTER.vtu --before BEFORE.vtu --tolerance T; exit status 0: no fault
+    --angle A                    feature angle, default 45
+    --judge PROGRAM              called as  PROGRAM AFTER.vtu --before BEFORE.vtu --tolerance T --angle A; exit status 0: no fault
+                                 (A: the feature angle; with --scan 180: no edge must stay)
     --output FOLDER              where the optimized meshes are written (default: a temporary one)
 
 One thread. The distance is the one that the filter proves (SurfaceDistance), as a fraction of the diagonal. The exit status
@@ -39,6 +41,7 @@ def optimize(grid, tolerance, arguments):
         f.SetBoundaryModeToSlide()
         f.SetSurfaceTolerance(tolerance)
         f.SetKeepFeatures(not arguments.scan)
+        f.SetFeatureAngle(arguments.angle)
     f.Update()
     return f
 
@@ -51,10 +54,12 @@ def main():
     parser.add_argument("--growth", type=float, default=0.15)
     parser.add_argument("--limit", type=float, default=60.0)
     parser.add_argument("--scan", action="store_true")
+    parser.add_argument("--angle", type=float, default=45.0)
     parser.add_argument("--judge")
     parser.add_argument("--output")
     arguments = parser.parse_args()
     folder = pathlib.Path(arguments.output or tempfile.mkdtemp())
+    folder.mkdir(parents=True, exist_ok=True)
     faults = 0
     print("| mesh | tolerance | worst before | worst after | under .2 | cells | distance | seconds | stop |")
     print("|---|---|---|---|---|---|---|---|---|")
@@ -77,7 +82,8 @@ def main():
             if arguments.output or arguments.judge:
                 write(f.GetOutput(), after)
             if arguments.judge and tolerance is not None:
-                judged = subprocess.run([arguments.judge, after, "--before", path, "--tolerance", str(max(tolerance, 1e-12))],
+                judged = subprocess.run([arguments.judge, after, "--before", path, "--tolerance", str(max(tolerance, 1e-12)),
+                                         "--angle", "180" if arguments.scan else f"{arguments.angle:g}"],
                                         capture_output=True, text=True, check=False)
                 if judged.returncode:
                     print("\n".join(line for line in judged.stdout.splitlines() if "FAULT" in line), file=sys.stderr)

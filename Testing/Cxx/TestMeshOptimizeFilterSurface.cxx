@@ -117,7 +117,12 @@ TEST(MeshOptimizeFilterSurface, RidgesThatAnglesTellNeedNotBeKept)
   {
     Sliding slid(1e-3);
     slid->SetInputData(grid);
-    slid->SetTargetQuality(0.01); // nothing to do
+    // Ridges are given up where the target is not reached with them. Here nothing can reach it.
+    slid->SetTargetQuality(0.95);
+    slid->MoveNodesOff();
+    slid->ReconnectOff();
+    slid->InsertNodesOff();
+    slid->RemoveNodesOff();
     slid->SetKeepFeatures(keeps);
     slid->Update();
     onCurves[keeps] = CountPlaces(slid->GetOutput(), 2);
@@ -314,8 +319,8 @@ TEST(MeshOptimizeFilterSurface, BlocksKeepTheFacesThatTheyShare)
     return std::any_of(messages.Warnings.begin(), messages.Warnings.end(),
       [&](const std::string& text) { return text.find(start) != std::string::npos; });
   };
-  EXPECT_TRUE(tells("Block 1: 32 facets of the surface lie on others"));
-  EXPECT_TRUE(tells("Block 2: 32 facets of the surface lie on others"));
+  EXPECT_TRUE(tells("Block 1: 32 facets of the surface lie on other facets"));
+  EXPECT_TRUE(tells("Block 2: 32 facets of the surface lie on other facets"));
 }
 
 TEST(MeshOptimizeFilterSurface, TheSameBytesWithAnyNumberOfThreads)

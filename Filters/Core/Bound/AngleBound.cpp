@@ -107,7 +107,7 @@ double dihedralCap(Measure measure, double phi)
       // As the measure has it: sines of obtuse angles count three quarters.
       cap = (phi > 0.5 * pi ? 0.75 : 1.0) * std::sin(phi);
       break;
-    case Measure::MinimumDihedralAngle:
+    default: // nothing is known of other measures
       break;
   }
   return std::min(cap, regular);
@@ -131,9 +131,7 @@ double faceAngleCap(Measure measure, double alpha)
     case Measure::RadiusRatio:
       cap = std::sqrt(meanRatioOf(facialVolumeLength(alpha)));
       break;
-    case Measure::MinimumSine:
-    case Measure::WarpedSine:
-    case Measure::MinimumDihedralAngle:
+    default: // nothing is known of other measures
       break;
   }
   return std::min(cap, regular);

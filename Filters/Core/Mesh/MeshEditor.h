@@ -99,6 +99,8 @@ public:
   /// Keeps the edge from a to b of cell c: marks it in all cells around it that can be reached over
   /// facets. Outside of transactions.
   void keepEdge(Index c, Index a, Index b);
+  /// Takes the mark from edge e of cell c, of this cell alone. Outside of transactions.
+  void giveUpEdge(Index c, int e);
 
   /// Makes room for the places of all points: setPlace() may then be called by editors of chunks.
   void makeRoomForPlaces();

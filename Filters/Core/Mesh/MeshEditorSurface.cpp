@@ -72,6 +72,13 @@ void MeshEditor<D>::keepEdge(Index c, Index a, Index b)
   this->mesh_->hasKeptEdges_ = true;
 }
 
+template <int D>
+void MeshEditor<D>::giveUpEdge(Index c, int e)
+{
+  assert(D == 3 && this->depth_ == 0);
+  this->mesh_->cellData_[c].flags &= std::uint16_t(~(1u << (Mesh::FirstEdgeBit + e)));
+}
+
 template void MeshEditor<2>::makeRoomForPlaces();
 template void MeshEditor<3>::makeRoomForPlaces();
 template void MeshEditor<2>::setPlace(Index, const Place&);
@@ -80,4 +87,5 @@ template void MeshEditor<2>::setPatch(Index, int, Index);
 template void MeshEditor<3>::setPatch(Index, int, Index);
 template void MeshEditor<2>::keepEdge(Index, Index, Index);
 template void MeshEditor<3>::keepEdge(Index, Index, Index);
+template void MeshEditor<3>::giveUpEdge(Index, int);
 }

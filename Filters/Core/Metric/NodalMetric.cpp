@@ -46,12 +46,14 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
   std::vector<Sample> values(sizes.empty() && tensors.empty() ? 0 : mesh.numberOfPointSlots());
   for (Index p = 0; !values.empty() && p < n; ++p)
   {
+    // Values that no cell uses are never read: they need not be usable.
     if (!mesh.isPointAlive(p))
     {
       continue;
     }
     if (!sizes.empty())
     {
+      // Written as !(x > 0), so that NaN is refused, too.
       if (!(sizes[p] > 0.0) || !std::isfinite(sizes[p]))
       {
         std::ostringstream text;
@@ -78,6 +80,7 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
     this->background_ = std::make_shared<const Background<D>>(mesh);
     for (std::size_t p = 0; p < values.size(); ++p)
     {
+      // At first the mesh is its own background: each search begins where it ends.
       values[p].hint = this->background_->cellOfPoint(static_cast<Index>(p));
     }
   }
@@ -91,6 +94,7 @@ template <int D>
 std::string NodalMetric<D>::setConstant(const Tensor<D>& tensor)
 {
   Tensor<D> l;
+  // The logarithm is also the test: it exists for positive definite tensors only.
   if (!logarithm<D>(tensor, l))
   {
     return "The metric tensor is not symmetric, finite and positive definite.";
@@ -116,6 +120,7 @@ NodalMetric<D> NodalMetric<D>::raised(
       result.values_[p].logSize = this->logSize(p);
       result.values_[p].hint = result.background_->cellOfPoint(p);
     }
+    // As wanted, without the floor: resample() raises what it has sampled, at the new place.
     result.backgroundValues_ = result.values_;
   }
   else if (!this->hasSizes_)
@@ -202,7 +207,7 @@ double NodalMetric<D>::logSize(Index p) const
 {
   return this->hasSizes_      ? this->values_[p].logSize
     : this->constantSize_ > 0 ? std::log(this->constantSize_)
-                              : 0.0;
+                              : 0.0; // no size at all: as if 1 were wanted
 }
 
 /// Sizes and tensors are kept apart, since either may be given alone.
@@ -216,6 +221,7 @@ Tensor<D> NodalMetric<D>::unitTensor(Index p) const
   }
   else if (this->hasConstant_)
   {
+    // Only the root is stored, since elements are measured by it.
     m = this->constantMap_ * this->constantMap_;
   }
   if (!this->hasSizes_ && this->constantSize_ > 0.0) // exact if possible
@@ -225,7 +231,8 @@ Tensor<D> NodalMetric<D>::unitTensor(Index p) const
   return m * std::exp(-2.0 * this->logSize(p));
 }
 
-/// (5.3), with the density sqrt(det M) / h*^D.
+/// (5.3), with the density sqrt(det M) / h*^D. Sizes may vary from point to point, so that h* is a
+/// part of the density here; in the paper it is one factor of the whole.
 template <int D>
 double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) const
 {
@@ -241,6 +248,7 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
       halfLogDeterminants[p] = 0.5 * trace - (this->hasSizes_ ? D * this->logSize(p) : 0.0);
     }
   }
+  // Linear in between, as fill() takes them: the integral is exact, not by one value per cell.
   double inUnits = metricVolume<D>(mesh, halfLogDeterminants);
   // One size for all is a factor of the whole: it need not go through a logarithm at each point.
   for (int d = 0; d < D && !this->hasSizes_ && this->constantSize_ > 0.0; ++d)
@@ -250,7 +258,9 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
   return regularElementsPerVolume<D> * inUnits;
 }
 
-/// Means of logarithms over the nodes, so that the result is positive definite whatever they are.
+/// Means of logarithms over the nodes, so that the result is positive definite whatever they are:
+/// the value at the centroid, since logarithms are linear in an element. The quality then takes it
+/// as constant in the element, as (2.2) and (2.3) need it.
 template <int D>
 void NodalMetric<D>::fill(const Simplex<D>& nodes, ElementMetric<D>& m) const
 {

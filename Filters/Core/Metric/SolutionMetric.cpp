@@ -32,11 +32,14 @@ bool isLinearField(const SimplexMesh<D>& mesh, const std::vector<double>& values
       }
       for (Index q : mesh.nodes(c))
       {
+        // e' G e, in the frame of G: the second difference along the edge, (5.1) times its length
+        // squared.
         const Vec<D> edge = metric[p].vectors.transpose() * (mesh.point(q) - mesh.point(p));
         curvature = std::max(curvature, metric[p].values.dot(edge.cwiseAbs2()));
       }
     }
   }
+  // For a field of zeros both sides are 0: it is linear, too.
   return !(curvature > 500.0 * precision * magnitude);
 }
 
@@ -51,6 +54,7 @@ void scaleForNorm(const SimplexMesh<D>& mesh, const SolutionMetricOptions& optio
   none.maximumSize = options.limits.maximumSize;
   MetricScaling<D> scaling(mesh, metric, none, options.countCorrection);
   const double h = scaling.withCount(options.desiredCount).desiredSize;
+  // With this eigenvalue an edge of the maximum size has the length h: none need be longer.
   const double least = std::pow(h / scaling.maximumSize(), 2);
   for (SymmetricEigen<D>& e : metric)
   {
@@ -120,9 +124,10 @@ SymmetricEigen<D> combinedHessian(const Tensor<D>* hessians, int components)
       sum += h * h;
     }
     e = SymmetricEigen<D>::of(sum);
+    // Squares have no negative eigenvalue, but rounding can make one.
     e.values = scale * e.values.cwiseMax(0.0).cwiseSqrt();
   }
-  // ascending again
+  // Ascending again: with absolute values the order of one field's eigenvalues may be another.
   std::array<int, D> order;
   for (int i = 0; i < D; ++i)
   {
@@ -180,6 +185,7 @@ std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>
   {
     g[p] = combinedHessian<D>(&hessians[components * p], components);
   }
+  // Asked before any scaling: the scaling to the wanted number would make a metric of mere noise.
   metric.isLinear = isLinearField(mesh, values, components, g, options.precision);
   if (metric.isLinear)
   {
@@ -190,6 +196,7 @@ std::string solutionMetric(const SimplexMesh<D>& mesh, const std::vector<double>
   }
   else if (options.normOrder > 0.0)
   {
+    // Only for a finite order: in the maximum norm, the paper's, G stays as it is.
     scaleForNorm(mesh, options, g);
   }
   ScaledMetric<D> scaled = MetricScaling<D>(

@@ -28,13 +28,16 @@ constexpr double UntangledQuality = 0.1;
 constexpr double FlatQuality = 1e-9;
 /// Progress after untangling, and after the sizes.
 constexpr double Untangled = 0.2, Sized = 0.6;
+/// The same after the first half of optimizeFromRidges().
+constexpr double FromRidges = 0.5;
 
 template <int D>
 class Optimizer
 {
 public:
-  explicit Optimizer(Run<D>& run)
+  Optimizer(Run<D>& run, Surface<D>* surface)
     : run_(run)
+    , surface_(surface)
   {
   }
   void optimize();
@@ -47,6 +50,7 @@ private:
       (o.desiredSize > 0.0 || this->run_.metric.hasSizes());
   }
   bool untangle();
+  void optimizeFromRidges(const PassRecord& input, long growth);
   bool repairForSizes();
   void optimizeSizesToo();
   std::optional<NodalMetric<D>> attainable();
@@ -55,6 +59,7 @@ private:
   void giveSizesUp(const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, double worst);
 
   Run<D>& run_;
+  Surface<D>* surface_; ///< that of the run, to be released
 };
 
 template <int D>
@@ -87,7 +92,45 @@ void Optimizer<D>::optimize()
   // Untangling may have used part of the budget, which is for the whole run.
   this->run_.growth = std::max(0L, input.cells + growth - report.history.back().cells);
   const Clock::Part part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
-  this->wantsSizes() ? this->optimizeSizesToo() : optimizeWorstFirst<D>(this->run_);
+  if (this->wantsSizes())
+  {
+    this->optimizeSizesToo();
+  }
+  else if (this->surface_ && this->surface_->mayRelease())
+  {
+    this->optimizeFromRidges(input, growth);
+  }
+  else
+  {
+    optimizeWorstFirst<D>(this->run_);
+  }
+}
+
+/// With all ridges first, by single changes and with half of the budget; then without those that
+/// may go. Without them from the input on, nodes would leave the ridges before the surface has a
+/// form, and what they leave behind would use up the tolerance.
+template <int D>
+void Optimizer<D>::optimizeFromRidges(const PassRecord& input, long growth)
+{
+  const Run<D>& all = this->run_;
+  {
+    Options options = all.options;
+    options.effort = Effort::Quick;
+    Run<D> run{ all.editor, all.metric, all.surface, options, all.control, all.clock, all.report };
+    run.growth = all.growth / 2;
+    const Clock::Part part(run.clock, 0.0, FromRidges);
+    optimizeWorstFirst<D>(run);
+  }
+  const bool isDone = all.report.stopReason == StopReason::TargetReached &&
+    all.options.effort != Effort::Best;
+  if (isDone || all.clock.hasStopped() || !this->surface_->release(all.editor))
+  {
+    return;
+  }
+  this->run_.record("ridges given up");
+  this->run_.growth = std::max(0L, input.cells + growth - all.report.history.back().cells);
+  const Clock::Part part(all.clock, FromRidges, 1.0);
+  optimizeWorstFirst<D>(this->run_);
 }
 
 /// Leaves inverted cells to the clusters of 1996. The fast engine moves single nodes first, and
@@ -258,7 +301,7 @@ void Optimizer<D>::optimizeSizesToo()
 /// Qualities are computed first: all later steps trust those that are stored.
 template <int D>
 Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options,
-  const Control& control, const Surface<D>* surface)
+  const Control& control, Surface<D>* surface)
 {
   Report report;
   Clock clock(control, options.timeLimit);
@@ -276,7 +319,7 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
 
   Run<D> run{ editor, metric, surface, options, control, clock, report };
   const EvaluationCount count;
-  Optimizer<D>(run).optimize();
+  Optimizer<D>(run, surface).optimize();
   report.evaluations += count.get(); // of this thread, without those of chunks
 
   const PassRecord output = summarize(mesh, options.targetQuality, &report.invertedAfter);
@@ -287,7 +330,7 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
 }
 
 template Report optimize<2>(
-  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const Surface<2>*);
+  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, Surface<2>*);
 template Report optimize<3>(
-  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, const Surface<3>*);
+  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, Surface<3>*);
 }

@@ -18,19 +18,19 @@ namespace meshopt
 /// inverted.
 /// `metric` holds h* and the metric at the points; it is sampled where points move or are added.
 /// `surface`: what nodes of the surface slide along, built for this mesh (Algorithm::WorstFirst
-/// only); null: the surface is kept.
+/// only); null: the surface is kept. It changes if it is released on the way (Surface::release()).
 /// Algorithm::WorstFirst first makes the edges as long as wanted (SizeStage.h) if sizes are given,
 /// and if beta > 0 or there is a surface. The worst quality may then fall, but not below
 /// targetQuality.
 /// Preconditions: options.check(...) is empty; the mesh was built without error.
 template <int D>
 Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options,
-  const Control& control, const Surface<D>* surface = nullptr);
+  const Control& control, Surface<D>* surface = nullptr);
 
 extern template Report optimize<2>(
-  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, const Surface<2>*);
+  SimplexMesh<2>&, NodalMetric<2>&, const Options&, const Control&, Surface<2>*);
 extern template Report optimize<3>(
-  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, const Surface<3>*);
+  SimplexMesh<3>&, NodalMetric<3>&, const Options&, const Control&, Surface<3>*);
 }
 
 #endif

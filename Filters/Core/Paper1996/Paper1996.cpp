@@ -52,13 +52,15 @@ private:
   const Options& options_;
   const double target_;
   const bool lookAhead_; ///< whether elements may get one
+  /// Of all alternations: what has failed is not tried again until something around it changes.
   ReconnectionMemory<D> memory_;
-  bool limitReached_ = false;
+  bool limitReached_ = false; ///< of iterations, in some repositioning
   long steps_ = 0, expectedSteps_ = 1;
   double passBegin_; // by the clock
 };
 
-// The amount of work is not known beforehand: the fraction approaches 1 as steps are made.
+// The amount of work is not known beforehand: the fraction approaches 1 as steps are made. At the
+// expected number of steps it is one half.
 template <int D>
 bool Paper1996<D>::goesOn(const char* stage, double worst)
 {
@@ -96,11 +98,13 @@ Operation operationOf(Filling kind)
       return Operation::EdgeRemoval;
     case Filling::BoundaryNode:
       return Operation::EdgeContraction;
+    // The node moves, but not to an optimum: to the mean that section 2.3 gives.
     case Filling::Centre:
       return Operation::NodeReplacement;
     case Filling::NewCentre:
     case Filling::Midpoint:
       return Operation::NodeInsertion;
+    // OpenRing: such clusters include the exchange of two elements for three.
     default:
       return Operation::FaceRemoval;
   }
@@ -113,10 +117,12 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   const Options& o = this->options_;
   ReconnectionParameters parameters;
   parameters.target = this->target_;
+  // By a full search for each worst element, as printed: the heap must give the same sequence.
   parameters.naiveSearch = o.naiveSearch;
   parameters.growth = this->run_.growth;
   // A look-ahead moves nodes: it needs that switch, too.
   parameters.lookAhead = o.moveNodes && this->lookAhead_ ? lookAhead : 0;
+  // Each filling by the switch of what it does: a node vanishes, moves or comes, or all stay.
   const auto allow = [&](Filling kind, bool on)
   { parameters.allowed[static_cast<int>(kind)] = on; };
   allow(Filling::RingNode, o.reconnect);
@@ -163,6 +169,7 @@ void Paper1996<D>::touchMoved(const std::vector<Vec<D>>& before)
     {
       moved = moved || mesh.point(p) != before[p];
     }
+    // The cell has another quality. It is in the star of each of its nodes, moved or not.
     for (Index p : mesh.nodes(c))
     {
       if (moved)
@@ -183,6 +190,7 @@ void Paper1996<D>::repositionAll()
   parameters.maximumNumberOfIterations = o.maximumNumberOfIterations;
   parameters.target = this->target_;
   parameters.naiveSearch = o.naiveSearch;
+  // Of the active set (2.8), and alpha of Armijo's rule (2.7).
   parameters.local.epsilon = o.epsilon;
   parameters.local.armijo = o.armijo;
 
@@ -203,7 +211,8 @@ void Paper1996<D>::repositionAll()
   this->record("repositioning", tried, done);
 }
 
-// One alternation: reconnection, then repositioning. True if the worst quality has risen.
+// One alternation, in the order of the paper (opening of section 2): connectivity, then the best
+// places of the nodes in it. True if the worst quality has risen.
 template <int D>
 bool Paper1996<D>::alternate(int lookAhead)
 {
@@ -218,7 +227,8 @@ bool Paper1996<D>::alternate(int lookAhead)
   {
     this->repositionAll();
   }
-  // A smaller gain counts as none: the loop would go on for hardly anything.
+  // A smaller gain counts as none: the loop would go on for hardly anything. Relative to the
+  // magnitude, since the worst quality of a tangled mesh is negative.
   return this->worst() > before + LeastGain * std::abs(before);
 }
 
@@ -229,6 +239,7 @@ void Paper1996<D>::countCapped()
   const SimplexMesh<D>& mesh = this->editor_.mesh();
   const double target = this->target_;
   Caps<D> caps;
+  // In a metric that varies no cap can be certified: then nothing counts as capped.
   caps.build(mesh, this->options_.measure, target, this->run_.metric.isTrivial());
   this->run_.report.bound = caps.bound();
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
@@ -260,7 +271,7 @@ StopReason Paper1996<D>::iterate()
   const Options& o = this->options_;
   // A guess, which only progress needs.
   this->expectedSteps_ = std::max(1L, 4 * this->run_.report.history.back().belowTarget);
-  bool rises = true; // in the last alternation
+  bool rises = true; // in the last alternation; the first one is made without look-ahead
   for (int k = 0; k < o.maximumNumberOfAlternations; ++k)
   {
     if (this->worst() >= this->target_)
@@ -277,6 +288,7 @@ StopReason Paper1996<D>::iterate()
     }
     if (looksAhead && !rises)
     {
+      // If a repositioning was cut short, another run with more iterations might still gain.
       return this->limitReached_ ? StopReason::IterationLimit : StopReason::NoFurtherGain;
     }
   }

@@ -24,10 +24,11 @@ template <int D>
 struct EdgeSum<MeanEdgeShape<D>>
 {
   static constexpr bool value = true;
+  /// c of (2.3) goes with V = det / D!.
   static constexpr double constant = MeanEdgeShape<D>::constant / (D == 2 ? 2.0 : 6.0);
 
   static double weight(double l2) { return std::sqrt(l2); }
-  /// grad weight(|x - r|^2) = slope * (x - r)
+  /// grad weight(|x - r|^2) = slope * (x - r). A collapsed edge has no direction: 0.
   static double slope(double weight) { return weight > 0.0 ? 1.0 / weight : 0.0; }
   static double quality(double det, double sum)
   {
@@ -47,6 +48,7 @@ template <int D>
 struct EdgeSum<VolumeLengthShape<D>>
 {
   static constexpr bool value = true;
+  /// It goes with det already.
   static constexpr double constant = VolumeLengthShape<D>::constant;
 
   static double weight(double l2) { return l2; }

@@ -58,7 +58,8 @@ struct ElementQuality
 private:
   bool hasSize(const ElementMetric<D>& m) const { return this->beta > 0.0 && m.desiredSize > 0.0; }
 
-  /// Local number of the longest edge; h2 is its squared length.
+  /// Local number of the longest edge; h2 is its squared length. Squares are compared: one root in
+  /// place of one per edge.
   static int longestEdge(const Corners<D>& x, double& h2)
   {
     int edge = 0;
@@ -90,6 +91,7 @@ private:
 template <int D, class Shape>
 inline double ElementQuality<D, Shape>::value(const Corners<D>& x, const ElementMetric<D>& m) const
 {
+  // The usual case: nothing is mapped or copied.
   if (m.euclidean && !this->hasSize(m))
   {
     return Shape::value(x);
@@ -131,6 +133,8 @@ inline double ElementQuality<D, Shape>::gradient(
   }
   if (!m.euclidean)
   {
+    // Back through y = M^(1/2) x. M is frozen: that it changes with the place of the node is no
+    // part of the gradient.
     for (Vec<D>& ga : g)
     {
       ga = (m.map.transpose() * ga).eval();

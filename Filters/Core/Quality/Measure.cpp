@@ -10,7 +10,8 @@ namespace
 {
 constexpr std::size_t Count = std::tuple_size_v<MeasureTable>;
 
-/// Made from the table of types, so that nothing about a measure is written twice.
+/// Made from the table of types, so that nothing about a measure is written twice. A measure has
+/// one name in 2D and 3D.
 template <std::size_t... K>
 constexpr std::array<MeasureInfo, Count> makeInfos(std::index_sequence<K...>)
 {

@@ -48,10 +48,12 @@ decltype(auto) dispatchFrom(Measure measure, F& f)
 {
   if constexpr (K == std::tuple_size_v<MeasureTable>)
   {
+    // Not reached with a measure of the table, but the chain of comparisons must return something.
     return f(typename Row<0>::template Shape<D>{});
   }
   else if constexpr (!All && !Row<K>::isOptimizable)
   {
+    // Skipped at compile time: the engine is not instantiated for it.
     return dispatchFrom<D, All, K + 1>(measure, f);
   }
   else

@@ -43,6 +43,7 @@ void QualityStatistics::add(const double* values, std::int64_t n)
       sum += v;
     }
   }
+  // Counted by subtraction: one counter less in the loop.
   part.invalid = n - part.count;
   part.mean = part.count > 0 ? sum / static_cast<double>(part.count) : 0.0;
   for (std::int64_t i = 0; i < n; ++i)
@@ -73,6 +74,7 @@ void QualityStatistics::merge(const QualityStatistics& other)
   this->squares += other.squares + d * d * (a * b / (a + b));
 }
 
+/// Of the whole set, not of a sample of it: divided by the count.
 double QualityStatistics::standardDeviation() const
 {
   return this->count == 0 ? 0.0 : std::sqrt(this->squares / static_cast<double>(this->count));
@@ -86,6 +88,7 @@ void QualityHistogram::add(double value)
   }
   const int last = static_cast<int>(this->counts.size()) - 1;
   const double width = this->high - this->low;
+  // Without a range all values are in the first bin.
   const double place = width > 0.0 ? (value - this->low) / width * (last + 1) : 0.0;
   // Values beyond an end count in the bin there, and the upper end itself in the last one.
   ++this->counts[static_cast<int>(std::min<double>(last, std::max(0.0, std::floor(place))))];
@@ -136,6 +139,7 @@ void WorstElements::merge(const WorstElements& other)
   }
 }
 
+/// A copy, since a heap that is sorted would take no more elements.
 std::vector<WorstElement> WorstElements::sorted() const
 {
   std::vector<WorstElement> result = this->heap_;

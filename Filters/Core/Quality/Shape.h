@@ -38,6 +38,7 @@ struct MeanEdgeShape
 
   static double value(const Corners<D>& x)
   {
+    // 0 only if all nodes coincide. V is det / D!, and keeps its sign.
     const double p = sumOfEdges(x);
     if constexpr (D == 2)
     {
@@ -61,6 +62,7 @@ struct MeanEdgeShape
     const double power = D == 2 ? perimeter * perimeter : perimeter * perimeter * perimeter;
     const double scale = (D == 2 ? 0.5 * constant : constant / 6.0) / power;
     const double s = scale * det;
+    // grad S = c / P^D grad V - D S / P grad P. Nothing is divided by V: it is smooth at V = 0.
     const double slope = D * s / perimeter;
     for (int a = 0; a <= D; ++a)
     {
@@ -79,6 +81,7 @@ inline double MeanEdgeShape<D>::sumOfEdges(const Corners<D>& x)
 {
   constexpr int n = Local<D>::numberOfEdges;
   double l[n];
+  // Two loops: the compiler can then take several roots at once.
   for (int e = 0; e < n; ++e)
   {
     l[e] = squaredEdge(x, e);
@@ -129,7 +132,8 @@ struct VolumeLengthShape
 {
   static constexpr const char* name = "VolumeLength";
   static constexpr double regular = 1.0;
-  /// Factor of det / (sum of squared edges)^(D/2).
+  /// Factor of det / (sum of squared edges)^(D/2): 2 sqrt(3), 12 sqrt(3). It follows from V = det /
+  /// D! and l_rms^2 = sum / 3 in 2D, sum / 6 in 3D.
   static constexpr double constant = D == 2 ? 3.4641016151377544 : 20.784609690826528;
 
   static double value(const Corners<D>& x)
@@ -199,7 +203,8 @@ struct MeanRatioShape
       }
       const double r = cubeRoot(0.5 * det); // (3 V)^(1/3)
       const double q = 12.0 * r * std::fabs(r) / s;
-      // d (r |r|) = 2 |r| dr, and dr = d det / (6 r^2)
+      // d (r |r|) = 2 |r| dr, and dr = d det / (6 r^2). With s = 6 l_rms^2, 6e-5 sqrt(s) is |r| at
+      // V = 1e-12 l_rms^3.
       const double slope = 4.0 / (std::max(std::fabs(r), 6e-5 * std::sqrt(s)) * s);
       for (int a = 0; a < 4; ++a)
       {
@@ -220,8 +225,10 @@ struct RadiusRatioShape
   {
     const double det = volumeDeterminant(x);
     double d;
+    // det^2 as det |det|: the measure keeps the sign of the volume.
     if constexpr (D == 2)
     {
+      // With p the perimeter, r = det / p and R = product of the edges / (2 det).
       double l[3];
       for (int e = 0; e < 3; ++e)
       {
@@ -232,6 +239,7 @@ struct RadiusRatioShape
     }
     else
     {
+      // With the sum of |n_i|, twice the surface, r = det / sum; R = |circumVector| / (2 det).
       const TetNormals n(x);
       double area = 0.0;
       for (int i = 0; i < 4; ++i)
@@ -333,6 +341,8 @@ inline double RadiusRatioShape<D>::gradient3(const Corners<3>& x, std::array<Vec
       g[f[k]] -= (x[f[(k + 1) % 3]] - x[f[(k + 2) % 3]]).cross(u) * TetNormals::orientation;
     }
   }
+  // d ln |w| = w . dw / |w|^2. By a, dw = 2 (a . da) b x c + b^2 c x da + c^2 da x b; the other
+  // edges follow in cyclic order. Node 0 is in all three.
   const Vec<3> u = w * (q / (radius * radius));
   const Vec<3> e[3] = { x[1] - x[0], x[2] - x[0], x[3] - x[0] };
   for (int k = 0; k < 3; ++k)

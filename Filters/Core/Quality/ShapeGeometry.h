@@ -55,7 +55,7 @@ struct AngleKernel<2>
       if (l < shortest)
       {
         shortest = l;
-        node = 2 - e;
+        node = 2 - e; // opposite to edge e: see Local<2>::edges
       }
     }
     if (shortest == 0.0)
@@ -74,6 +74,8 @@ struct AngleKernel<2>
     const int b = (node + 1) % 3, c = (node + 2) % 3;
     const Vec<2> u = x[b] - x[node], v = x[c] - x[node];
     const double uu = u.squaredNorm(), vv = v.squaredNorm();
+    // An end turns its edge by its motion across the edge, divided by the length. A translation of
+    // all three nodes changes nothing.
     g[b] << u[1] / uu, -u[0] / uu;
     g[c] << -v[1] / vv, v[0] / vv;
     g[node] = -(g[b] + g[c]);
@@ -103,6 +105,8 @@ struct AngleKernel<3>
       }
       inverse[i] = 1.0 / std::sqrt(nn);
     }
+    // The least angle has the greatest cosine: no arc function in the loop. Normals point outwards,
+    // so that their cosine is minus that of the dihedral angle.
     int edge = 0;
     double greatest = -2.0;
     for (int e = 0; e < 6; ++e)
@@ -115,6 +119,7 @@ struct AngleKernel<3>
         edge = e;
       }
     }
+    // Both times |n_i| |n_j|. The sine comes from the volume, whose sign it has to have.
     sine = volumeDeterminant(x) * std::sqrt(squaredEdge(x, edge));
     cosine = -n.n[facets[edge][0]].dot(n.n[facets[edge][1]]);
     return edge;
@@ -132,7 +137,8 @@ struct AngleKernel<3>
     g[b].setZero();
     for (int k = 0; k < 2; ++k)
     {
-      // Node c turns its facet (a, b, c) about the edge; a and b turn it back, by leverage.
+      // Node c turns its facet (a, b, c) about the edge; a and b turn it back, by leverage. The
+      // height of c above the edge is |n| / l, the lever.
       const int c = facets[e][k], f = facets[e][1 - k];
       g[c] = n.n[f] * (l / n.n[f].squaredNorm());
       const double t = (x[c] - x[a]).dot(v) / vv;
@@ -151,7 +157,8 @@ struct SineKernel<2>
 {
   static constexpr double regular = 0.8660254037844386; ///< sin 60
 
-  /// Squared least weighted sine over det^2, and its node; -1 if an edge is collapsed.
+  /// Squared least weighted sine over det^2, and its node; -1 if an edge is collapsed. All sines
+  /// have the factor det: they are compared without it, and without roots.
   static int least(const Corners<2>& x, double weight, double& factor)
   {
     int node = -1;
@@ -192,6 +199,7 @@ struct SineKernel<2>
     const Vec<2> u = x[(i + 1) % 3] - x[i], v = x[(i + 2) % 3] - x[i];
     const double c = u.dot(v);
     const double cosine = c / std::sqrt(u.squaredNorm() * v.squaredNorm());
+    // d sin = cos d(angle)
     AngleKernel<2>::gradient(x, i, g);
     for (Vec<2>& ga : g)
     {
@@ -227,6 +235,7 @@ struct SineKernel<3>
         return -1;
       }
       double f = squaredEdge(x, e) / d;
+      // Outward normals in about the same direction: the angle between the facets is obtuse.
       if (weight < 1.0 && n.n[i].dot(n.n[j]) > 0.0)
       {
         f *= weight * weight;

@@ -39,6 +39,7 @@ public:
     const std::vector<ElementMetric<D>>& metrics, double enough, double gain, int maximumSteps = 40)
   {
     const double worst = *std::min_element(cluster.quality.begin(), cluster.quality.end());
+    // L of (2.5), as in the paper a typical length: it makes the first step independent of units.
     const double length = cluster.meanEdge();
     Ascent ascent{ *this, cluster, quality, metrics };
     return ascend(
@@ -77,6 +78,8 @@ private:
     std::array<Vec<D>, D + 1> g;
     for (std::size_t k = 0; k < cluster.cells.size(); ++k)
     {
+      // The set I_epsilon of (2.8). A cell above the window is hardly ever the worst after a step;
+      // if it is, tryStep() sees it, since it looks at all cells.
       if (!(cluster.quality[k] < worst + Window))
       {
         continue;
@@ -86,6 +89,7 @@ private:
       f.first = cluster.quality[k] - worst;
       for (int i = 0; i <= D; ++i)
       {
+        // Moving nodes have the first numbers. The others are constants: they have no block.
         if (cluster.nodes[k][i] < cluster.numberOfMoving)
         {
           const Index node = cluster.nodes[k][i];
@@ -116,6 +120,7 @@ private:
     }
     this->minNorm_.solve(this->points_, numberOfMoving);
     this->step_ = this->minNorm_.blocks();
+    // The blocks are sqrt(tau) sum mu_k grad q_k, and the step is d = tau sum mu_k grad q_k.
     for (Vec<D>& d : this->step_)
     {
       d *= root;
@@ -143,6 +148,7 @@ private:
     {
       this->x_[p] += this->step_[p];
     }
+    // Into buffers of its own: a step that is refused leaves the cluster as it was.
     this->values_ = cluster.quality;
     double worst = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < cluster.cells.size(); ++k)

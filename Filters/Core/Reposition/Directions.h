@@ -17,8 +17,10 @@ struct Directions
   std::array<Vec<D>, D> basis; ///< of those that count: orthonormal
   int count = 0;               ///< how many of the basis count; 0: the node may move anywhere
 
+  /// The part of v in these directions: the orthogonal projection.
   Vec<D> along(const Vec<D>& v) const
   {
+    // Nearly all nodes: they must cost nothing.
     if (this->count == 0)
     {
       return v;

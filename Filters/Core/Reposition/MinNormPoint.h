@@ -77,7 +77,9 @@ private:
   double scale_ = 1.0; // max |w|^2
   std::vector<int> corral_;
   std::vector<double> weights_, affine_;
-  std::vector<std::vector<double>> gram_, factor_; // rows of the lower triangles
+  /// Rows of the lower triangles. Kept from step to step: a point that joins the corral adds a row,
+  /// one that leaves it changes only the rows behind its own.
+  std::vector<std::vector<double>> gram_, factor_;
   double first_ = 0.0, squaredNorm_ = 0.0;
   std::vector<Vec<D>> blocks_;
 };

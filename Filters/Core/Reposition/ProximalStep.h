@@ -36,6 +36,7 @@ public:
   {
     const auto isWorse = [](const Function& a, const Function& b) { return a.q < b.q; };
     this->size_ = 0;
+    // The worst function alone: its step is along its gradient.
     this->push(static_cast<int>(std::min_element(f.begin(), f.end(), isWorse) - f.begin()), 1.0);
     double least = 0.0;
     // The limit guards against cycles from rounding: D + 2 functions at most are active.
@@ -51,6 +52,7 @@ public:
       // All functions of the corral have about this value.
       const double level = at(f[this->id_[0]], d);
       // The function that the step makes the worst joins the corral.
+      // If it is there already, only rounding is left. A full corral has no room for it.
       const int worst = worstAt(f, d, least);
       if (least >= level - Rounding || this->has(worst) || this->size_ == Room)
       {
@@ -62,6 +64,8 @@ public:
   }
 
 private:
+  /// D + 1 functions determine a maximum in D dimensions. One more has just joined, and the next
+  /// settle() drops one.
   static constexpr int Room = D + 2;
   static constexpr double Rounding = 1e-9;     ///< of a quality
   static constexpr double LeastWeight = 1e-12; ///< a function with less is not in the corral
@@ -124,6 +128,7 @@ private:
     {
       double mu[Room];
       this->affine(f, tau, mu);
+      // On the way from the present weights to those of the hull: the first that becomes zero.
       int out = -1;
       double step = 1.0;
       for (int i = 0; i < this->size_; ++i)
@@ -175,6 +180,8 @@ private:
         a[i][j] = tau * h[i].dot(h[j]);
       }
     }
+    // In the full system the ridge is on the diagonal. The first equation is subtracted, with mu_0
+    // = 1 - sum mu_j: so it comes into every entry and into the right-hand side.
     const double ridge = Ridge * tau * trace + NotZero;
     for (int i = 0; i < n; ++i)
     {
@@ -217,6 +224,7 @@ private:
         b[i] -= factor * b[j];
         a[i][j] = factor;
       }
+      // A pivot that rounding has made zero: its weight becomes 0, and not infinite.
       inverse[i] = a[i][i] > 0.0 ? 1.0 / a[i][i] : 0.0;
     }
     for (int i = n; i-- > 0;)

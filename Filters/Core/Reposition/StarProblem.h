@@ -71,6 +71,8 @@ public:
     FacetData data;
     data.weight = weight;
     data.points = f;
+    // What does not depend on the place of the node is computed here, once for all its steps: the
+    // normal, by which det is linear in the place, and the sum over the edges of the facet.
     const Vec<D>& a = this->ring_[f[0]].x;
     if constexpr (D == 3)
     {
@@ -129,6 +131,7 @@ public:
     Ascent ascent{ *this, x };
     const double worst = ascend(
       ascent, this->evaluate(x), this->firstTau(x), enough, gain, maximumSteps);
+    // The last step may have been refused: values() are then those of its place.
     return ascent.isAtX ? worst : this->evaluate(x);
   }
 
@@ -150,6 +153,7 @@ private:
     {
       return this->star.solver_.solve(this->star.active_, tau, this->step);
     }
+    /// All values, not only until one is too low: after accept() they are needed.
     double tryStep(double /*required*/)
     {
       this->next = this->x + this->step;
@@ -175,6 +179,7 @@ private:
     std::array<int, D> points;
   };
 
+  /// In a metric lengths differ from element to element: then nothing can be shared.
   bool fast() const { return HasSum && this->plain_; }
   ElementMetric<D> metric(std::size_t k) const
   {
@@ -188,6 +193,7 @@ private:
     {
       c[i] = this->ring_[this->facets_[k].points[i]].x;
     }
+    // The node last: (facet, node) is positive.
     c[D] = x;
     return c;
   }
@@ -222,6 +228,7 @@ private:
     const double limit = worst + Window;
     for (std::size_t k = 0; k < this->facets_.size(); ++k)
     {
+      // Projected gradients: the step, their sum, then keeps to the directions by itself.
       if (this->values_[k] < limit)
       {
         this->active_.push_back(

@@ -47,6 +47,7 @@ double ascend(
       {
         return worst;
       }
+      // Armijo's rule (2.7), with the gain that the linearization promises as its measure.
       const double required = worst + TrustRegion::LeastShare * predicted;
       const double there = problem.tryStep(required);
       moved = there > required;
@@ -59,6 +60,7 @@ double ascend(
         worst = there;
       }
     }
+    // After five refusals tau is down to a thousandth: what is left to gain is not worth more.
     if (!moved)
     {
       break;

@@ -23,6 +23,7 @@ SizeStage<D>::SizeStage(Run<D>& run)
 {
   // Inverted cells are excluded by the precondition; nodes are stamped one by one (see moveNode()).
   this->judge().setTangled(this->overlaps_, false, this->pinched_);
+  // A stamp on every node of a star would make each move look like a change at all neighbours.
   this->judge().setStampsStars(false);
   // The tensors follow the points only from now on: compute those of the points that are there.
   this->editor_.attach(this->units_);
@@ -72,9 +73,11 @@ bool SizeStage<D>::follow(double predicted)
 {
   this->run_.report.sizes.predictedCells = predicted;
   const long cells = this->mesh().countCells();
+  // Clamped before it becomes a whole number: a prediction may have any size.
   this->mostCells_ = BrakeSlack +
     static_cast<long>(
       BrakeFactor * std::clamp(predicted, static_cast<double>(cells), MostPredicted));
+  // In any case no more than ids can number.
   this->mostCells_ = std::min(this->mostCells_, cells + roomToGrow(cells));
   // Beginning with the longest edges, the target for splitting is halved in each round. Only the
   // rounds after that count.
@@ -112,13 +115,14 @@ bool SizeStage<D>::follow(double predicted)
     idle = 0;
     const double ratio = cells / predicted;
     // plus half a cell, since the prediction is not a whole number
+    // A raised metric is not corrected: fewer elements than predicted are enough for it.
     const double slack = std::max(CountTolerance * predicted, CellsOfTwoNodes<D> + 0.5);
     if (std::fabs(cells - predicted) < slack || corrections++ == MaximumCorrections ||
       this->run_.metric.isRaised())
     {
       break;
     }
-    // The number of cells goes with h*^-D.
+    // The number of cells goes with h*^-D. The limit holds for all corrections together.
     this->scale_ = std::clamp(
       this->scale_ * std::pow(ratio, 1.0 / D), 1.0 / GreatestScale, GreatestScale);
     // With another scale all nodes are worth a try again.
@@ -132,6 +136,7 @@ bool SizeStage<D>::follow(double predicted)
 template <int D>
 bool followSizes(Run<D>& run, double predicted)
 {
+  // As long as this lives, the metric is sampled again where points move or come.
   const FollowedMetric<D> follows(run.editor, run.metric);
   computeQualities<D>(run.editor, run.metric, Measure::Shape, 0.0);
   return sizes::SizeStage<D>(run).follow(predicted);

@@ -59,7 +59,8 @@ template <int D>
 constexpr double SwapBelow = D == 2 ? std::numeric_limits<double>::infinity() : 0.7;
 
 /// Where to halve an edge with lengths la and lb at its ends, as a fraction of the way from a; not
-/// too close to an end.
+/// too close to an end. With r = ln(lb / la) and ln l linear in between, both parts are equally
+/// long if exp(r t) = (1 + exp(r)) / 2. For r near 0 this loses its digits, and t is 1/2.
 inline double metricMiddle(double la, double lb)
 {
   const double r = std::log(lb / la);
@@ -68,6 +69,7 @@ inline double metricMiddle(double la, double lb)
 }
 
 /// A pseudo-random number in [-1, 1] that depends on the edge only, so that runs are reproducible.
+/// The factors are those of splitmix64: ids that follow each other give unrelated numbers.
 inline double noise(Index a, Index b)
 {
   std::uint64_t h = std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);
@@ -81,10 +83,12 @@ class SizeStage
 {
 public:
   explicit SizeStage(Run<D>& run);
+  /// The editor lives longer than the tensors that it keeps up to date.
   ~SizeStage() { this->editor_.detach(this->units_); }
   bool follow(double predicted);
 
 private:
+  /// Whatever the caller's measure: here it only keeps cells from becoming bad.
   using Shape = MeanEdgeShape<D>;
 
   struct Edge
@@ -93,6 +97,7 @@ private:
     Index a, b, cell;                       // a < b
     bool operator<(const Edge& other) const // the greatest comes first
     {
+      // Of equal lengths the lowest ids: the order must not depend on the queue.
       return std::tie(this->length, other.a, other.b, other.cell) <
         std::tie(other.length, this->a, this->b, this->cell);
     }

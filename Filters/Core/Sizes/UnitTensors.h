@@ -28,6 +28,7 @@ public:
   {
     return std::make_unique<ValueJournal<D, UnitTensors, Tensor<D>>>(*this);
   }
+  /// Identity until a point is placed there: every slot has a usable tensor.
   void reserve(Index n) override
   {
     if (static_cast<Index>(this->units_.size()) < n)
@@ -37,6 +38,7 @@ public:
   }
   void pointPlaced(Index p, const Vec<D>&, Index) override { this->update(p); }
 
+  /// For the journal: an undone move brings back the old tensor without computing it.
   Tensor<D> get(Index p) const { return this->units_[p]; }
   void set(Index p, const Tensor<D>& value) { this->units_[p] = value; }
 

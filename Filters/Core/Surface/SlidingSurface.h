@@ -90,6 +90,12 @@ public:
   bool allowsAngleOutside(
     const SimplexMesh<3>& mesh, Index a, Index b, double cosine) const override;
 
+  bool mayRelease() const override { return this->release_ != nullptr; }
+  /// Gives up the curves of SurfaceOptions::releaseAngle: patches grow together over them, and
+  /// their points and corners slide on what is left. A mesh whose ridges have helped to hold its
+  /// form is a better start for that than the input is.
+  bool release(MeshEditor<3>& editor) override;
+
 private:
   struct Patch
   {
@@ -105,6 +111,12 @@ private:
   /// sideways, and above the reference besides.
   static constexpr double CurveShare = 0.6;
 
+  /// What the parts of this surface become by release().
+  struct Release;
+
+  void divide(MeshEditor<3>& editor, const SurfaceOptions& options);
+  void prepareRelease(MeshEditor<3>& editor, const SurfaceOptions& options);
+  Place released(const Place& place) const;
   void addPatches(
     MeshEditor<3>& editor, const SurfaceDivision& division, const std::set<Index>& thin);
   void addRooms(
@@ -139,6 +151,7 @@ private:
   bool isExact_ = false;
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it
+  std::shared_ptr<Release> release_;              ///< null: there is nothing to give up
 };
 }
 

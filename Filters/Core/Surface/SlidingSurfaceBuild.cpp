@@ -60,6 +60,18 @@ void SlidingSurface::build(MeshEditor<3>& editor, const SurfaceOptions& options)
 {
   // Nothing stays of a surface that was built before.
   *this = SlidingSurface();
+  if (options.releaseAngle > options.featureAngle)
+  {
+    this->prepareRelease(editor, options);
+  }
+  else
+  {
+    this->divide(editor, options);
+  }
+}
+
+void SlidingSurface::divide(MeshEditor<3>& editor, const SurfaceOptions& options)
+{
   const SurfaceDivision division(editor.mesh(), options);
   this->numberOfTwins_ = division.numberOfTwins;
   this->isExact_ = division.isExact;
@@ -204,10 +216,10 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
       piece.range = { 0.0, curve.length() };
       piece.isEdge = chain.points.size() == 2;
       // Its ends may become one if both are corners that the surface itself gives, and all of it is
-      // then near to that one.
+      // then near to that one. Not yet if some will not be corners any more.
       const auto isCorner = [&](Index p) { return division.freedom[p] == Freedom::Corner; };
-      piece.mayVanish = piece.isEdge && !chain.isLine && isCorner(piece.ends[0]) &&
-        isCorner(piece.ends[1]) && curve.length() <= this->curveRoom() &&
+      piece.mayVanish = !this->release_ && piece.isEdge && !chain.isLine &&
+        isCorner(piece.ends[0]) && isCorner(piece.ends[1]) && curve.length() <= this->curveRoom() &&
         meetOnlyAlong(division, piece.ends[0], piece.ends[1]);
     }
     for (std::size_t k = 0; k < chain.points.size(); ++k)

@@ -13,6 +13,9 @@
 
 namespace meshopt
 {
+template <int D>
+class MeshEditor;
+
 /// The neighbours of a point along its curve. The point may slide between them.
 struct SlidingRange
 {
@@ -21,8 +24,8 @@ struct SlidingRange
 };
 
 /// Says what points of the surface may do. The mesh stores the place of each point on the surface
-/// (SimplexMesh::place()), and its editor changes it. A surface itself never changes during a run,
-/// and any number of threads may use it at the same time. Points without a place are fixed.
+/// (SimplexMesh::place()), and its editor changes it. A surface changes only by release(): during a
+/// stage any number of threads may use it at the same time. Points without a place are fixed.
 template <int D>
 class Surface
 {
@@ -88,6 +91,12 @@ public:
   {
     return true;
   }
+
+  /// Whether there is more to keep now than in the end.
+  virtual bool mayRelease() const { return false; }
+  /// Gives up what was to be kept only at first, and says so in the places of the mesh. False if
+  /// that cannot be. Between stages only: nobody else may use the surface meanwhile.
+  virtual bool release(MeshEditor<D>&) { return false; }
 };
 }
 

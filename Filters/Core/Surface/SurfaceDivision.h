@@ -18,10 +18,15 @@ struct SurfaceOptions
   double tolerance = 0.0;
   /// Degrees. An edge whose two facets turn by more than this is part of a curve.
   double featureAngle = 45.0;
+  /// Degrees. If greater than featureAngle: curves that are none but for an angle of at most this
+  /// are given up by SlidingSurface::release(). 0: none is.
+  double releaseAngle = 0.0;
   /// Degrees. A point where a curve turns by more than this is a corner.
   double cornerAngle = 45.0;
   /// One per point, or empty. Nonzero: the point is a corner.
   std::vector<std::uint8_t> corners;
+  /// The same for points where curves end, as if the surface itself gave these corners.
+  std::vector<std::uint8_t> ends;
   /// Facets (sorted ids) and a number for each, in ascending order. Edges between facets of
   /// different numbers are parts of curves. Facets that are not listed have the number None.
   std::vector<std::pair<Facet<3>, Index>> labels;

@@ -150,7 +150,9 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
     const bool isFixed = isMarked || isLocked || touching[p];
     // It stays, unless it proves below to be inside of a patch or of a curve.
     this->freedom[p] = isFixed || this->isExact ? Freedom::Fixed : Freedom::Corner;
-    if (isFixed || (!curves.empty() && curves.size() != 2) || this->isPinched(p, around, curves))
+    const bool isEnd = !options.ends.empty() && options.ends[p];
+    if (isFixed || isEnd || (!curves.empty() && curves.size() != 2) ||
+      this->isPinched(p, around, curves))
     {
       continue;
     }

@@ -15,7 +15,8 @@ namespace
 /// their sum. Rounding in coordinates and loads is smaller.
 constexpr double Equilibrium = 1e-6;
 
-/// Where the parts of the work end, as fractions of the progress.
+/// Where the parts of the work end, as fractions of the progress. The solver takes most of the
+/// time.
 constexpr double AfterAssembly = 0.05, AfterSolve = 0.95;
 
 class Stopwatch
@@ -76,6 +77,7 @@ public:
   }
 
 private:
+  /// Options first: they cost nothing, while the problem is looked at point by point.
   std::optional<Error> checkAll() const
   {
     const std::string text = this->options_.check();
@@ -113,6 +115,7 @@ private:
     if (this->problem_.rigidMotion == RigidMotion::Pin ||
       this->options_.solver.solver != Solver::ConjugateGradient)
     {
+      // Pins carry no force, since the loads are in equilibrium: strain and stress stay the same.
       this->solution_.pins = pinRigidMotions(this->mesh_, this->modes_);
       this->constraints_.insert(
         this->constraints_.end(), this->solution_.pins.begin(), this->solution_.pins.end());
@@ -141,6 +144,7 @@ private:
       const Index number = unknowns.numbers[dof];
       u[dof / D][static_cast<int>(dof % D)] = number == None ? unknowns.prescribed[dof] : x[number];
     }
+    // Whichever solver ran: with pins or without, solutions differ by a free motion only.
     if (this->problem_.rigidMotion == RigidMotion::Project)
     {
       // Weighted by volume: the motion of the body counts, however its points are spread.
@@ -173,6 +177,7 @@ private:
     {
       const Index cell = static_cast<Index>(c);
       // For constant stress in a cell the energy density is the same everywhere in it.
+      // The stress is the mechanical one: strain that comes from temperature alone has no energy.
       s.strainEnergyDensity[c] = 0.5 * this->d_.elasticity(cell).energyProduct(s.elementStress[c]);
       s.strainEnergy += this->d_.elements[c].volume * s.strainEnergyDensity[c];
     }
@@ -185,6 +190,7 @@ private:
       const double load = this->problem_.forces.empty()
         ? 0.0
         : this->problem_.forces[c.point][c.component];
+      // Where no cell is, a constraint holds nothing.
       if (this->mesh_.isPointAlive(c.point))
       {
         s.reaction[c.point][c.component] = internal[c.point][c.component] - load;
@@ -200,6 +206,7 @@ private:
     {
       return;
     }
+    // Values per node, not per point: the estimate must not see a jump between materials as error.
     const RecoveryMesh<D> nodes = makeRecoveryMesh(this->mesh_);
     const std::vector<Stress<D>> nodal = recoverStress(
       this->mesh_, nodes, s.elementStress, this->options_.recovery, this->control_);
@@ -247,6 +254,7 @@ template <int D>
 std::optional<Error> analyse(const SimplexMesh<D>& mesh, const Problem<D>& problem,
   const AnalysisOptions& options, const Control& control, Solution<D>& solution)
 {
+  // Also after an error nothing of an earlier analysis may be left.
   solution = Solution<D>();
   return Analyst<D>(mesh, problem, options, control, solution).run();
 }

@@ -24,6 +24,7 @@ ElementGeometry<D> elementGeometry(const Corners<D>& x)
     edges.row(i) = (x[i + 1] - x[0]).transpose();
   }
   // Gradient i has the product 1 with edge i, and 0 with the others. All gradients add up to 0.
+  // There is an inverse: check() refuses flat cells.
   const Eigen::Matrix<double, D, D> inverse = edges.inverse();
   ElementGeometry<D> g;
   g.volume = signedVolume(x);
@@ -82,8 +83,8 @@ void findNeighbours(
   neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
 }
 
-/// Block (i, j) of an element's matrix. Products are grouped so that block (j, i) is its exact
-/// transpose.
+/// Block (i, j) of an element's matrix: the integral of B_i' C B_j, where all is constant. Products
+/// are grouped so that block (j, i) is its exact transpose.
 template <int D>
 Tensor<D> stiffnessBlock(const ElementGeometry<D>& g, const Elasticity<D>& e, int i, int j)
 {
@@ -103,7 +104,7 @@ Tensor<D> stiffnessBlock(const ElementGeometry<D>& g, const Elasticity<D>& e, in
 }
 
 /// The part of the right-hand side at node i that comes from temperature and from the strain out of
-/// the plane.
+/// the plane: both cause a stress without any displacement. Its forces change sides, and so signs.
 template <int D>
 Vec<D> initialForce(const Discretization<D>& d, Index cell, int i)
 {
@@ -114,7 +115,9 @@ Vec<D> initialForce(const Discretization<D>& d, Index cell, int i)
   return g.volume * (e.beta * d.rise(cell) - e.lambda * normal) * g.gradients[i];
 }
 
-/// Gathers the rows of one point after the other.
+/// Gathers the rows of one point after the other. By points and not by cells: no two threads add to
+/// one entry, and each sum has a fixed order. The price: of blocks (i, j) and (j, i) of a cell both
+/// are computed, though one is the transpose of the other.
 template <int D>
 class RowGatherer
 {
@@ -163,7 +166,8 @@ private:
     }
   }
 
-  /// Row a of point p, into the place that assemble() has given to it.
+  /// Row a of point p, into the place that assemble() has given to it. A prescribed component has
+  /// no row: its equation gives the reaction, by internalForces().
   void write(Index p, int a)
   {
     const Index row = this->unknowns_.numbers[D * p + a];
@@ -204,7 +208,7 @@ private:
   Vec<D> force_;
 };
 
-/// Number of entries in the rows of each point.
+/// Number of entries in the rows of each point: the same for all its components.
 template <int D>
 std::vector<int> countEntries(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   const Unknowns& unknowns, const Control& control)
@@ -239,6 +243,7 @@ Discretization<D> discretize(
   Discretization<D> d;
   const Index cells = mesh.numberOfCellSlots();
   d.outOfPlaneStrain = problem.outOfPlaneStrain;
+  // One law for all cells, or one for each: as the materials are given.
   for (const Material& m : problem.materials)
   {
     d.materials.emplace_back(m, problem.planeState);
@@ -253,6 +258,7 @@ Discretization<D> discretize(
         d.elements[c] = elementGeometry<D>(mesh.corners(c));
         // One temperature per element, the mean of its nodes: the thermal strain is then constant,
         // as the strain is.
+        // Differences are summed up: absolute temperatures could be large beside them.
         double sum = 0.0;
         for (int i = 0; i <= D && !problem.temperature.empty(); ++i)
         {
@@ -278,7 +284,7 @@ Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint
   std::vector<std::uint8_t> isFixed(n, 0);
   for (const Constraint& c : constraints)
   {
-    // The last constraint of a component holds.
+    // The last constraint of a component holds: those of an end of the body can be replaced.
     isFixed[D * c.point + c.component] = 1;
     u.prescribed[D * c.point + c.component] = c.value;
   }
@@ -294,7 +300,7 @@ Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint
 }
 
 /// Two passes over the points: the first one counts the entries of each row, the second one fills
-/// them in.
+/// them in. Triplets, Eigen's usual way, would need several times the memory and one thread.
 template <int D>
 LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& d,
   const Unknowns& unknowns, const std::vector<Vec<D>>& forces, const Control& control)
@@ -320,6 +326,7 @@ LinearSystem assemble(const SimplexMesh<D>& mesh, const Discretization<D>& d,
     }
     offsets[row + 1] = offsets[row] + counts[dof / D];
   }
+  // All at once: to insert entries one by one would move those behind them.
   system.matrix.resizeNonZeros(offsets[unknowns.count]);
   parallelRanges(control, mesh.numberOfPointSlots(),
     [&](Index begin, Index end)
@@ -348,6 +355,7 @@ std::vector<Stress<D>> elementStresses(const SimplexMesh<D>& mesh, const Discret
     {
       for (Index c = begin; c < end; ++c)
       {
+        // Of the displacement: sum of u_i times the gradient of the shape function N_i.
         Tensor<D> gradient = Tensor<D>::Zero();
         for (int i = 0; i <= D; ++i)
         {
@@ -374,6 +382,7 @@ std::vector<Vec<D>> internalForces(const SimplexMesh<D>& mesh, const Discretizat
         {
           // The transpose of the assembly: internal forces balance the loads where nothing is
           // prescribed.
+          // In 2D the stress along the normal does no work in the plane.
           const Tensor<3> s = toTensor<D>(stress[*c]);
           const ElementGeometry<D>& g = d.elements[*c];
           forces[p] += g.volume *

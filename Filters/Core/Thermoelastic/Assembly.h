@@ -35,7 +35,8 @@ struct Rows
   const Index* end(Index i) const { return this->items.data() + this->offsets[i + 1]; }
 };
 
-/// A mesh prepared for finite elements.
+/// A mesh prepared for finite elements. Matrix, stresses and reactions use the same numbers: where
+/// nothing is prescribed, internal forces balance the loads up to the residual of the solver.
 template <int D>
 struct Discretization
 {
@@ -70,6 +71,8 @@ struct Unknowns
   Index count = 0;
 };
 
+/// Unknowns are numbered in the order of points and components. Of several constraints of one
+/// component the last counts.
 template <int D>
 Unknowns numberUnknowns(const SimplexMesh<D>& mesh, const std::vector<Constraint>& constraints);
 

@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 class DiagonalPreconditioner
 {
 public:
+  /// The diagonal is positive, since no element is flat or inverted.
   explicit DiagonalPreconditioner(const SparseMatrix& a)
     : inverse_(a.diagonal().cwiseInverse())
   {
@@ -69,6 +70,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
   const Preconditioner preconditioner(system.matrix);
   // From x = 0: the first residual is the load.
   VectorXd r = b, p(b.size()), z(b.size()), product(b.size());
+  // The first direction is that of the preconditioned residual.
   preconditioner.apply(r, p);
   double rz = r.dot(p);
   report.history.push_back(1.0);
@@ -101,6 +103,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
       break;
     }
     preconditioner.apply(r, z);
+    // Conjugate to all directions before, by recurrence with the last one alone.
     const double before = rz;
     rz = r.dot(z);
     p = z + rz / before * p;
@@ -121,6 +124,7 @@ SolverReport factorize(const LinearSystem& system, const SolverOptions& options,
   // 64 bits, since the factor can have far more entries than the matrix.
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
   const Matrix lower = system.matrix.triangularView<Eigen::Lower>();
+  // The order decides about the fill-in: by minimum degree (AMD).
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<std::int64_t>> factor(lower);
   if (factor.info() == Eigen::Success)
   {

@@ -9,7 +9,8 @@ namespace meshopt::fem
 template <int D>
 std::vector<Facet<D>> surfaceFacets(const SimplexMesh<D>& mesh)
 {
-  // Facets of the outside only: a kept facet between regions carries no load of its own.
+  // Facets of the outside only: a kept facet between regions carries no load of its own. In the
+  // order of the cells, so that forces are always summed up in the same order.
   std::vector<Facet<D>> facets;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
@@ -32,6 +33,7 @@ Vec<2> areaVector<2>(const std::array<Vec<2>, 2>& x)
   return { -e[1], e[0] };
 }
 
+/// Half of the cross product: a triangle is half of the parallelogram of its edges.
 template <>
 Vec<3> areaVector<3>(const std::array<Vec<3>, 3>& x)
 {

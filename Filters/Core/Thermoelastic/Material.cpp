@@ -25,6 +25,7 @@ std::string checkMaterial(const Material& m, const std::string& where)
   }
   else if (!std::isfinite(m.thermalExpansion))
   {
+    // Any sign is right: there are materials that shrink when they get warm.
     text << "The thermal expansion" << where << " is " << m.thermalExpansion
          << "; it must be finite.";
   }

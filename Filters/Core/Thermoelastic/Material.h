@@ -47,6 +47,8 @@ struct Elasticity
     , planeStress(D == 2 && state == PlaneState::PlaneStress)
   {
     this->mu = m.youngsModulus / (2.0 * (1.0 + m.poissonsRatio));
+    // In plane stress the strain along the normal is eliminated by sigma_zz = 0: 1 - 2 nu becomes
+    // 1 - nu, and two directions are held in place of three.
     this->lambda = 2.0 * this->mu * m.poissonsRatio /
       (1.0 - (this->planeStress ? 1.0 : 2.0) * m.poissonsRatio);
     this->beta = ((this->planeStress ? 2.0 : 3.0) * this->lambda + 2.0 * this->mu) *
@@ -86,7 +88,8 @@ struct Elasticity
     return s;
   }
 
-  /// sigma : C^-1 : sigma, twice the density of the strain energy.
+  /// sigma : C^-1 : sigma, twice the density of the strain energy. By the compliance of the solid
+  /// also in 2D, since the stress along the normal is among the components.
   double energyProduct(const Stress<D>& s) const
   {
     const double t = trace<D>(s);

@@ -16,10 +16,12 @@ namespace meshopt::fem
 template <class Body>
 void parallelRanges(const Control& control, Index n, const Body& body)
 {
+  // Enough parts to keep many threads busy, and none so short that sharing it out costs more.
   constexpr Index MostParts = 64, LeastLength = 512;
   const Index parts = std::max<Index>(1, std::min(MostParts, n / LeastLength));
   const auto part = [&](int i)
   {
+    // In 64 bits, since the products may exceed an Index.
     const Index begin = static_cast<Index>(std::int64_t(n) * i / parts);
     const Index end = static_cast<Index>(std::int64_t(n) * (i + 1) / parts);
     body(begin, end);

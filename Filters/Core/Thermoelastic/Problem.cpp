@@ -11,6 +11,7 @@ namespace meshopt::fem
 {
 namespace
 {
+/// A wrong length is the caller's mistake, not one of a point or a cell: none is named.
 std::optional<Error> checkLength(
   const char* what, std::size_t have, std::size_t want, const char* of)
 {
@@ -50,6 +51,7 @@ std::optional<Error> checkLengths(const SimplexMesh<D>& mesh, const Problem<D>& 
   return error;
 }
 
+/// The first cell that is wrong is named, so that the user finds it in the mesh.
 template <int D>
 std::optional<Error> checkMaterials(const Problem<D>& problem)
 {
@@ -140,7 +142,8 @@ double shape(const Corners<D>& x)
   return scale * signedVolume(x) / std::pow(perimeter, D);
 }
 
-/// With an inverted or flat cell the matrix is not positive definite.
+/// With an inverted or flat cell the matrix is not positive definite: conjugate gradients would
+/// break down, and could not say which cell is to blame.
 template <int D>
 std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
 {
@@ -149,6 +152,7 @@ std::optional<Error> checkVolumes(const SimplexMesh<D>& mesh)
     const Corners<D> x = mesh.corners(c);
     // By shape and not by volume: the limit does not depend on units.
     const double s = shape<D>(x);
+    // Written so that NaN, from a coordinate that is not finite, is refused, too.
     if (s > FlatShape)
     {
       continue;
@@ -219,6 +223,8 @@ double freeAxialStrain(const SimplexMesh<D>& mesh, const Problem<D>& problem)
   {
     const Material& m = problem.material(c);
     // Weighted by stiffness: the stress along the axis then adds up to no force.
+    // (With free sides the stress across the axis adds up to zero, too: it drops out where all of
+    // the body has one Poisson's ratio.)
     const double w = m.youngsModulus * signedVolume(mesh.corners(c));
     strain += w * m.thermalExpansion * meanTemperatureRise(mesh, problem, c);
     weight += w;
@@ -247,6 +253,7 @@ void constrainEnds(
     {
       continue;
     }
+    // Along the axis only: sideways the ends are free, as in a long body.
     if (mesh.point(p)[axis] <= low + near)
     {
       // The low end stays where it is, and the high end moves by the whole elongation.

@@ -14,7 +14,8 @@ namespace meshopt::fem
 {
 namespace
 {
-/// Displacement at r from the centre, for each of the six (2D: three) numbers of the motion.
+/// Displacement at r from the centre, for each of the six (2D: three) numbers of the motion. Linear
+/// in them, since strains and rotations are small.
 template <int D>
 using MotionMatrix = Eigen::Matrix<double, D, MotionSize<D>>;
 
@@ -41,7 +42,7 @@ auto motionMatrix(const Group& group, const Point& x)
   return motionMatrix(Point((x - group.centre) / group.length));
 }
 
-/// Union-find.
+/// Union-find: nearly linear in the number of joins.
 struct Groups
 {
   std::vector<Index> parent;
@@ -106,6 +107,8 @@ Eigen::MatrixXd nameMotions(Eigen::MatrixXd m)
       {
         break;
       }
+      // As in the elimination of Gauss and Jordan, by columns: the pivot's row is cleared in all
+      // others.
       used[row] = 1;
       m.col(done).swap(m.col(column));
       m.col(done) /= m(row, done);
@@ -147,6 +150,8 @@ public:
   {
   }
 
+  /// Each step needs those before it: hinges are between bodies, groups hang together over hinges,
+  /// and conditions are in the units of their group.
   void run(const std::vector<Constraint>& constraints)
   {
     this->findBodies();
@@ -163,7 +168,8 @@ private:
   using Group = typename RigidModes<D>::Group;
   static constexpr int M = MotionSize<D>;
 
-  /// Cells that hang together over facets.
+  /// Cells that hang together over facets. D points in common leave two cells no motion against
+  /// each other; with fewer they could turn.
   void findBodies()
   {
     const Index n = this->mesh_.numberOfCellSlots();
@@ -194,7 +200,8 @@ private:
     }
   }
 
-  /// Points in cells of several bodies. bodyOfPoint is the first of these.
+  /// Points in cells of several bodies. bodyOfPoint is the first of these: each other body gets a
+  /// condition with it, so that all of them are joined.
   void findHinges()
   {
     std::vector<Index>& bodyOf = this->modes_.bodyOfPoint;
@@ -240,6 +247,7 @@ private:
     for (Body& body : bodies)
     {
       // Too many bodies for a dense problem: all get one place, as if they were one rigid body.
+      // Conditions of hinges then cancel out in addHinges(), where i = j.
       body.place = sizes[body.group] > MostBodiesInGroup ? 0 : body.place;
     }
     this->modes_.groups.resize(sizes.size());
@@ -268,6 +276,8 @@ private:
         high[g] = high[g].cwiseMax(this->mesh_.point(p));
       }
     }
+    // In these units constraints have entries of about 1, whatever the units of the mesh: solve()
+    // can then tell zero from rounding.
     for (std::size_t g = 0; g < groups.size(); ++g)
     {
       groups[g].centre = 0.5 * (low[g] + high[g]);
@@ -422,6 +432,7 @@ std::string RigidModes<D>::describe(Index group, Index mode) const
   const auto motion = [&](const Body& body)
   { return g.named.col(mode).template segment<M>(M * body.place); };
   const Body* most = nullptr; // of the group, the body that moves most
+  // Linear in the bodies: this is only for a message.
   for (const Body& body : this->bodies)
   {
     // With a margin, as where pins are chosen: of equals the first body.
@@ -442,6 +453,7 @@ std::string RigidModes<D>::describe(Index group, Index mode) const
 template <int D>
 std::string RigidModes<D>::describe() const
 {
+  // The rest is counted: one free body has no more, and many loose parts are one mistake.
   constexpr Index Most = 6;
   if (this->bodies.size() == 1 && this->count() == MotionSize<D>)
   {

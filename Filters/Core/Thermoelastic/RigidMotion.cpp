@@ -8,7 +8,7 @@ namespace meshopt::fem
 {
 namespace
 {
-/// Points of each group, ascending.
+/// Points of each group, ascending. A hinge is there once: its bodies are in one group.
 template <int D>
 std::vector<std::vector<Index>> pointsOfGroups(const RigidModes<D>& modes)
 {
@@ -49,7 +49,8 @@ Constraint findPin(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
 }
 }
 
-/// Greedy: each pin holds the component that the motions left over displace most.
+/// Greedy: each pin holds the component that the motions left over displace most. So pins are far
+/// apart, and small errors in them turn the body by little.
 template <int D>
 std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes)
 {
@@ -96,6 +97,7 @@ void removeRigidMotions(const SimplexMesh<D>& mesh, const RigidModes<D>& modes,
       gram += weight[p] * (u.transpose() * u);
       part += weight[p] * (u.transpose() * displacement[p]);
     }
+    // Regular, since no free motion leaves all points at rest.
     const Eigen::VectorXd amount = gram.ldlt().solve(part);
     for (Index p : points[g])
     {
@@ -121,6 +123,7 @@ std::string findImbalance(const SimplexMesh<D>& mesh, const RigidModes<D>& modes
       resultant += modes.displacements(mesh, p, named).transpose() * forces[p];
       sum += forces[p].norm();
     }
+    // Motions have norm 1 in units of the group: forces and moments are compared alike.
     for (Index m = 0; m < resultant.size(); ++m)
     {
       if (std::abs(resultant[m]) > tolerance * sum)

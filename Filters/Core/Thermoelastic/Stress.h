@@ -49,7 +49,8 @@ double trace(const Stress<D>& s)
   return s[0] + s[1] + s[2];
 }
 
-/// Von Mises' equivalent stress: the norm of the deviator times sqrt(3/2). >= 0.
+/// Von Mises' equivalent stress: the norm of the deviator times sqrt(3/2). >= 0. By differences, in
+/// which a pressure cancels: nothing is lost where it is much greater than the rest.
 template <int D>
 double vonMises(const Stress<D>& s)
 {
@@ -62,6 +63,7 @@ double vonMises(const Stress<D>& s)
 template <int D>
 Vec<3> principalStresses(const Stress<D>& s)
 {
+  // The eigensolver is iterative: it is not made for NaN.
   if (!s.allFinite())
   {
     return Vec<3>::Constant(std::nan(""));

@@ -45,8 +45,9 @@ struct Fit
   Stress<D> at(const Vec<D>& x) const { return this->mean + this->slope * (x - this->centre); }
 };
 
-/// The linear polynomial nearest to the stresses at the centroids, by least squares. It is not
-/// valid with fewer than `leastCells` cells, or if these lie in a plane (2D: on a line).
+/// The linear polynomial nearest to the stresses at the centroids, by least squares: there the
+/// stress of linear elements is more accurate than elsewhere. It is not valid with fewer than
+/// `leastCells` cells, or if these lie in a plane (2D: on a line).
 template <int D>
 Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D>>& stress,
   const Index* begin, const Index* end, Index leastCells)
@@ -64,6 +65,7 @@ Fit<D> fitPatch(const std::vector<Vec<D>>& centroids, const std::vector<Stress<D
   }
   fit.centre /= n;
   fit.mean /= n;
+  // Normal equations around the mean: slope = sum (s - mean) d' (sum d d')^-1.
   Tensor<D> spread = Tensor<D>::Zero();
   fit.slope.setZero();
   for (const Index* c = begin; c != end; ++c)
@@ -112,7 +114,8 @@ class PatchRecovery
 {
 public:
   /// A fit needs as many cells as a linear polynomial has coefficients; a local one, as many as a
-  /// quadratic one has.
+  /// quadratic one has: on the surface, where it looks to one side only, a fit through hardly more
+  /// values than coefficients would follow their errors.
   PatchRecovery(const SimplexMesh<D>& mesh, const RecoveryMesh<D>& nodes,
     const std::vector<Stress<D>>& stress, bool isLocal)
     : mesh_(mesh)
@@ -123,6 +126,7 @@ public:
     , centroids_(mesh.numberOfCellSlots())
     , fits_(nodes.count())
   {
+    // Once: each cell is in the patches of several nodes.
     for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
     {
       this->centroids_[c] = centroid(mesh, c);
@@ -156,7 +160,8 @@ public:
   }
 
 private:
-  /// The mean of what the fits of the nodes around say at x.
+  /// The mean of what the fits of the nodes around say at x, as Zienkiewicz and Zhu advise for the
+  /// surface.
   Stress<D> byNeighbours(Index node, const Vec<D>& x) const
   {
     Stress<D> sum = Stress<D>::Zero();
@@ -187,7 +192,8 @@ private:
     return around;
   }
 
-  /// By the smallest enlarged patch that determines a polynomial.
+  /// By the smallest enlarged patch that determines a polynomial. It grows over nodes, which belong
+  /// to one region each: so it does not leave the region.
   Stress<D> byEnlargedPatch(Index node, const Vec<D>& x) const
   {
     const Rows& cells = this->nodes_.cellsOfNode;
@@ -210,6 +216,7 @@ private:
       }
       around = this->nodesAround(patch.data(), end);
     }
+    // As in a region of a few cells: no patch in it determines a slope.
     return volumeAverage(this->mesh_, this->stress_, cells.begin(node), cells.end(node));
   }
 
@@ -237,6 +244,7 @@ struct Corner
 };
 }
 
+/// By sorting: the cells of a node then stand together, as cellsOfNode has them.
 template <int D>
 RecoveryMesh<D> makeRecoveryMesh(const SimplexMesh<D>& mesh)
 {
@@ -375,6 +383,7 @@ std::vector<double> estimateErrors(const SimplexMesh<D>& mesh, const Problem<D>&
           sum += e;
           squares += law.energyProduct(e);
         }
+        // Rounding may make a sum of squares that cancel less than 0: its root would be NaN.
         errors[c] = std::sqrt(std::max(
           0.0, d.elements[c].volume * (squares + law.energyProduct(sum)) / ((D + 1) * (D + 2))));
       }

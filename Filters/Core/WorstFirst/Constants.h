@@ -34,22 +34,23 @@ inline constexpr long HardlyAny = 2000;
 /// have moved.
 inline constexpr double ThriftyGain = 1e-2;
 inline constexpr int ThriftySteps = 4;
-/// How many of the worst cells are polished together: at first, and at most. With the best effort
-/// so many for each CellsPerPolish cells: a round lifts the worst by little, there are PolishRounds
-/// at most, and of 2 million cells ten at a time leave the worst at .700 in place of .740.
+/// How many of the worst cells are polished together: at first, and at most. Best: this many per
+/// CellsPerPolish cells. A round lifts the worst only a little, and there are at most PolishRounds.
+/// In a mesh of 2 million cells, ten at a time leave the worst at .700 instead of .740.
 inline constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 inline constexpr Index CellsPerPolish = 500000;
-/// Where the worst cell is below this part of the certified bound, so many are polished together
-/// also up to the target.
+/// Where the worst cell is below the part NearBound of the certified bound, up to MostBelowBound
+/// cells are polished together already on the way to the target.
 inline constexpr double NearBound = 0.97;
 inline constexpr std::size_t MostBelowBound = 80;
-/// What that must gain, relative to the worst quality, to be repeated more than MostIdleCycles
-/// times; and how often polishing and repair follow each other at most, by effort.
+/// A round on more than PolishedCells cells, or a cycle of polishing and repair, has gained if the
+/// worst quality has risen by more than WideGain, relatively. The cycles end after more than
+/// MostIdleCycles in a row without gain, and after PolishCycles in all, by effort.
 inline constexpr double WideGain = 0.02;
 inline constexpr int MostIdleCycles = 2;
 inline constexpr int PolishCycles[] = { 2, 8, 8 };
-/// Up to the target, so many look-aheads are spent on polishing in a run: 1 for so many cells, but
-/// at least FewestLooks. Each takes as long as a pass over thousands of cells.
+/// Up to the target, polishing may spend 1 look-ahead per CellsPerLook cells in a run; in small
+/// meshes FewestLooks in all. Each takes as long as a pass over thousands of cells.
 inline constexpr Index CellsPerLook = 75;
 inline constexpr Index FewestLooks = 40;
 inline constexpr int PolishRounds = 50;
@@ -95,11 +96,12 @@ inline constexpr long MostPolishTries = 100;
 /// After this many tries per initially bad cell, nodes only creep. From then on a pass requires
 /// CoarseGain.
 inline constexpr long Creeping = 5;
-/// Where many cells are bad, a pass creeps if, of half as many tries as it was given cells (1 in
-/// CreepingPart, at least CreepingTries), fewer than 1 in CreepingLift lift a cell above the
-/// target. Healthy meshes: 1 in 2 or more. It then requires CoarseGain, and ends after so many
-/// rounds, by effort. Where the surface takes part, lifting comes later: with 1 in 5 there, dino
-/// ends at .21 instead of .30, and turbine at .48 instead of .51.
+/// Where many cells are bad, tries are counted in windows: 1 in CreepingPart of the cells that the
+/// pass was given, but at least CreepingTries. The pass creeps if fewer than 1 in CreepingLift of
+/// the tries in a window lift a cell above the target; in healthy meshes 1 in 2 or more do. It then
+/// requires CoarseGain, and ends after CreepingRounds rounds, by effort. Where the surface takes
+/// part, lifting comes later: with 1 in 5 there, dino ends at .21 instead of .30, and turbine at
+/// .48 instead of .51.
 inline constexpr long CreepingPart = 2, CreepingTries = 100;
 inline constexpr long CreepingLift = 5, CreepingLiftOfSliding = 10;
 inline constexpr int CreepingRounds[] = { 0, 8, 8 };

@@ -53,14 +53,14 @@ public:
   /// From now on anything may be spent: past the target.
   void endLimits() { this->isLimited_ = false; }
 
-  /// Evaluations that a pass may spend, and as many more for each cell that it lifts.
+  /// Evaluations that a pass may spend. Each cell that it lifts adds pricePerLifted().
   double leftForPass() const
   {
     return this->isLimited_ ? std::max(FewestPerPass * this->cells_, WasteShare * this->waste_)
                             : Unlimited;
   }
   double pricePerLifted() const { return PricePerLifted[this->effort_]; }
-  /// A pass has spent so much and lifted so many cells.
+  /// To be called after a pass: what it has spent, and how many cells it has lifted.
   void notePass(std::int64_t evaluations, long lifted)
   {
     this->waste_ -= std::max(
@@ -84,7 +84,7 @@ public:
       }
     }
   }
-  /// In a pass so many tries of an operation have `helped` or not.
+  /// To be called after a pass: its tries of an operation, and whether enough of them have helped.
   void noteTries(Kind kind, long tries, bool helped)
   {
     constexpr int most = 10; // the patience is Fewest long before
@@ -95,7 +95,7 @@ public:
     }
   }
 
-  /// A pass of polishing has spent so much and ended with this worst quality.
+  /// To be called after a pass of polishing: what it has spent, and the worst quality at its end.
   void notePolish(std::int64_t evaluations, double worst)
   {
     this->spent_ += static_cast<double>(evaluations);
@@ -123,15 +123,17 @@ private:
   static constexpr double FewestWaste[] = { 4e5, 6e5, 6e5 }; ///< a small mesh is quick
   static constexpr double WasteShare = 0.3;                  ///< of what is left, for one pass
   static constexpr double FewestPerPass = 3.0;               ///< for each cell
-  /// Until the worst must have risen by ClearRise, relatively; and at least so many in all, since
-  /// in a small mesh one look-ahead takes 1e5.
+  /// What polishing may spend until the worst quality has risen by ClearRise, relatively; then it
+  /// may spend the same again. At least FewestPerRise, since in a small mesh one look-ahead takes
+  /// 1e5.
   static constexpr double PolishPerCell[] = { 18.0, 48.0, 48.0 };
   static constexpr double PolishPerNode[] = { 700.0, 1800.0, 1800.0 };
   static constexpr double FewestPerRise = 2e5;
   static constexpr double ClearRise = 0.05;
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries
   static constexpr int Step = 2; ///< each pass in vain divides the tries by 2^Step
-  /// At most, in the first pass of a stage: with 2 turbine has half as many cells again under .45.
+  /// The most impatience at the start of a stage. With 2, turbine has 1.5 times as many cells under
+  /// .45.
   static constexpr int FirstImpatience = 1;
 
   int effort_;

@@ -252,10 +252,11 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
   return w.isPatient ? level : std::min<int>(level, Level::Removal);
 }
 
-/// Polishing ends where its changes make ever more other cells bad.
-/// Nodes creep if many tries lift few cells above the target: the same ones move again and again
-/// by little. From then on a change must gain more, and where many cells are bad, each gets one try
-/// in a round.
+/// Counts a try, and looks whether more of them pay. Polishing ends after MostPolishTries tries for
+/// each of its cells: then its changes make ever more other cells bad.
+/// A pass creeps if many tries lift few cells above the target: the same nodes move a little, again
+/// and again. From then on a change must gain more. Where many cells are bad, each cell gets one
+/// try in a round.
 template <int D, class Shape>
 void Schedule<D, Shape>::watch(Worker& w, const Task& task)
 {

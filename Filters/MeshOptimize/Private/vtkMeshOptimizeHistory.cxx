@@ -33,10 +33,10 @@ void Append(vtkTable* table, const std::string& name, Value value)
   Array::SafeDownCast(table->GetColumnByName(name.c_str()))->InsertNextValue(value);
 }
 
-template <class Array, class Value>
 /**
  * As an array of one value: field data hold nothing else.
  */
+template <class Array, class Value>
 void AddFigure(vtkFieldData* fields, const char* name, Value value)
 {
   vtkNew<Array> figure;
@@ -45,6 +45,10 @@ void AddFigure(vtkFieldData* fields, const char* name, Value value)
   fields->AddArray(figure);
 }
 
+/**
+ * One tuple for each region, by ascending number. All in doubles, which hold any region's number
+ * exactly.
+ */
 void AddVolumes(const Outcome& outcome, vtkFieldData* fields)
 {
   vtkNew<vtkDoubleArray> volumes;
@@ -64,12 +68,14 @@ void AddVolumes(const Outcome& outcome, vtkFieldData* fields)
 
 void StartHistory(vtkTable* table, bool isComposite, bool slides)
 {
+  // No column of times: the same input must give the same table, bit for bit.
   if (isComposite)
   {
     AddColumn<vtkIntArray>(table, "Block");
   }
   AddColumn<vtkIntArray>(table, "Pass");
   AddColumn<vtkStringArray>(table, "Stage");
+  // Counts are of vtkIdType: tries of a run on a large mesh can exceed an int.
   // The engine's list: a new operation gets its columns by itself.
   for (const std::string name : meshopt::OperationNames)
   {

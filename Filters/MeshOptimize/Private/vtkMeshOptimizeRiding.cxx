@@ -361,6 +361,9 @@ void AddBoundaryPlace(const Model<3>& model, const OutputMap& map, vtkUnstructur
   {
     const Index p = map.PointToSlot[id];
     using meshopt::Freedom;
+    // The values that the documentation gives.
+    static_assert(static_cast<int>(Freedom::Free) == 0 && static_cast<int>(Freedom::Patch) == 1 &&
+      static_cast<int>(Freedom::Curve) == 2 && static_cast<int>(Freedom::Corner) == 3);
     const Freedom freedom = model.Mesh.isPointAlive(p) ? model.Mesh.freedom(p) : Freedom::Fixed;
     // Users need not know which corners have some room.
     places->SetValue(static_cast<vtkIdType>(id),

@@ -35,7 +35,8 @@ namespace
 constexpr int MostRounds = 4;
 /// Layers of cells around a border that take part in each round.
 constexpr int Layers[MostRounds] = { 2, 2, 3, 4 };
-/// At least so many with the best effort, of which pieces leave more to the first round.
+/// The least number of layers with the best effort, whose pieces leave more cells to the first
+/// round.
 constexpr int LayersOfBest = 3;
 /// The part of what may still grow that a round uses; the last may use all.
 constexpr double ShareOfRound = 0.75;

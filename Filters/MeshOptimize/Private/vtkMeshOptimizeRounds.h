@@ -124,8 +124,9 @@ private:
   meshopt::StopReason Stopped = meshopt::StopReason::NotRun; ///< Aborted, TimeLimit, or NotRun
   vtkMeshRanks::SurfaceFigures Surface;                      ///< of the present state
   std::optional<vtkMeshRanks::Signature> Present;            ///< the same, after a round
-  /// How far the best effort goes past the target in the runs of now: what holds the whole from
-  /// elsewhere holds each part.
+  /// The quality up to which the best effort goes in the present runs. No part need get much better
+  /// than what holds the whole elsewhere: the bound of its surface, or the worst cell outside of
+  /// the bands.
   double Most = 1.0;
   /// Cells of the input are flat or inverted, or numbered so: runs may turn cells, and what two of
   /// them make side by side may not fit together.

@@ -68,7 +68,7 @@ void Rounds::MarkBorder(const Shared& shared, const std::vector<char>& isMoved)
 }
 
 /**
- * Marks the points of so many layers of cells around the border, too.
+ * Marks also the points of this number of layers of cells around the border.
  */
 void Rounds::WidenBorder(int layers)
 {

@@ -71,8 +71,8 @@ double BoundOf(const meshopt::SlidingSurface& surface, meshopt::Measure measure)
  * The run itself, and what can be said of it before the export.
  */
 template <int D>
-void Optimize(const Request& request, const typename SurfaceOf<D>::type& surface, Model<D>& model,
-  Outcome& outcome)
+void Optimize(
+  const Request& request, typename SurfaceOf<D>::type& surface, Model<D>& model, Outcome& outcome)
 {
   const auto start = std::chrono::steady_clock::now();
   const double areaBefore = D == 2 ? model.Mesh.volume() : 0.0;
@@ -106,8 +106,8 @@ void Optimize(const Request& request, const typename SurfaceOf<D>::type& surface
  * fit to the rest any more. Then its points are only moved, which always fits.
  */
 template <int D>
-void OptimizeZone(const Request& request, const typename SurfaceOf<D>::type& surface,
-  Model<D>& model, Outcome& outcome)
+void OptimizeZone(
+  const Request& request, typename SurfaceOf<D>::type& surface, Model<D>& model, Outcome& outcome)
 {
   std::vector<meshopt::Simplex<D>> others;
   const LeftOut rest = RestrictToZone(request, model, others);

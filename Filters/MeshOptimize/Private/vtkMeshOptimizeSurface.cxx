@@ -246,8 +246,7 @@ std::string BuildSurface(const Request& request, Model<3>& model, meshopt::Slidi
   if (request.Geometry)
   {
     return "The geometry on input port 1 is for triangles in a plane; tetrahedra slide on their "
-           "own "
-           "surface.";
+           "own surface.";
   }
   if (!model.Metric.isTrivial() || request.Options.beta > 0.0 ||
     request.Options.desiredSize > 0.0 || model.Arrays.Size)
@@ -299,9 +298,8 @@ std::string DescribeTwins(const meshopt::SlidingSurface& surface)
   const Index n = surface.numberOfTwins();
   return n == 0 ? ""
                 : std::to_string(n) +
-      " facets of the surface lie on others, corner by corner, without having their points: lips "
-      "of "
-      "a closed crack, or of two blocks. They stay as they are, so that they stay together.";
+      " facets of the surface lie on other facets but have points of their own: the lips of a "
+      "closed crack, or two blocks. They stay as they are, so that they stay together.";
 }
 
 } // namespace vtkMeshOptimizeBridge

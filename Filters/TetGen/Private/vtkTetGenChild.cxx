@@ -35,7 +35,7 @@ constexpr std::size_t KeptText = std::size_t(4) << 20;
 
 /**
  * The header of the child's message, followed by the three arrays. The magic number marks a
- * complete message.
+ * complete message. Both ends are one program: bytes go as they are in memory.
  */
 struct Header
 {
@@ -202,6 +202,7 @@ public:
     this->Text.append(data, std::min(bytes, KeptText - std::min(KeptText, this->Text.size())));
     for (const Phase& phase : Phases)
     {
+      // Never back: a phase may print again later.
       if (phase.Fraction >= this->Current.Fraction &&
         this->Text.find(phase.Begins, begin) != std::string::npos)
       {
@@ -230,7 +231,9 @@ bool ReadSome(int file, const Append& append)
 }
 
 /**
- * Reads both pipes until the child has closed them. Returns false if progress asked to stop.
+ * Reads both pipes until the child has closed them. Returns false if progress asked to stop. Both
+ * at once: a child that waits at one full pipe while this process waits at the other would never
+ * end.
  */
 bool Listen(int textFile, int meshFile, const ChildProgress& progress, TextReader& text,
   std::vector<char>& message)
@@ -238,6 +241,7 @@ bool Listen(int textFile, int meshFile, const ChildProgress& progress, TextReade
   struct pollfd files[2] = { { textFile, POLLIN, 0 }, { meshFile, POLLIN, 0 } };
   while (files[0].fd >= 0 || files[1].fd >= 0)
   {
+    // A pipe at its end is ready, too; one that is done (-1) is passed over.
     const int ready = ::poll(files, 2, PollMilliseconds);
     if (ready > 0 && files[0].fd >= 0 && files[0].revents != 0 &&
       !ReadSome(textFile, [&](const char* data, std::size_t n) { text.Add(data, n); }))
@@ -296,7 +300,8 @@ bool Unpack(const std::vector<char>& message, std::int64_t& error, Mesh& mesh)
 }
 
 /**
- * Waits for the child and describes how it ended.
+ * Waits for the child and describes how it ended. One that nobody waits for would stay in the
+ * system's table of processes.
  */
 std::string Bury(pid_t child)
 {
@@ -335,6 +340,8 @@ ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mes
     return outcome;
   }
   std::fflush(stdout); // otherwise the child would print buffered text again
+  // Without exec(): the child has the job in its memory, and no program has to be found. It
+  // allocates memory, which POSIX does not promise beside other threads; glibc sees to it.
   const pid_t child = ::fork();
   if (child < 0)
   {
@@ -345,6 +352,7 @@ ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mes
   {
     BeChild(job, textPipe.WriteEnd(), meshPipe.WriteEnd());
   }
+  // The child alone must have the writing ends: the pipes end when it does, in whatever way.
   textPipe.Close(1);
   meshPipe.Close(1);
   lock.unlock();
@@ -363,6 +371,7 @@ ChildOutcome RunInChild(const Job& job, const ChildProgress& progress, Mesh& mes
     Bury(child);
     throw;
   }
+  // TetGen looks at nothing while it works: only a signal that cannot be caught ends it for sure.
   if (!goesOn)
   {
     ::kill(child, SIGKILL);

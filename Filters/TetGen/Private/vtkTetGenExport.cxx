@@ -32,6 +32,7 @@ void ExportPoints(
   // TetGen numbers the points of the surface first, in the order in which they were given.
   const vtkIdType fresh = static_cast<vtkIdType>(mesh.Points.size() / 3) - used;
   vtkNew<vtkPoints> points;
+  // TetGen's own precision. Coordinates of the input in floats stay what they are.
   points->SetDataTypeToDouble();
   // All points of the input stay, used or not: their ids are those of the input.
   points->SetNumberOfPoints(old + fresh);
@@ -64,7 +65,8 @@ void ExportCells(
     for (int i = 0; i < 4; ++i)
     {
       const vtkIdType p = mesh.Tetrahedra[t + i];
-      // Behind all points of the input, also behind those that no triangle uses.
+      // Behind all points of the input, also behind those that no triangle uses: the latter have no
+      // number in TetGen's mesh.
       corners[i] = p < used ? surface.PointIds[p] : old + p - used;
     }
     cells->InsertNextCell(4, corners);
@@ -94,6 +96,7 @@ void ExportPointData(vtkPolyData* input, vtkUnstructuredGrid* output)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
+    // Also of strings, which are empty for new points.
     array->SetNumberOfTuples(all);
     auto numbers = vtkDataArray::SafeDownCast(array);
     if (!numbers)
@@ -137,7 +140,7 @@ double Side(const double* a, const double* b, const double* c, const double* x)
  */
 std::ptrdiff_t FindTetrahedron(const Mesh& mesh, const double* x)
 {
-  // Facet i opposite to corner i, seen from outside counter-clockwise.
+  // Facet i opposite to corner i, ordered so that Side() is positive for that corner.
   static const int faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
   // One after the other: there are few region points.
   for (std::size_t t = 0; t < mesh.Regions.size(); ++t)
@@ -176,6 +179,7 @@ std::vector<std::string> CheckRegions(const std::vector<double>& regions, const 
   for (std::size_t r = 0; r < regions.size(); r += 5)
   {
     const double* x = regions.data() + r;
+    // A region has one attribute: of several points in it, only one can have marked it.
     const std::ptrdiff_t t = FindTetrahedron(mesh, x);
     if (t >= 0 && mesh.Regions[t] == static_cast<int>(x[3]))
     {

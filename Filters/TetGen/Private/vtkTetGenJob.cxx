@@ -15,7 +15,7 @@ namespace
 {
 
 /**
- * TetGen's structure owns its arrays and deletes them.
+ * TetGen's structure owns its arrays and deletes them, with delete[]: nothing else may make them.
  */
 double* NewArray(const std::vector<double>& values)
 {
@@ -39,6 +39,7 @@ void FillSurface(const Job& job, tetgenio& in)
   {
     tetgenio::facet& facet = in.facetlist[f];
     tetgenio::init(&facet);
+    // TetGen's facets may consist of several polygons; here each is one triangle.
     facet.numberofpolygons = 1;
     facet.polygonlist = new tetgenio::polygon[1];
     facet.polygonlist[0].numberofvertices = 3;
@@ -98,6 +99,7 @@ void FillBehavior(const Job& job, tetgenbehavior& behavior)
   switches += byRegion ? "a" : "";
   switches += job.InteriorPoints.empty() ? "" : "i";
   switches += "O" + std::to_string(job.OptimizationLevel);
+  // A string of its own, since TetGen takes it as changeable.
   behavior.parse_commandline(&switches[0]);
 
   behavior.maxvolume = byVolume ? job.MaximumVolume : -1.0;
@@ -138,6 +140,7 @@ void Collect(const Job& job, const tetgenio& out, Mesh& mesh)
     {
       mesh.Tetrahedra.push_back(number[out.tetrahedronlist[4 * t + i]]);
     }
+    // TetGen's attributes are doubles; those of region points are whole numbers, as checked.
     const double* attributes = out.tetrahedronattributelist;
     mesh.Regions.push_back(
       attributes ? static_cast<int>(attributes[t * out.numberoftetrahedronattributes]) : 1);
@@ -148,6 +151,7 @@ void Collect(const Job& job, const tetgenio& out, Mesh& mesh)
 
 int RunTetGen(const Job& job, Mesh& mesh)
 {
+  // In the child: the application's own sequence of rand() is not touched.
   std::srand(1); // TetGen uses rand(): the same mesh every time
   tetgenio in, out, interior;
   FillSurface(job, in);

@@ -53,6 +53,7 @@ std::string DescribePoint(const Surface& surface, int point)
   return "point " + std::to_string(surface.PointIds[point]) + " " + Coordinates(At(surface, point));
 }
 
+// A copy: callers sort it.
 Triangle TriangleAt(const Surface& surface, int triangle)
 {
   Triangle t;
@@ -156,6 +157,7 @@ bool HasArea(const Surface& surface, const Triangle& t)
  */
 std::string CheckTriangles(const Surface& surface)
 {
+  // With sorted corners a facet is the same one from either side.
   std::vector<std::pair<Triangle, int>> sorted;
   for (int i = 0; i < NumberOfTriangles(surface); ++i)
   {
@@ -185,6 +187,7 @@ std::string CheckTriangles(const Surface& surface)
  */
 std::string CheckClosed(const Surface& surface)
 {
+  // An edge once for each of its facets; sorted, these stand together.
   std::vector<std::pair<Edge, int>> edges;
   edges.reserve(surface.Triangles.size());
   for (int i = 0; i < NumberOfTriangles(surface); ++i)
@@ -226,7 +229,8 @@ std::string CheckClosed(const Surface& surface)
 //------------------------------------------------------------------------------
 std::string CheckSurface(const Surface& surface)
 {
-  // Coordinates first: all others compute with them.
+  // Coordinates first: all others compute with them. Then points that lie on each other, the usual
+  // reason of open edges.
   for (const auto check : { CheckCoordinates, CheckDuplicatePoints, CheckTriangles, CheckClosed })
   {
     const std::string error = check(surface);
@@ -256,6 +260,7 @@ std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<d
   vtkNew<vtkPolyData> data;
   data->SetPoints(corners);
   data->SetPolys(triangles);
+  // A search tree, since there may be many points and many triangles.
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(data);
   locator->BuildLocator();
@@ -270,6 +275,7 @@ std::vector<double> PointsOffSurface(const Surface& surface, const std::vector<d
     vtkIdType cellId;
     int subId;
     locator->FindClosestPoint(x, closest, cell, cellId, subId, distance2);
+    // A point on the surface would divide one of its triangles.
     if (distance2 > tolerance2)
     {
       off.insert(off.end(), x, x + 3);
@@ -290,6 +296,7 @@ std::string DescribeTriangle(const Surface& surface, int triangle)
     {
       centre[i] += At(surface, p)[i] / 3.0;
     }
+    // By the ids of the input: TetGen's own leave out unused points.
     ids += (ids.empty() ? "" : ", ") + std::to_string(surface.PointIds[p]);
   }
   return "cell " + std::to_string(surface.CellIds[triangle]) + " (points " + ids + " around " +
@@ -333,7 +340,8 @@ std::string DescribeIntersections(
 }
 
 /**
- * Compared as sorted triples: the mesh numbers its faces in another order.
+ * Compared as sorted triples: the mesh numbers its faces in another order. TetGen may cut a facet
+ * without an error.
  */
 int FindLostTriangle(const Surface& surface, const std::vector<int>& tetrahedra)
 {

@@ -21,13 +21,16 @@ namespace vtkTetGenBridge
 namespace
 {
 
+// Unlikely as a name in the input, whose own arrays must not be taken for it.
 const char* const CellIdName = "vtkTetGenCellId";
 
 /**
- * Ids in range, polygons of three points and more, no point twice. Returns an error, or "".
+ * Ids in range, polygons of three points and more, no point twice. Returns an error, or "". VTK
+ * itself checks none of this: the triangle filter would read beyond the points.
  */
 std::string CheckCells(vtkPolyData* input)
 {
+  // Ids of a vtkPolyData count vertices and lines first, then polygons, then strips.
   vtkIdType cell = input->GetNumberOfVerts() + input->GetNumberOfLines();
   for (vtkCellArray* cells : { input->GetPolys(), input->GetStrips() })
   {
@@ -67,6 +70,7 @@ std::string CheckTriangulation(vtkPolyData* input, const std::vector<vtkIdType>&
 {
   const vtkIdType first = input->GetNumberOfVerts() + input->GetNumberOfLines();
   std::vector<vtkIdType> found(input->GetNumberOfPolys(), 0);
+  // Polygons only: a strip can always be cut.
   for (const vtkIdType cell : cellIds)
   {
     if (cell - first < input->GetNumberOfPolys())
@@ -92,6 +96,7 @@ std::string CheckTriangulation(vtkPolyData* input, const std::vector<vtkIdType>&
 vtkSmartPointer<vtkPolyData> CutIntoTriangles(vtkPolyData* input)
 {
   vtkNew<vtkPolyData> numbered;
+  // The arrays of the input stay behind: nothing reads them.
   numbered->CopyStructure(input);
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName(CellIdName);

@@ -16,6 +16,8 @@ namespace vtkThermoelasticBridge
 namespace
 {
 
+// In the order of ArrayIndex. Only the region array has no default name: without one the body is
+// one region, and an array that happens to be there must not divide it.
 constexpr vtkMeshBridge::ArrayRole Roles[NumberOfInputArrays] = {
   { "temperature array", "Temperature", false, false, { { 1, 0 } } },
   { "array of Young's modulus", "YoungsModulus", true, false, { { 1, 0 } } },

@@ -10,6 +10,7 @@
 namespace
 {
 
+// A number that differs is an error of the compiler, not a wrong result.
 template <class Theirs>
 constexpr bool Same(int mine, Theirs theirs)
 {
@@ -39,6 +40,7 @@ static_assert(Same(Filter::ConjugateGradient, Solver::ConjugateGradient));
 static_assert(Same(Filter::IncompleteCholesky, Solver::IncompleteCholesky));
 static_assert(Same(Filter::Direct, Solver::Direct));
 
+// NothingToDo is the filter's alone: the core is not called then.
 static_assert(Same(Filter::NotRun, SolverStatus::NotRun));
 static_assert(Same(Filter::Converged, SolverStatus::Converged));
 static_assert(Same(Filter::IterationLimit, SolverStatus::IterationLimit));

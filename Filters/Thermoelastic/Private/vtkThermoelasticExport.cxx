@@ -49,7 +49,8 @@ Tensor<3> StressToGrid(const Frame<2>& frame, const Stress<2>& s)
   Tensor<3> axes;
   axes.col(0) = frame.Axes[0];
   axes.col(1) = frame.Axes[1];
-  // The third axis is the normal: out of the plane there may be stress, too.
+  // The third axis is the normal: out of the plane there may be stress, too. The axes are
+  // orthonormal, so that the inverse of the change of axes is its transpose.
   axes.col(2) = frame.Axes[0].cross(frame.Axes[1]);
   return axes * meshopt::fem::toTensor<2>(s) * axes.transpose();
 }
@@ -63,6 +64,7 @@ vtkDoubleArray* AddArray(vtkDataSetAttributes* attributes, const char* name, int
   vtkNew<vtkDoubleArray> array;
   array->SetName(name);
   array->SetNumberOfComponents(components);
+  // With names the user chooses components by XX or XY, not by numbers.
   for (int i = 0; i < components && componentNames; ++i)
   {
     array->SetComponentName(i, componentNames[i]);
@@ -76,6 +78,7 @@ vtkDoubleArray* AddArray(vtkDataSetAttributes* attributes, const char* name, int
 const char* const StressNames[] = { "XX", "YY", "ZZ", "XY", "YZ", "XZ" };
 const char* const PrincipalNames[] = { "1", "2", "3" };
 
+// In VTK's order of symmetric tensors, which its filters know.
 void SetStress(vtkDoubleArray* array, vtkIdType tuple, const Tensor<3>& s)
 {
   const double components[6] = { s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2) };
@@ -180,6 +183,7 @@ void ExportTemperature(const std::vector<double>& temperature, vtkUnstructuredGr
 
 void ExportFigures(const Outcome& outcome, vtkUnstructuredGrid* output)
 {
+  // No times: the same input must give the same output, bit for bit.
   AddFigure<vtkIdTypeArray>(output, "NumberOfUnknowns", outcome.NumberOfUnknowns);
   AddFigure<vtkIdTypeArray>(
     output, "NumberOfSolverIterations", static_cast<vtkIdType>(outcome.Solver.iterations));
@@ -197,6 +201,7 @@ void ExportHistory(const std::vector<double>& history, vtkTable* table)
   residual->SetName("RelativeResidual");
   for (std::size_t i = 0; i < history.size(); ++i)
   {
+    // Row 0 is the residual before the first step.
     iteration->InsertNextValue(static_cast<vtkIdType>(i));
     residual->InsertNextValue(history[i]);
   }

@@ -52,6 +52,7 @@ void AddLoad(
   meshopt::fem::addTraction<D>(model.Mesh, facet, traction, forces);
 }
 
+// Exactly: 0 says "no load here". NaN is not 0, and is refused later.
 bool IsZero(vtkDataArray* array, vtkIdType id)
 {
   for (int i = 0; i < array->GetNumberOfComponents(); ++i)
@@ -110,6 +111,7 @@ std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
       isAnyLoaded = true;
     }
   }
+  // An array of zeros is no load, and no fault.
   for (vtkIdType point = 0; point < array->GetNumberOfTuples() && !isAnyLoaded; ++point)
   {
     if (!IsZero(array, point))
@@ -134,6 +136,7 @@ std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
     std::sort(facet.begin(), facet.end());
     return facet;
   };
+  // By sorted corners: the facet's cell may number them in any order.
   std::map<Facet<D>, Facet<D>> oriented;
   for (const Facet<D>& facet : surface)
   {
@@ -186,6 +189,7 @@ std::string SetLoads(const Request& request, Model<D>& model)
   {
     return {};
   }
+  // Before it is multiplied: the core would blame a point of the surface.
   if (!std::isfinite(request.SurfacePressure))
   {
     return "The pressure on the surface is not finite.";

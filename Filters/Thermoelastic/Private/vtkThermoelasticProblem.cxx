@@ -36,12 +36,19 @@ int GridAxis(const Frame<2>& frame, int i) { return frame.Direct[i]; }
 bool IsAligned(const Frame<3>&) { return true; }
 bool IsAligned(const Frame<2>& frame) { return frame.Direct[0] >= 0; }
 
+/**
+ * Points that no element has carry nothing: their values need not be usable.
+ */
 template <int D>
 bool IsUsed(const Model<D>& model, vtkIdType p)
 {
   return (model.Cells.PointUse[static_cast<std::size_t>(p)] & UsedBySimplex) != 0;
 }
 
+/**
+ * By formula at the points, as from an array: within an element the temperature is linear in any
+ * case.
+ */
 template <int D>
 std::string SetTemperature(const Request& request, Model<D>& model)
 {
@@ -91,6 +98,7 @@ void SetMaterials(const Request& request, Model<D>& model)
     return;
   }
   materials.assign(model.Cells.Simplices.size(), request.Material);
+  // An array replaces one property; the others stay those of the request.
   const auto read = [&](ArrayIndex index, double meshopt::fem::Material::*member)
   {
     for (std::size_t c = 0; c < materials.size() && arrays[index]; ++c)
@@ -185,6 +193,7 @@ std::string SetGeneralizedPlaneStrain(const Request& request, Model<D>& model, d
   {
     return vtkMeshBridge::WithGridIds(error->message, error->cell, model.Cells);
   }
+  // Free: such that the ends carry no force, found before anything is solved.
   axialStrain = request.IsAxialStrainGiven
     ? request.AxialStrain
     : meshopt::fem::freeAxialStrain(model.Mesh, model.Problem);

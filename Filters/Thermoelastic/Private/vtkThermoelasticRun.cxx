@@ -65,6 +65,9 @@ std::string CheckCellTypes(vtkUnstructuredGrid* grid, int dimension)
   return {};
 }
 
+/**
+ * Triangles are turned into their plane: the core computes in two coordinates.
+ */
 template <int D>
 std::string BuildMesh(Model<D>& model)
 {
@@ -81,10 +84,10 @@ std::string BuildMesh(Model<D>& model)
   return fault ? bridge::WithGridIds(fault->message, fault->cell, model.Cells) : std::string();
 }
 
-template <int D>
 /**
  * Also of a run that has not converged or was aborted: they say how far it came.
  */
+template <int D>
 void KeepFigures(const Solution<D>& solution, Outcome& outcome)
 {
   outcome.HasSolved = true;
@@ -123,6 +126,7 @@ std::string Solve(const bridge::Cells& cells, const InputArrays& arrays, vtkUnst
     // The core counts simplices only. The sentence names the cell of the grid.
     return bridge::WithGridIds(fault->message, fault->cell, model.Cells);
   }
+  // After an abort the output stays empty: half a solution would look like one.
   KeepFigures(solution, outcome);
   if (solution.solver.status != SolverStatus::Cancelled)
   {
@@ -157,6 +161,7 @@ std::string SolveGrid(vtkUnstructuredGrid* input, const Request& request,
   {
     error = CheckCellTypes(input, cells.Dimension);
   }
+  // Arrays last: whether the mesh can be solved on at all does not depend on them.
   InputArrays arrays;
   if (error.empty())
   {

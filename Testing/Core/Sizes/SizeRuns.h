@@ -89,7 +89,7 @@ Result<D> optimized(const MeshInput<D>& in, const NodalMetric<D>& metric, const 
   Options o = given;
   o.desiredSize = metric.hasSizes() ? 0.0 : metric.element(Simplex<D>()).desiredSize;
   EXPECT_EQ(o.check(metric.hasSizes()), "");
-  const Surface<D>* surface = nullptr;
+  Surface<D>* surface = nullptr;
   if constexpr (D == 2)
   {
     surface = slide ? &run.curves : nullptr;
