@@ -41,6 +41,7 @@ void SlidingSurface::prepareRelease(MeshEditor<3>& editor, const SurfaceOptions&
     *this = std::move(later->next);
     return;
   }
+  // Its patches and places stand in the mesh, where this surface will write its own over them.
   std::map<Facet<3>, Index> patchOf; // of the next surface
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
@@ -62,6 +63,8 @@ void SlidingSurface::prepareRelease(MeshEditor<3>& editor, const SurfaceOptions&
   this->release_ = later;
   this->divide(editor, more);
 
+  // Curves of both surfaces consist of the same edges of the input, but may run in other directions
+  // and begin elsewhere: each line is looked up by its points.
   std::map<std::array<Index, 2>, std::pair<Index, std::size_t>> linesOfNext;
   const auto forLines = [](const SlidingSurface& surface, auto&& f)
   {
@@ -151,8 +154,9 @@ bool SlidingSurface::release(MeshEditor<3>& editor)
   const std::shared_ptr<Release> later = this->release_; // it must outlive this surface
   SlidingSurface& next = later->next;
   const SimplexMesh<3>& mesh = editor.mesh();
-  const SimplexMesh<3> before = mesh;
+  const SimplexMesh<3> before = mesh; // to go back to
   std::vector<Index> cells;
+  // Edges first: which curve they are on, the places of their points say, which change below.
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     if (!mesh.isAlive(c))
@@ -191,6 +195,7 @@ bool SlidingSurface::release(MeshEditor<3>& editor)
       Place place = this->released(mesh.place(p));
       if (place.freedom == Freedom::Patch)
       {
+        // What was on a ridge or a corner may be as far off as these allowed: see placeNear().
         Vec<3> there;
         next.reference_.project(place.part, mesh.point(p), there);
         place.parameter = (mesh.point(p) - there).norm();
