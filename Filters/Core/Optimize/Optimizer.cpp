@@ -123,11 +123,15 @@ void Optimizer<D>::optimizeFromRidges(const PassRecord& input, long growth)
   }
   const bool isDone = all.report.stopReason == StopReason::TargetReached &&
     all.options.effort != Effort::Best;
-  if (isDone || all.clock.hasStopped() || !this->surface_->release(all.editor))
+  if (isDone || all.clock.hasStopped())
   {
     return;
   }
-  this->run_.record("ridges given up");
+  // If the ridges cannot be given up, the run goes on with them: what was asked for is still due.
+  if (this->surface_->release(all.editor))
+  {
+    this->run_.record("ridges given up");
+  }
   this->run_.growth = std::max(0L, input.cells + growth - all.report.history.back().cells);
   const Clock::Part part(all.clock, FromRidges, 1.0);
   optimizeWorstFirst<D>(this->run_);

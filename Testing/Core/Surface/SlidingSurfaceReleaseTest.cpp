@@ -164,6 +164,67 @@ TEST(SlidingSurfaceRelease, PlacesAreThoseOfWhatIsLeft)
   EXPECT_LE(sampledDistance(surfaceOf(made.mesh), before, 6), proved);
 }
 
+/// A surface on which nothing moves, and that has more to keep now than in the end, but never lets
+/// it go.
+class Stubborn final : public Surface<3>
+{
+public:
+  Vec<3> at(Index, double) const override { return Vec<3>::Zero(); }
+  Place project(const Place& place, const Vec<3>& x, Vec<3>& there) const override
+  {
+    there = x;
+    return place;
+  }
+  int tangents(
+    const SimplexMesh<3>&, const std::vector<Index>&, Index, std::array<Vec<3>, 3>&) const override
+  {
+    return 0;
+  }
+  std::optional<Span> span(const SimplexMesh<3>&, Index, Index) const override
+  {
+    return std::nullopt;
+  }
+  std::optional<SlidingRange> range(
+    const SimplexMesh<3>&, const std::vector<Index>&, Index) const override
+  {
+    return std::nullopt;
+  }
+  bool mayDivide(const SimplexMesh<3>&, const std::vector<Index>&, Index, Index) const override
+  {
+    return false;
+  }
+  bool maySwap(const SimplexMesh<3>&, Index, Index) const override { return false; }
+  bool mayJoin(const SimplexMesh<3>&, const std::vector<Index>&, Index, Index) const override
+  {
+    return false;
+  }
+  bool mayRelease() const override { return true; }
+};
+
+TEST(SlidingSurfaceRelease, WhereRidgesStayTheRunGoesOnWithThem)
+{
+  const MeshInput<3> in = jitteredGrid<3>(5, 0.45);
+  Options options;
+  options.targetQuality = 0.95; // out of reach
+  const auto run = [&](Surface<3>* surface)
+  {
+    SimplexMesh<3> mesh = buildMesh(in);
+    NodalMetric<3> metric;
+    return optimize<3>(mesh, metric, options, Control(), surface);
+  };
+  Stubborn stubborn;
+  const Report stayed = run(&stubborn);
+  options.effort = Effort::Quick;
+  options.growthBudget *= 0.5;
+  const Report first = run(nullptr);
+  // All that the first half does, and more.
+  EXPECT_GT(stayed.history.size(), first.history.size());
+  EXPECT_GE(stayed.worstAfter, first.worstAfter);
+  EXPECT_EQ(std::count_if(stayed.history.begin(), stayed.history.end(),
+              [](const PassRecord& r) { return r.stage == "ridges given up"; }),
+    0);
+}
+
 TEST(SlidingSurfaceRelease, AnExactSurfaceHasNothingToGiveUp)
 {
   Sliding made(house(4, 0.0, [](double) { return Slope60; }), withRelease(0.0));
