@@ -137,14 +137,16 @@ public:
   {
     std::size_t journal;
     long growth, bad;
+    std::array<long, NumberOfOperations> done;
   };
-  Mark begin() { return { this->editor_->begin(), this->growth.left, this->bad_ }; }
+  Mark begin() { return { this->editor_->begin(), this->growth.left, this->bad_, this->done }; }
   void commit(const Mark& mark) { this->editor_->commit(mark.journal); }
   void rollback(const Mark& mark)
   {
     this->editor_->rollback(mark.journal);
     this->growth.left = mark.growth;
     this->bad_ = mark.bad;
+    this->done = mark.done;
   }
   /// Whether the changes since `mark` have added no more bad cells than they removed.
   bool keepsGuard(const Mark& mark) const { return this->bad_ <= mark.bad; }
@@ -182,12 +184,16 @@ public:
   long badBalance(const std::vector<double>& qualities, const std::vector<Index>& cavity) const;
 
   // --- bookkeeping
+  /// Counts a try of an operation. `success`: the judge has accepted it.
   void count(Operation op, bool success)
   {
     ++this->tried[static_cast<int>(op)];
     this->done[static_cast<int>(op)] += success;
+    this->gained[static_cast<int>(op)] += success;
   }
-  std::array<long, NumberOfOperations> tried{}, done{};
+  /// Tries, and what remains of them: a rollback takes back what it undoes from `done`. `gained`
+  /// counts also what a look-ahead undid later: it says whether an operation is worth its tries.
+  std::array<long, NumberOfOperations> tried{}, done{}, gained{};
   /// Changes that the surface was asked about, and those of them that it allowed.
   std::array<long, 2> surfaceChanges{};
 

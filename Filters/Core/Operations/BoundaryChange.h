@@ -86,16 +86,12 @@ private:
     // A sliding node has one degree of freedom: a line search replaces the solver of free nodes.
     place.parameter = goldenSection(s + FarthestSlide * (range->low - s),
       s + FarthestSlide * (range->high - s), SearchSteps, quality, now);
-    const bool better = now > judge.required(old);
-    judge.count(Operation::NodeMotion, better);
-    if (!better)
-    {
-      return false;
-    }
     this->proposal_.moves.push_back({ v, judge.surface()->at(place.part, place.parameter), place });
     this->proposal_.oldWorst = this->proposal_.least = old;
     this->proposal_.newWorst = now;
-    return judge.accept(this->proposal_);
+    const bool done = now > judge.required(old) && judge.accept(this->proposal_);
+    judge.count(Operation::NodeMotion, done);
+    return done;
   }
 
   /// Joins v with the first neighbour for which that gains.

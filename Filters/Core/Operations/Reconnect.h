@@ -27,11 +27,18 @@ public:
     // before.
     this->best_.newWorst = judge.required(judge.mesh().quality(t));
     this->removeEdges(judge, t);
+    bool isFace = false;
     if constexpr (D == 3)
     {
-      this->removeFaces(judge, t);
+      isFace = this->removeFaces(judge, t);
     }
-    return !this->best_.cells.empty() && judge.accept(this->best_);
+    const bool done = !this->best_.cells.empty() && judge.accept(this->best_);
+    judge.count(Operation::EdgeRemoval, done && !isFace);
+    if (D == 3)
+    {
+      judge.count(Operation::FaceRemoval, done && isFace);
+    }
+    return done;
   }
 
 private:
@@ -46,10 +53,10 @@ private:
         this->edgeRemoval_.fill(this->best_, judge.mesh());
       }
     }
-    judge.count(Operation::EdgeRemoval, !this->best_.cells.empty());
   }
 
-  void removeFaces(Judge<D, Shape>& judge, Index t)
+  /// Whether the removal of a face is the best so far.
+  bool removeFaces(Judge<D, Shape>& judge, Index t)
   {
     bool found = false;
     for (int i = 0; i < 4; ++i)
@@ -65,7 +72,7 @@ private:
         found = true;
       }
     }
-    judge.count(Operation::FaceRemoval, found);
+    return found;
   }
 
   /// Whether a refilling with the worst quality q is the best so far. If so, it is noted as the

@@ -50,7 +50,8 @@ private:
       (o.desiredSize > 0.0 || this->run_.metric.hasSizes());
   }
   bool untangle();
-  void optimizeFromRidges(const PassRecord& input, long growth);
+  void limitGrowth();
+  void optimizeFromRidges();
   bool repairForSizes();
   void optimizeSizesToo();
   std::optional<NodalMetric<D>> attainable();
@@ -60,6 +61,7 @@ private:
 
   Run<D>& run_;
   Surface<D>* surface_; ///< that of the run, to be released
+  long mostCells_ = 0;  ///< the input's and the growth budget's, for the whole run
 };
 
 template <int D>
@@ -81,16 +83,15 @@ void Optimizer<D>::optimize()
     optimizePaper1996<D>(this->run_, o.targetQuality, o.lookAhead);
     return;
   }
-  const long growth = std::min(
-    growthOf(this->run_.options, input.cells, D), roomToGrow(input.cells));
-  this->run_.growth = growth;
+  this->mostCells_ = input.cells +
+    std::min(growthOf(this->run_.options, input.cells, D), roomToGrow(input.cells));
+  this->limitGrowth();
   const bool isTangled = input.worst < -FlatQuality;
   if (isTangled && !this->untangle())
   {
     return;
   }
-  // Untangling may have used part of the budget, which is for the whole run.
-  this->run_.growth = std::max(0L, input.cells + growth - report.history.back().cells);
+  this->limitGrowth();
   const Clock::Part part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
   if (this->wantsSizes())
   {
@@ -98,7 +99,7 @@ void Optimizer<D>::optimize()
   }
   else if (this->surface_ && this->surface_->mayRelease())
   {
-    this->optimizeFromRidges(input, growth);
+    this->optimizeFromRidges();
   }
   else
   {
@@ -106,11 +107,18 @@ void Optimizer<D>::optimize()
   }
 }
 
+/// The growth budget is for the whole run: what is left of it after the stages so far.
+template <int D>
+void Optimizer<D>::limitGrowth()
+{
+  this->run_.growth = std::max(0L, this->mostCells_ - this->run_.report.history.back().cells);
+}
+
 /// With all ridges first, by single changes and with half of the budget; then without those that
 /// may go. Without them from the input on, nodes would leave the ridges before the surface has a
 /// form, and what they leave behind would use up the tolerance.
 template <int D>
-void Optimizer<D>::optimizeFromRidges(const PassRecord& input, long growth)
+void Optimizer<D>::optimizeFromRidges()
 {
   const Run<D>& all = this->run_;
   {
@@ -132,7 +140,7 @@ void Optimizer<D>::optimizeFromRidges(const PassRecord& input, long growth)
   {
     this->run_.record("ridges given up");
   }
-  this->run_.growth = std::max(0L, input.cells + growth - all.report.history.back().cells);
+  this->limitGrowth();
   const Clock::Part part(all.clock, FromRidges, 1.0);
   optimizeWorstFirst<D>(this->run_);
 }
@@ -214,6 +222,7 @@ bool Optimizer<D>::repairForSizes()
   {
     const Clock::Part part(this->run_.clock, 0.0, Untangled);
     optimizeWorstFirst<D>(this->run_);
+    this->limitGrowth();
     summarize(this->run_.mesh(), this->run_.options.targetQuality, &inverted);
     return inverted == 0 && !this->run_.clock.hasStopped();
   }
@@ -276,13 +285,13 @@ template <int D>
 void Optimizer<D>::optimizeSizesToo()
 {
   const Run<D>& run = this->run_;
-  // As a fraction, since the sizes change the number of cells.
-  const double growth = static_cast<double>(run.growth) /
-    static_cast<double>(run.report.history.back().cells);
   if (!this->repairForSizes())
   {
     return;
   }
+  // As a fraction, since the sizes change the number of cells.
+  const double growth = static_cast<double>(run.growth) /
+    static_cast<double>(run.report.history.back().cells);
   // Kept in case the sizes have to be given up.
   const SimplexMesh<D> meshBefore = run.mesh();
   const NodalMetric<D> metricBefore = run.metric;

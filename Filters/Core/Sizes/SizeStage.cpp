@@ -53,17 +53,9 @@ void SizeStage<D>::record()
   computeQualities<D>(this->editor_, this->run_.metric, Measure::Shape, 0.0);
   row.done = this->judge().done;
   row.tried = this->judge().tried;
-  for (const auto& [op, count] : { std::pair{ Operation::NodeInsertion, this->splits_ },
-         std::pair{ Operation::EdgeContraction, this->contractions_ },
-         std::pair{ Operation::NodeMotion, this->motions_ } })
-  {
-    row.done[static_cast<int>(op)] += count;
-    row.tried[static_cast<int>(op)] += count;
-  }
   // The next row of the history counts from here.
   this->judge().done.fill(0);
   this->judge().tried.fill(0);
-  this->splits_ = this->contractions_ = this->motions_ = 0;
 }
 
 /// Edges are halved round by round. To split one long edge to the end at once would refine its

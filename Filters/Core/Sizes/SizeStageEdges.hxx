@@ -150,7 +150,6 @@ long SizeStage<D>::split()
       break;
     }
   }
-  this->splits_ += done;
   return done;
 }
 
@@ -210,6 +209,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
     done = this->judge().measure(proposal) && this->judge().accept(proposal);
   }
   done ? this->judge().commit(mark) : this->judge().rollback(mark);
+  this->judge().count(Operation::NodeInsertion, done);
   return done;
 }
 
@@ -236,7 +236,9 @@ long SizeStage<D>::contract()
     const bool first = this->contractEdge(edge.a, edge.b, best);
     const bool second = this->contractEdge(edge.b, edge.a, best);
     this->judge().start();
-    if ((!first && !second) || !this->judge().accept(best))
+    const bool contracted = (first || second) && this->judge().accept(best);
+    this->judge().count(Operation::EdgeContraction, contracted);
+    if (!contracted)
     {
       continue;
     }
@@ -247,7 +249,6 @@ long SizeStage<D>::contract()
       break;
     }
   }
-  this->contractions_ += done;
   return done;
 }
 

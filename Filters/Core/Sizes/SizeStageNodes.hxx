@@ -40,7 +40,7 @@ bool SizeStage<D>::tryPlace(
 
 /// Moves v, unless nothing has changed at its edges since that last failed.
 template <int D>
-bool SizeStage<D>::moveNode(Index v)
+void SizeStage<D>::moveNode(Index v)
 {
   const auto& point = this->mesh().pointData(v);
   this->editor_.star(v, this->star_);
@@ -72,13 +72,14 @@ bool SizeStage<D>::moveNode(Index v)
   }
   if (latest <= this->failedAt_[v])
   {
-    return false; // nothing has changed since the last try
+    return; // nothing has changed since the last try
   }
   // Noted before the try: if the node moves, its new stamp is later, and it is tried again.
   this->failedAt_[v] = this->editor_.clock();
   const double worst = this->mesh().worstQuality(this->star_), energy = this->energyAround(v);
-  return this->mesh().isFree(v) ? this->moveFreeNode(v, worst, energy)
-                                : this->moveSlidingNode(v, worst, energy);
+  this->judge().count(Operation::NodeMotion,
+    this->mesh().isFree(v) ? this->moveFreeNode(v, worst, energy)
+                           : this->moveSlidingNode(v, worst, energy));
 }
 
 /// Moves v on its curve, towards the neighbour that is farther away.
@@ -147,7 +148,10 @@ void SizeStage<D>::smooth()
       const Freedom freedom = this->mesh().freedom(v);
       const bool mayMove = freedom == Freedom::Free ||
         (freedom == Freedom::Curve && this->run_.surface);
-      this->motions_ += mayMove && this->moveNode(v);
+      if (mayMove)
+      {
+        this->moveNode(v);
+      }
     }
     this->swapWhatChanged();
   }

@@ -116,7 +116,7 @@ private:
   bool splitEdge(const Edge& edge);
   bool contractEdge(Index v, Index u, Proposal<D>& best);
   bool makesNoneLonger(const Proposal<D>& p, Index v, Index u) const;
-  bool moveNode(Index v);
+  void moveNode(Index v);
   bool moveFreeNode(Index v, double worst, double energy);
   bool moveSlidingNode(Index v, double worst, double energy);
   bool tryPlace(Index v, const Vec<D>& x, const Place& place, double worst, double energy);
@@ -150,7 +150,6 @@ private:
   std::vector<std::uint32_t> failedAt_; // by node: clock at its last try
   Queue queue_;
   std::vector<Index> star_, neighbours_, stack_;
-  long splits_ = 0, contractions_ = 0, motions_ = 0;
 };
 }
 }

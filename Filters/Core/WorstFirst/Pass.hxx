@@ -177,7 +177,7 @@ template <int D, class Shape>
 void Schedule<D, Shape>::gather()
 {
   long left = 0;
-  std::array<long, NumberOfOperations> tried{}, done{}; // in this drain
+  std::array<long, NumberOfOperations> tried{}, done{}, gained{}; // in this drain
   for (int k = 0; k < this->chunks_.size(); ++k)
   {
     Worker& w = this->chunks_.worker(k);
@@ -205,6 +205,7 @@ void Schedule<D, Shape>::gather()
     {
       tried[op] += std::exchange(judge.tried[op], 0);
       done[op] += std::exchange(judge.done[op], 0);
+      gained[op] += std::exchange(judge.gained[op], 0);
     }
   }
   for (int op = 0; op < NumberOfOperations; ++op)
@@ -215,7 +216,7 @@ void Schedule<D, Shape>::gather()
   const auto note = [&](CostModel::Kind kind, Operation operation)
   {
     const auto op = static_cast<int>(operation);
-    this->costs_.noteTries(kind, tried[op], done[op] * Patience >= tried[op]);
+    this->costs_.noteTries(kind, tried[op], gained[op] * Patience >= tried[op]);
   };
   if (this->guard_)
   {
@@ -238,7 +239,7 @@ int Schedule<D, Shape>::patientLevel(Worker& w, const Task& task, int level) con
   const long tries = judge.tried[op] * (this->model_.plain ? 1 : Hurry);
   // Where the surface takes part, or in a metric, others of the same level help more often.
   const bool others = this->slides() || !this->model_.plain;
-  const long helped = others ? w.kept : judge.done[op];
+  const long helped = others ? w.kept : judge.gained[op];
   const bool isFirst = !(task.target > Stages[0]) && !w.creeps;
   const bool patiently = others || task.below <= this->fewCells();
   const long usual = inserts ? std::max(PatientTries, w.given / (isFirst ? 1 : PatientPart))

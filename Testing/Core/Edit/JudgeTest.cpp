@@ -362,11 +362,26 @@ TEST(Judge, WithinATransactionTheGuardIsAskedAtItsEnd)
   EXPECT_TRUE(b.judge.keepsGuard(mark));
   ASSERT_TRUE(b.judge.accept(p));
   EXPECT_FALSE(b.judge.keepsGuard(mark));
-  b.judge.rollback(mark); // takes back the count, too
+  b.judge.rollback(mark); // takes back the balance, too
   EXPECT_TRUE(b.judge.keepsGuard(mark));
   mark = b.judge.begin();
   const Proposal<2> good = swap(b, { 0.12, 0.9 }, { 0.2, 0.2 });
   ASSERT_TRUE(b.judge.accept(good));
   EXPECT_TRUE(b.judge.keepsGuard(mark));
   b.judge.commit(mark);
+}
+
+/// The history counts what remains. What an operation is worth is another question.
+TEST(Judge, WhatIsUndoneIsNotDone)
+{
+  constexpr auto op = static_cast<int>(Operation::EdgeRemoval);
+  Bench<2> b(diamond());
+  b.judge.count(Operation::EdgeRemoval, true);
+  const auto mark = b.judge.begin();
+  b.judge.count(Operation::EdgeRemoval, true);
+  b.judge.rollback(mark);
+  b.judge.count(Operation::EdgeRemoval, false);
+  EXPECT_EQ(b.judge.tried[op], 3);
+  EXPECT_EQ(b.judge.done[op], 1);
+  EXPECT_EQ(b.judge.gained[op], 2);
 }

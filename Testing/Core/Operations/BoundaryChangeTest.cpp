@@ -89,7 +89,7 @@ TEST(BoundaryChange, ANodeSlidesToItsBestPlace)
     EXPECT_NEAR(plane.bench.mesh.point(0)[0], 0.0, 2 * 0.8 * std::pow(0.6180339887498949, 14));
     EXPECT_EQ(plane.bench.mesh.point(0)[1], 0.0);
     EXPECT_GT(plane.bench.worst(), 0.999);
-    EXPECT_EQ(triedOf(plane.bench.judge.done, Operation::NodeMotion), 2);
+    EXPECT_EQ(triedOf(plane.bench.judge.done, Operation::NodeMotion), 1); // done, undone, done
     EXPECT_EQ(plane.bench.judge.changed().size(), 3u);
   }
 }
@@ -119,7 +119,7 @@ TEST(BoundaryChange, ANodeTooManyGoes)
   EXPECT_NEAR(plane.bench.worst(), 1.0, 1e-14); // the regular triangle
   EXPECT_FALSE(plane.bench.mesh.isPointAlive(0));
   EXPECT_EQ(plane.bench.judge.growth.left, AnyGrowth + 1);
-  EXPECT_EQ(triedOf(plane.bench.judge.done, Operation::EdgeContraction), 2);
+  EXPECT_EQ(triedOf(plane.bench.judge.done, Operation::EdgeContraction), 1); // done, undone, done
 }
 
 TEST(BoundaryChange, ALongSideIsDividedWhereThatIsBest)
@@ -146,7 +146,7 @@ TEST(BoundaryChange, ALongSideIsDividedWhereThatIsBest)
   plane.doUndoAndDo(0, Level::Insertion);
   EXPECT_EQ(b.judge.growth.left, 1);
   EXPECT_EQ(b.mesh.countCells(), 4);
-  EXPECT_EQ(triedOf(b.judge.done, Operation::NodeInsertion), 2);
+  EXPECT_EQ(triedOf(b.judge.done, Operation::NodeInsertion), 1); // done, undone, done
   const Index p = b.mesh.numberOfPointSlots() - 1;
   EXPECT_EQ(b.mesh.freedom(p), Freedom::Curve);
   EXPECT_EQ(b.mesh.point(p)[1], 0.0);

@@ -87,6 +87,33 @@ TEST(SizeLimits, SizesAreGivenUpWhereTheWorstWouldFall)
   EXPECT_LE(made.report.worstAfter, best + 1e-9); // no mesh has more
 }
 
+/// Flat cells are repaired before the sizes are followed. The growth budget is for both that and
+/// what follows once the sizes are given up.
+TEST(SizeLimits, TheGrowthBudgetIsForTheRepairToo)
+{
+  int givenUp = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    MeshInput<2> in = jitteredGrid<2>(6, 0.0);
+    TestRandom random(seed);
+    for (int k = 0; k < 6; ++k) // nodes that go to a neighbour: the cells of both are flat
+    {
+      const int i = 1 + int(2.4999 * (random() + 1.0)), j = 1 + int(2.4999 * (random() + 1.0));
+      in.points[i + 7 * j] = in.points[i + 1 + 7 * j];
+    }
+    const Tensor<2> m = (Tensor<2>() << 5.05, -4.95, -4.95, 5.05).finished();
+    const Options o = options(0.0, 0.95);
+    const Result<2> run = optimized<2>(in, constantMetric<2>(m, 0.1), o, true);
+    if (run.report.sizes.isGivenUp)
+    {
+      const long before = run.report.history.front().cells;
+      EXPECT_LE(run.cells, before + growthOf(o, before, 2)) << seed;
+      ++givenUp;
+    }
+  }
+  EXPECT_GE(givenUp, 1);
+}
+
 /// Edges of .39, and .01 is wanted: elements grow from the one to the other, and inside all is as
 /// wanted.
 TEST(SizeLimits, SizesFallFromAFixedCoarseBoundary)
