@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""meshoptimize.optimize() and quality(): kinds of mesh, options, messages, progress, Ctrl-C, types, docstrings."""
+"""meshoptimize.optimize() and quality(): kinds of mesh, options, messages, progress, Ctrl-C, types, docstrings.
+
+    /usr/bin/python3 Testing/Python/TestOneCall.py --write    brings the choices in __init__.pyi up to date
+"""
 import ast
 import doctest
 import inspect
 import io
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -22,7 +26,8 @@ from meshoptimize._properties import properties
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 
-PELLET = os.path.join(os.environ["MESHOPTIMIZE_DATA"], "crack40.vtu")
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+PELLET = os.path.join(os.environ.get("MESHOPTIMIZE_DATA", SOURCE / "Data"), "crack40.vtu")
 PACKAGE = pathlib.Path(meshoptimize.__file__).parent
 # pvpython names a program that is not there
 PYTHON = sys.executable if os.access(sys.executable, os.X_OK) else shutil.which("python3", path="/usr/bin")
@@ -275,6 +280,22 @@ def test_other_vtk():
     assert result.returncode == 1 and last.startswith("ImportError: ") and "1.2.3" in last and VTK_VERSION in last, last
 
 
+def choices(prop):
+    return f"Literal[{prop.values}] | int"
+
+
+def write_choices():
+    """Writes the choices that the classes have to where __init__.pyi has others."""
+    page = SOURCE / "Filters/MeshOptimize/Python/__init__.pyi"
+    parts = re.split(r"(?=^def )", page.read_text(), flags=re.MULTILINE)
+    for k, part in enumerate(parts):
+        for name, cls in CALLS.items():
+            for prop in properties(cls).values() if part.startswith(f"def {name}(") else ():
+                part = re.sub(rf"(?<= {prop.keyword}: )Literal\[.*\] \| int", lambda _: choices(prop).replace("'", '"'), part)
+        parts[k] = part
+    page.write_text("".join(parts))
+
+
 def test_types():
     """__init__.pyi has the options, choices, defaults, report fields and names that there are."""
     tree = ast.parse((PACKAGE / "__init__.pyi").read_text())
@@ -290,7 +311,7 @@ def test_types():
             annotation, default = shown[prop.keyword]
             assert default == prop.shown_default == signature[prop.keyword].default, prop
             expected = {"switch": "bool", "whole": "int", "real": "float", "array": "str | None",
-                        "data": "vtkPolyData | None"}.get(prop.kind, f"Literal[{prop.values}] | int")
+                        "data": "vtkPolyData | None"}.get(prop.kind, choices(prop))
             assert annotation == expected, (prop, annotation)
     for report in (meshoptimize.OptimizeReport, meshoptimize.QualityReport):
         fields = [node.target.id for node in classes[report.__name__].body if isinstance(node, ast.AnnAssign)]
@@ -331,6 +352,9 @@ def test_docstrings():
 
 
 if __name__ == "__main__":
+    if "--write" in sys.argv[1:]:
+        write_choices()
+        sys.exit(0)
     for name, test in list(globals().items()):
         if name.startswith("test_"):
             print(name, flush=True)
