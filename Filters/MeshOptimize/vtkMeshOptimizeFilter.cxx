@@ -2,13 +2,13 @@
 // Properties, ports and errors. The work is done by the functions of Private, one grid at a time.
 #include "vtkMeshOptimizeFilter.h"
 
+#include "Boundary/vtkMeshOptimizeGeometry.h"
+#include "Request/vtkMeshOptimizeArrays.h"
+#include "Tasks/vtkMeshOptimizeTasks.h"
+#include "Tasks/vtkMeshOptimizeWarnings.h"
 #include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshOptimizeGeometry.h"
-#include "vtkMeshOptimizeTasks.h"
-#include "vtkMeshOptimizeWarnings.h"
 
 #include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -210,11 +210,12 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   o.armijo = filter->GetArmijoFactor();
   o.maximumNumberOfAlternations = filter->GetMaximumNumberOfAlternations();
   o.effort = static_cast<meshopt::Effort>(filter->GetEffort());
-  request.NumberOfThreads = vtkMeshBridge::ResolveNumberOfThreads(filter->GetNumberOfThreads());
+  request.NumberOfThreads = filter->GetNumberOfThreads();
   o.growthBudget = filter->GetGrowthBudget();
   o.timeLimit = filter->GetTimeLimit();
   request.OptimizeBelow = filter->GetOptimizeBelow();
   request.NumberOfLayers = filter->GetNumberOfLayers();
+  request.NumberOfGhostLevels = filter->GetNumberOfGhostLevels();
   request.Slide = filter->GetBoundaryMode() == vtkMeshOptimizeFilter::Slide;
   request.Curves.splines = filter->GetBoundaryCurve() == vtkMeshOptimizeFilter::BSpline;
   request.Curves.cornerAngle = filter->GetCornerAngle();
@@ -282,15 +283,18 @@ int vtkMeshOptimizeFilter::RequestData(
 {
   const bridge::Ports ports{ vtkDataObject::GetData(inputVector[0]),
     vtkPolyData::GetData(inputVector[1]), vtkDataObject::GetData(outputVector, 0),
-    vtkTable::GetData(outputVector, 1), CountPieces(outputVector->GetInformationObject(0)),
+    vtkTable::GetData(outputVector, 1), this->Controller, this->OptimizeBorders,
+    CountPieces(outputVector->GetInformationObject(0)),
     CountGhostLevels(outputVector->GetInformationObject(0)) };
   // What all ranks know is told by the first.
-  const bool isTold = bridge::HasRanks(this, ports) && this->Controller->GetLocalProcessId() > 0;
+  const bool isTold = bridge::HasRanks(ports) && this->Controller->GetLocalProcessId() > 0;
   Results results;
+  bridge::Request request;
   std::string error;
   try
   {
-    error = bridge::OptimizeAll(this, ports, MakeRequest(this, ports.Geometry), results.Outcome);
+    request = MakeRequest(this, ports.Geometry);
+    error = bridge::OptimizeAll(ports, request, results.Outcome);
   }
   catch (const std::bad_alloc&)
   {
@@ -319,7 +323,7 @@ int vtkMeshOptimizeFilter::RequestData(
   bridge::Warn(this, results.Outcome);
   if (error.empty())
   {
-    bridge::WarnOfNoEffect(this, ports.Input, ports.Geometry != nullptr, results.Outcome);
+    bridge::WarnOfNoEffect(request, ports.Input, results.Outcome);
   }
   return 1;
 }

@@ -3,11 +3,11 @@
 // the plane of triangles, the surface, the figures and the histogram.
 #include "vtkMeshQualityMinMax.h"
 
+#include "QualityMinMax/vtkMeshQualityRanks.h"
+#include "QualityMinMax/vtkMeshQualityReport.h"
+#include "Request/vtkMeshOptimizeArrays.h"
 #include "vtkMeshBridgeGridView.h"
 #include "vtkMeshBridgeVTKCompat.h"
-#include "vtkMeshOptimizeArrays.h"
-#include "vtkMeshQualityRanks.h"
-#include "vtkMeshQualityReport.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"

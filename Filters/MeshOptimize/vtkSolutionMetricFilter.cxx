@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties and errors; the work is done in Private/vtkSolutionMetricRun.
+// Properties and errors; the work is done in Private/SolutionMetric.
 #include "vtkSolutionMetricFilter.h"
 
+#include "Ranks/vtkMeshRanksBlocks.h"
+#include "SolutionMetric/vtkSolutionMetricRanks.h"
 #include "vtkMeshBridgeBlocks.h"
-#include "vtkMeshOptimizeRanks.h"
-#include "vtkSolutionMetricRanks.h"
 
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
@@ -210,7 +210,7 @@ std::string CompleteBlocks(vtkMultiProcessController* controller, vtkDataObject*
     here.push_back(block.Index);
   }
   const std::vector<int> places = tree ? vtkMeshBridge::ListPlaces(tree) : here;
-  if (!vtkMeshOptimizeBridge::ListBlocks(controller, here, places, all))
+  if (!vtkMeshRanks::ListBlocks(controller, here, places, all))
   {
     return "The blocks of the ranks differ. Give all ranks the same blocks, empty where a rank has "
            "no part of one; or bring the mesh together first (in ParaView: the filter Aggregate "

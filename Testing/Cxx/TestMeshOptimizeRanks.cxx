@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What Python cannot do to the ranks: a lack of memory anywhere, a message that arrives wrong. Run
 // by mpirun. Whatever happens, no rank may wait for ever: the test would be stopped by its time.
-#include "vtkMeshRanksExchange.h"
-#include "vtkMeshRanksNode.h"
+#include "Ranks/vtkMeshRanksExchange.h"
+#include "Ranks/vtkMeshRanksNode.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCell.h"
