@@ -75,7 +75,7 @@ if hasattr(simple, "TetrahedralizeTetGen"):  # a build may lack it
     diagonal = read(body)[0].GetLength()
     check(0 < names["slid"].SurfaceDistance <= 1.001e-3 * diagonal, "within the tolerance", names["slid"].SurfaceDistance / diagonal)
     script = os.path.join(source, "Testing", "Benchmarks", "what_holds.py")
-    sys.argv = [script, body, "--below", "0.65"]
+    sys.argv = [script, body, "--below", "0.601"]
     with contextlib.redirect_stdout(io.StringIO()) as printed:
         runpy.run_path(script, run_name="__main__")
     rows = [line.split("|")[1:-1] for line in printed.getvalue().splitlines() if line.startswith("| ")][1:]

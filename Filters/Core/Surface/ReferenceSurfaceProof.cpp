@@ -61,6 +61,36 @@ struct Polygon
     *this = kept;
   }
 };
+
+/// Whether `come` are parts of `gone`, and all of them: the same points then need no proof.
+bool isDivision(const std::vector<SurfacePiece<3>>& gone, const std::vector<SurfacePiece<3>>& come)
+{
+  constexpr double rounding = 1e-12; // of the longest edge; squared in areas
+  const auto isPartOf = [](const SurfacePiece<3>& part, const SurfacePiece<3>& piece)
+  {
+    const double length = std::max({ (piece.x[1] - piece.x[0]).norm(),
+      (piece.x[2] - piece.x[0]).norm(), (piece.x[2] - piece.x[1]).norm() });
+    return normalOf(part).dot(normalOf(piece)) > 0.0 &&
+      std::all_of(part.x.begin(), part.x.end(),
+        [&](const Vec<3>& x)
+        { return (nearestInTriangle(piece.x, x) - x).norm() <= rounding * length; });
+  };
+  double before = 0.0, after = 0.0;
+  for (const SurfacePiece<3>& piece : gone)
+  {
+    before += normalOf(piece).norm();
+  }
+  for (const SurfacePiece<3>& part : come)
+  {
+    after += normalOf(part).norm();
+    if (std::none_of(gone.begin(), gone.end(),
+          [&](const SurfacePiece<3>& piece) { return isPartOf(part, piece); }))
+    {
+      return false;
+    }
+  }
+  return std::fabs(after - before) <= 1e-9 * before;
+}
 }
 
 /// q is the height over the longest edge, which is l.
@@ -127,6 +157,12 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
 /// All pieces at once for each facet of the reference nearby: only together they tell whether it
 /// stays covered.
 bool ReferenceSurface::covers(
+  const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const
+{
+  return this->coversAnew(gone, come, sideways) || isDivision(gone, come);
+}
+
+bool ReferenceSurface::coversAnew(
   const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const
 {
   Box box;
