@@ -35,8 +35,9 @@ constexpr double FromRidges = 0.5;
 /// and what divisions may. Found on ten surfaces of CGAL, as the next two: with halves of the
 /// growth the worst qualities were a fifth to a third lower.
 constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
-/// Long edges are divided at cells up to this many times the worst quality.
-constexpr double AboveWorst = 1.5;
+/// Long edges are divided at cells up to this many times the worst quality, and at what comes of
+/// them up to so many times.
+constexpr double AboveWorst = 1.5, PartsBelow = 0.6;
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double LeastGain = 1.02;
 constexpr int MostDivisions = 8;
@@ -63,7 +64,7 @@ private:
   void limitGrowth();
   void optimizeWith(Effort effort, double part);
   void optimizeSliding();
-  bool divideAndOptimize(Effort effort);
+  bool divideAndOptimize(Effort effort, double partsBelow);
   void optimizeFromRidges();
   bool repairForSizes();
   void optimizeSizesToo();
@@ -144,10 +145,11 @@ void Optimizer<D>::optimizeWith(Effort effort, double part)
   optimizeWorstFirst<D>(run);
 }
 
-/// Divides long edges at the worst cells, and improves what comes of it. False, with the mesh as it
-/// was, if the worst quality is not clearly better then.
+/// Divides long edges at the worst cells, and improves what comes of it. False if the worst quality
+/// is not clearly better then; if it is not better at all, the mesh is as it was. `partsBelow`: see
+/// divideLongEdges().
 template <int D>
-bool Optimizer<D>::divideAndOptimize(Effort effort)
+bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
 {
   Run<D>& run = this->run_;
   const SimplexMesh<D> before = run.mesh();
@@ -158,7 +160,8 @@ bool Optimizer<D>::divideAndOptimize(Effort effort)
   run.growth = static_cast<long>(PartForDivisions * static_cast<double>(run.growth));
   if constexpr (D == 3)
   {
-    if (divideLongEdges(run, std::min(run.options.targetQuality, AboveWorst * worst)) == 0)
+    const double below = std::min(run.options.targetQuality, AboveWorst * worst);
+    if (divideLongEdges(run, below, partsBelow) == 0)
     {
       return false;
     }
@@ -201,7 +204,9 @@ void Optimizer<D>::optimizeSliding()
   for (int round = 0; round < MostDivisions && goesOn(); ++round, left *= 0.5)
   {
     const Clock::Part part(run.clock, 1.0 - left, 1.0 - 0.5 * left);
-    if (!this->divideAndOptimize(effort))
+    // A gentler division may help where this one made too much worse.
+    if (!this->divideAndOptimize(effort, PartsBelow) &&
+      !(goesOn() && this->divideAndOptimize(effort, 0.0)))
     {
       break;
     }

@@ -16,9 +16,8 @@ namespace
 {
 /// A division may lower the worst quality around it to this part: halves are worse at first.
 constexpr double WorstDivision = 0.2;
-/// What comes of a division is divided on if it is under this part of the worst shape at first.
-constexpr double PartsBelow = 0.6;
-/// So often at most: for tetrahedra it is not proved that longest edges end at good shapes.
+/// What comes of a division is divided on so often at most: for tetrahedra it is not proved that
+/// longest edges end at good shapes.
 constexpr int MostGenerations = 6;
 constexpr int DivisionsPerLook = 64; ///< between two looks at the clock
 
@@ -48,7 +47,7 @@ public:
     }
   }
 
-  long divide();
+  long divide(double partsBelow);
   void record(bool isRow);
 
 private:
@@ -223,7 +222,7 @@ bool LongEdges::divideAt(Index c, const Edge& edge, const Vec<3>& x, const Place
 }
 
 /// The growth ends it: each division adds at least one cell.
-long LongEdges::divide()
+long LongEdges::divide(double partsBelow)
 {
   long done = 0;
   while (!this->queue_.empty() && !this->judge_.growth.isShort)
@@ -244,7 +243,7 @@ long LongEdges::divide()
     }
     for (Index c : this->judge_.changed())
     {
-      if (this->mesh().quality(c) < PartsBelow * this->worst_ && entry.generation < MostGenerations)
+      if (this->mesh().quality(c) < partsBelow * this->worst_ && entry.generation < MostGenerations)
       {
         this->push(c, entry.generation + 1);
       }
@@ -272,10 +271,10 @@ void LongEdges::record(bool isRow)
 }
 }
 
-long divideLongEdges(Run<3>& run, double below)
+long divideLongEdges(Run<3>& run, double below, double partsBelow)
 {
   LongEdges edges(run, below);
-  const long done = edges.divide();
+  const long done = edges.divide(partsBelow);
   edges.record(done > 0);
   return done;
 }

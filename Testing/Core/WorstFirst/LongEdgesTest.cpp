@@ -62,7 +62,7 @@ struct Division
     this->before = sortedQualities(sliding.mesh);
     Run<3> run{ sliding.editor, metric, surface, options, control, clock, report };
     run.growth = growth;
-    this->done = divideLongEdges(run, below);
+    this->done = divideLongEdges(run, below, 0.6);
     expectSound(sliding.mesh);
   }
 
