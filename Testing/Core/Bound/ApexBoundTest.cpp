@@ -180,6 +180,14 @@ struct Wedge
     this->d = Vec<3>(0.5 + random(), s * std::cos(this->theta), s * std::sin(this->theta));
   }
 
+  /// Both facets are given in the plane: the second is turned by the angle.
+  Wedge(const Vec<3>& first, const Vec<3>& last, double angle)
+    : c(first)
+    , d(last[0], last[1] * std::cos(angle), last[1] * std::sin(angle))
+    , theta(angle)
+  {
+  }
+
   /// The worse of the two tetrahedra that share p.
   double value(const Vec<3>& p) const
   {
@@ -257,15 +265,94 @@ TEST(PairBound, AgainstBruteForce)
   EXPECT_GT(sharp, 150) << "brute force may fail now and then, not often";
 }
 
+namespace
+{
+/// Climbs from x by ever smaller steps along the axes: the greatest value that is found.
+template <std::size_t N, class F>
+double climb(std::array<double, N> x, F&& value)
+{
+  double best = value(x);
+  for (double h = 0.3; h > 1e-7; h *= 0.5)
+  {
+    for (bool better = true; better;)
+    {
+      better = false;
+      for (std::size_t k = 0; k < 2 * N; ++k)
+      {
+        std::array<double, N> y = x;
+        y[k / 2] += k % 2 ? h : -h;
+        const double other = value(y);
+        better = better || other > best;
+        x = other > best ? y : x;
+        best = std::max(best, other);
+      }
+    }
+  }
+  return best;
+}
+
+/// Best S of a tetrahedron with the edge (0, 0, 0), (1, 0, 0) and the angle phi there: on the
+/// facet whose third node is c, or on any.
+double bruteAngle(const Vec<3>& c, double phi)
+{
+  return climb<2>({ 0.5, 0.5 },
+    [&](const std::array<double, 2>& x)
+    {
+      return MeanEdgeShape<3>::value({ Vec<3>(0, 0, 0), Vec<3>(1, 0, 0), c,
+        Vec<3>(x[0], std::fabs(x[1]) * std::cos(phi), std::fabs(x[1]) * std::sin(phi)) });
+    });
+}
+
+double bruteAngle(double phi)
+{
+  return climb<2>({ 0.5, 0.5 },
+    [&](const std::array<double, 2>& x)
+    { return bruteAngle(Vec<3>(x[0], std::fabs(x[1]), 0.0), phi); });
+}
+
+/// The least angle, up to `most`, at which best(angle), which grows up to there, reaches q.
+template <class F>
+double leastAngle(double q, double most, F&& best)
+{
+  double low = 0.0, high = most;
+  for (int k = 0; k < 20; ++k)
+  {
+    const double middle = 0.5 * (low + high);
+    (best(middle) < q ? low : high) = middle;
+  }
+  return high;
+}
+}
+
+/// The edge that limits CGAL's dino. One tetrahedron is bad there. Two could have .0859 by their
+/// angles, but not with one node. Three need the least angles at which the outer ones, on their
+/// facets, and the inner one have that quality, and more of them need more.
 TEST(PairBound, NeedlesOfTheDinosaur)
 {
-  // The edge that limits CGAL's dino. By angles alone two elements could have .0859 there, but not
-  // with one node: three can have .081 at most, by their angles.
   const Vec<3> points[4] = { Vec<3>(0, 0, 0), Vec<3>(56.043, 6.976, -13.05),
     Vec<3>(55.704, 14.619, -9.98), Vec<3>(-5.683, 4.337, -0.62) };
   const double bound =
     surfaceBound<3>(points, { { { 1, 0, 2 }, 0, 0, true }, { { 0, 1, 3 }, 0, 0, true } }).bound;
-  EXPECT_NEAR(bound, 0.0810, 1e-4);
+
+  // The edge becomes (0, 0, 0), (1, 0, 0): each third node is at `along` and `off`.
+  const double length = points[1].norm();
+  const Vec<3> edge = points[1] / length, c = points[2] / length, d = points[3] / length;
+  const Vec<3> awayC = c - c.dot(edge) * edge, awayD = d - d.dot(edge) * edge;
+  const double theta = std::acos(awayC.dot(awayD) / (awayC.norm() * awayD.norm()));
+  const Vec<3> first(c.dot(edge), awayC.norm(), 0.0), last(d.dot(edge), awayD.norm(), 0.0);
+
+  const Wedge wedge(first, last, theta);
+  EXPECT_LT(MeanEdgeShape<3>::value({ wedge.a, wedge.b, wedge.c, wedge.d }), bound);
+  TestRandom random(7);
+  EXPECT_LT(wedge.brute(random), bound);
+  const auto needed = [&](double q)
+  {
+    return leastAngle(q, 0.5, [&](double phi) { return bruteAngle(first, phi); }) +
+      leastAngle(q, 0.5, [&](double phi) { return bruteAngle(phi); }) +
+      leastAngle(q, 0.5, [&](double phi) { return bruteAngle(last, phi); });
+  };
+  EXPECT_LE(needed(bound * (1.0 - 1e-4)), theta) << "not sharp";
+  EXPECT_GT(needed(bound * (1.0 + 1e-4)), theta) << "not an upper bound";
 }
 
 TEST(PairBound, UnusualFacets)

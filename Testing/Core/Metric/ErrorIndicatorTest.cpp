@@ -47,8 +47,10 @@ std::vector<double> errorsFromDensity(const MeshInput<D>& in, double order, F&& 
   return errors;
 }
 
+/// Regular elements with edges of 1 in a unit of volume: their area is sqrt(3) / 4, their volume
+/// sqrt(2) / 12.
 template <int D>
-constexpr double perVolume = D == 2 ? 2.3094010767585030 : 8.4852813742385703;
+const double perVolume = D == 2 ? 4.0 / std::sqrt(3.0) : 12.0 / std::sqrt(2.0);
 }
 
 template <class T>

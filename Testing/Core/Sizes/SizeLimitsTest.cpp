@@ -60,7 +60,9 @@ TEST(SizeLimits, FixedBoundaryKeepsWhatItHas)
   EXPECT_NEAR(static_cast<double>(tiny.cells) / trianglesBeside(in, 0.02), 1.0, 0.25);
   EXPECT_GT(tiny.report.worstAfter, tiny.report.worstBefore);
   const Result<2> huge = optimized<2>(in, NodalMetric<2>(10.0), options(0.3), false);
-  EXPECT_LT(huge.cells, 32);
+  // A triangle has at most two sides on the boundary, of which all stay, and the mesh gets coarser.
+  EXPECT_GE(huge.cells, 4 * 4 / 2);
+  EXPECT_LT(huge.cells, static_cast<long>(in.cells.size()));
 }
 
 /// In this metric the corners of the square are sharp, and two triangles in them already have the
@@ -73,7 +75,8 @@ TEST(SizeLimits, SizesAreGivenUpWhereTheWorstWouldFall)
   const double best = 1.5 * std::sqrt(3.0) * std::sin(angle) / ((1.0 + sine) * (1.0 + sine));
   const Result<2> undone = optimized<2>(in, constantMetric<2>(m, 0.015), options(), true);
   EXPECT_NEAR(undone.report.worstBefore, best, 1e-3);
-  EXPECT_LT(undone.cells, 200);
+  const long before = static_cast<long>(in.cells.size());
+  EXPECT_LE(undone.cells, before + growthOf(options(), before, 2)); // as without sizes
   EXPECT_EQ(
     undone.report.history[undone.report.history.size() - 1].worst, undone.report.worstAfter);
   const auto& rows = undone.report.history;
