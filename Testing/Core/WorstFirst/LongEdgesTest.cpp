@@ -170,23 +170,20 @@ TEST(LongEdges, WithoutNewNodesThereIsNoDivision)
 }
 
 /// Stopped anywhere, a run is no worse than what it had reached: what a division has made worse is
-/// undone if it has not been improved.
+/// undone if it has not been improved. Where the clock stops it differs; what must hold does not.
 TEST(LongEdges, ARunThatIsStoppedIsNoWorse)
 {
   Options options;
   options.growthBudget = 12.0;
   options.targetQuality = 0.45;
-  int calls = 0, whole = 0, divided = 0;
-  for (double part : { 2.0, 0.7, 0.95 }) // of all calls; the first run is whole
+  options.effort = Effort::Quick;
+  double whole = 0.0;
+  for (double part : { 0.0, 0.4, 0.6, 0.8 }) // of the time of the first run, which has no limit
   {
     Sliding sliding(gear(16, 2.0), tolerance(1e-3));
     NodalMetric<3> metric;
-    calls = 0;
-    Control control;
-    control.progress = [&](double, const std::string&)
-    { return ++calls < part * whole || whole == 0; };
-    const Report report = optimize<3>(sliding.mesh, metric, options, control, &sliding.surface);
-    whole = whole == 0 ? calls : whole;
+    options.timeLimit = part * whole;
+    const Report report = optimize<3>(sliding.mesh, metric, options, {}, &sliding.surface);
     expectSound(sliding.mesh);
     double reached = report.worstBefore;
     bool isDivided = false;
@@ -195,9 +192,8 @@ TEST(LongEdges, ARunThatIsStoppedIsNoWorse)
       isDivided = isDivided || row.stage == "long edges divided";
       reached = isDivided ? reached : std::max(reached, row.worst);
     }
-    divided += isDivided;
-    EXPECT_EQ(report.stopReason == StopReason::Aborted, part < 1.0) << part;
+    EXPECT_TRUE(isDivided || part > 0.0);
     EXPECT_GE(report.worstAfter, reached) << part;
+    whole = part > 0.0 ? whole : report.seconds;
   }
-  EXPECT_GE(divided, 2);
 }
