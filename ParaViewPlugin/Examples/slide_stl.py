@@ -78,7 +78,7 @@ def with_distance(after, surface):
     return producer
 
 
-def picture(path, before, after, surface):
+def picture(path, before, after, surface, tolerance):
     quality = MeshQualityMinMax(Input=before)
     shown = [(Clip(Input=source, ClipType="Plane", Crinkleclip=1), ("CELLS", "MeshQuality")) for source in (quality, after)]
     for clip, _ in shown:
@@ -100,6 +100,9 @@ def picture(path, before, after, surface):
         if k > 0:
             bar = GetScalarBar(GetColorTransferFunction(array[1]), view)
             bar.Orientation, bar.WindowLocation, bar.ScalarBarLength = "Horizontal", "Lower Center", 0.6
+        if array[1] == "Distance":
+            GetColorTransferFunction(array[1]).RescaleTransferFunction(0, tolerance)
+            bar.AddRangeLabels, bar.UseCustomLabels, bar.CustomLabels = 0, 1, [0, tolerance / 2, tolerance]
         view.OrientationAxesVisibility = 0
         view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp = [0, 0, 0.85], [1.7, 5.0, 2.8], [0, 0, 1]
     layout.SetSize(1500, 700)
@@ -135,4 +138,4 @@ SaveData(arguments.output, proxy=slid, DataMode="Binary")
 for name, source in (("kept", kept), ("sliding", slid)):
     print(f"surface {name}: worst element {source.WorstQualityBefore:.4f} -> {source.WorstQualityAfter:.4f}; {source.StopReason}")
 if arguments.picture:
-    picture(arguments.picture, mesh, slid, surface)
+    picture(arguments.picture, mesh, slid, surface, arguments.tolerance)
