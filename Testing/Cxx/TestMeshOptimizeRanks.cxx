@@ -1,48 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What Python cannot do to the ranks: a lack of memory anywhere, a message that arrives wrong. Run
-// by mpirun. Whatever happens, no rank may wait for ever: the test would be stopped by its time.
+// by mpirun: all ranks run the same cases in the same order. Whatever happens, no rank may wait for
+// ever: the test would be stopped by its time. So no case ends early on one rank (no ASSERT).
+#include "FilterTesting.h"
 #include "Ranks/vtkMeshRanksExchange.h"
 #include "Ranks/vtkMeshRanksNode.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCell.h"
-#include "vtkCellData.h"
-#include "vtkCellType.h"
 #include "vtkCommunicator.h"
 #include "vtkIdTypeArray.h"
 #include "vtkMPICommunicator.h"
 #include "vtkMPIController.h"
 #include "vtkMeshOptimizeFilter.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
-#include "vtkPoints.h"
-#include "vtkTable.h"
-#include "vtkUnstructuredGrid.h"
 
-#include <cmath>
-#include <cstring>
-#include <iostream>
-#include <map>
 #include <new>
 #include <random>
 #include <thread>
 
+using namespace Testing;
+
 namespace
 {
 
-int failures = 0;
-
-void Check(bool fine, const std::string& text)
+vtkMultiProcessController* GetController()
 {
-  if (!fine)
-  {
-    ++failures;
-    std::cerr << "FAILED on rank "
-              << vtkMultiProcessController::GetGlobalController()->GetLocalProcessId() << ": "
-              << text << std::endl;
-  }
+  return vtkMultiProcessController::GetGlobalController();
 }
+
+int GetRank() { return GetController()->GetLocalProcessId(); }
+int GetRanks() { return GetController()->GetNumberOfProcesses(); }
+
+/**
+ * A case that fails on one rank fails on all: the first rank, which tells what has passed, too.
+ */
+class MeshOptimizeRanks : public testing::Test
+{
+protected:
+  void TearDown() override
+  {
+    const int mine = HasFailure() ? 1 : 0;
+    int failed = 0;
+    GetController()->AllReduce(&mine, &failed, 1, vtkCommunicator::SUM_OP);
+    EXPECT_TRUE(failed == 0 || HasFailure()) << "failed on " << failed << " other ranks";
+  }
+};
+
+/**
+ * What ranks other than the first tell: only what has failed, in which case.
+ */
+class TellFailures : public testing::EmptyTestEventListener
+{
+public:
+  void OnTestStart(const testing::TestInfo& test) override { this->Case = test.name(); }
+
+  void OnTestPartResult(const testing::TestPartResult& result) override
+  {
+    if (result.failed())
+    {
+      std::cerr << "rank " << GetRank() << ", " << this->Case << ": "
+                << (result.file_name() ? result.file_name() : "") << ":" << result.line_number()
+                << ": " << result.message() << std::endl;
+    }
+  }
+
+private:
+  std::string Case; // it cannot be asked for while a result is told
+};
 
 constexpr int Size = 6; // of the cube
 
@@ -165,53 +189,106 @@ void MakePiece(int n, int rank, int ranks, vtkUnstructuredGrid* grid)
   }
 }
 
-void Count(vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); }
+enum class Wrong
+{
+  Nothing,
+  Points,
+  InnerPoints,
+  CellId
+};
 
 /**
- * A message that arrives wrong: an error on all, told once, and the state before it as output.
+ * What became of a run in which one message arrives wrong.
  */
-void TestLastGoodState(vtkMPIController* controller)
+struct Outcome
+{
+  bool HasFailed;
+  std::size_t ErrorsTold;
+  vtkIdType Cells, AllCells;              ///< of this rank, of all ranks
+  vtkIdType Rows = 0, CellsInHistory = 0; ///< on the first rank
+};
+
+Outcome RunWith(Wrong what)
 {
   vtkNew<Corrupting> wire;
   wire->CopyFrom(vtkMPICommunicator::GetWorldCommunicator());
   vtkNew<vtkMPIController> wrong;
   wrong->SetCommunicator(wire);
-  const int rank = controller->GetLocalProcessId(), ranks = controller->GetNumberOfProcesses();
+  wire->IsOn = what != Wrong::Nothing;
+  wire->SparesBorders = what == Wrong::InnerPoints;
+  wire->ChangesId = what == Wrong::CellId;
   vtkNew<vtkUnstructuredGrid> piece;
-  MakePiece(Size, rank, ranks, piece);
-  vtkIdType cellsBefore = 0;
-  for (int kind : { 0, 1, 2, 3 })
+  MakePiece(Size, GetRank(), GetRanks(), piece);
+  vtkNew<vtkMeshOptimizeFilter> f;
+  Messages messages(f);
+  f->SetController(wrong);
+  f->OptimizeBordersOn();
+  f->SetNumberOfThreads(1);
+  f->SetInputData(piece);
+  f->UpdatePiece(GetRank(), GetRanks(), 0);
+
+  Outcome result;
+  result.HasFailed = f->GetErrorCode() != 0;
+  result.ErrorsTold = messages.Errors.size();
+  result.Cells = f->GetOutput()->GetNumberOfCells();
+  GetController()->AllReduce(&result.Cells, &result.AllCells, 1, vtkCommunicator::SUM_OP);
+  auto history = vtkTable::SafeDownCast(f->GetOutputDataObject(1));
+  if (GetRank() == 0)
   {
-    const bool isOn = kind > 0;
-    wire->IsOn = isOn;
-    wire->SparesBorders = kind == 2;
-    wire->ChangesId = kind == 3;
-    int told = 0;
-    vtkNew<vtkCallbackCommand> listen;
-    listen->SetCallback(Count);
-    listen->SetClientData(&told);
-    vtkNew<vtkMeshOptimizeFilter> f;
-    f->AddObserver(vtkCommand::ErrorEvent, listen);
-    f->SetController(wrong);
-    f->OptimizeBordersOn();
-    f->SetNumberOfThreads(1);
-    f->SetInputData(piece);
-    f->UpdatePiece(rank, ranks, 0);
-    Check((f->GetErrorCode() != 0) == isOn, "the error code");
-    Check(told == (isOn && rank == 0), "told " + std::to_string(told) + " times");
-    auto output = vtkUnstructuredGrid::SafeDownCast(f->GetOutputDataObject(0));
-    vtkIdType cells = output->GetNumberOfCells(), all = 0;
-    Check(kind != 2 || cells == cellsBefore, "cells have moved, and were not taken back");
-    cellsBefore = cells;
-    controller->AllReduce(&cells, &all, 1, vtkCommunicator::SUM_OP);
-    auto history = vtkTable::SafeDownCast(f->GetOutputDataObject(1));
-    if (rank == 0)
-    {
-      Check(isOn == (history->GetNumberOfRows() == 2), "rows of the history");
-      const vtkIdType last = history->GetNumberOfRows() - 1;
-      Check(history->GetValueByName(last, "Cells").ToTypeInt64() == all, "another state");
-    }
+    result.Rows = history->GetNumberOfRows();
+    result.CellsInHistory = history->GetValueByName(result.Rows - 1, "Cells").ToTypeInt64();
   }
+  return result;
+}
+
+/**
+ * An error on all, told once, and the state before it as output. The first message with a part of
+ * a mesh is that of the first band of borders: the input and the pieces, each by itself, are in the
+ * history.
+ */
+void ExpectLastGoodState(const Outcome& outcome)
+{
+  EXPECT_TRUE(outcome.HasFailed);
+  EXPECT_EQ(outcome.ErrorsTold, GetRank() == 0 ? 1u : 0u);
+  if (GetRank() == 0)
+  {
+    EXPECT_EQ(outcome.Rows, 2);
+    EXPECT_EQ(outcome.CellsInHistory, outcome.AllCells);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST_F(MeshOptimizeRanks, ASoundWireIsNoError)
+{
+  const Outcome outcome = RunWith(Wrong::Nothing);
+  EXPECT_FALSE(outcome.HasFailed);
+  EXPECT_EQ(outcome.ErrorsTold, 0u);
+  if (GetRank() == 0)
+  {
+    EXPECT_NE(outcome.Rows, 2); // so the other cases end before the end
+    EXPECT_EQ(outcome.CellsInHistory, outcome.AllCells);
+  }
+}
+
+TEST_F(MeshOptimizeRanks, PointsThatArriveWrongLeaveTheLastGoodState)
+{
+  ExpectLastGoodState(RunWith(Wrong::Points));
+}
+
+/**
+ * Only points that the other rank does not have yet: it notices when the cells have moved, and they
+ * are taken back.
+ */
+TEST_F(MeshOptimizeRanks, CellsThatHaveMovedAreTakenBack)
+{
+  const Outcome outcome = RunWith(Wrong::InnerPoints);
+  ExpectLastGoodState(outcome);
+  EXPECT_EQ(outcome.Cells, RunWith(Wrong::Points).Cells);
+}
+
+TEST_F(MeshOptimizeRanks, AnIdThatArrivesWrongLeavesTheLastGoodState)
+{
+  ExpectLastGoodState(RunWith(Wrong::CellId));
 }
 
 /**
@@ -255,52 +332,60 @@ void MakePlanePiece(int n, int rank, int ranks, vtkUnstructuredGrid* grid)
 }
 
 /**
- * A boundary that slides, along straight lines and splines, in pieces and from one rank.
+ * Slides the boundary of a square whose pieces are on all ranks, or all on the first.
  */
-void TestSlide(vtkMPIController* controller)
+void CheckSlide(int curve, bool isOnOne)
 {
   constexpr int n = 12;
-  const int rank = controller->GetLocalProcessId(), ranks = controller->GetNumberOfProcesses();
-  for (int kind : { 0, 1, 2 })
+  vtkNew<vtkUnstructuredGrid> piece, nothing;
+  MakePlanePiece(n, isOnOne ? 0 : GetRank(), isOnOne ? 1 : GetRanks(), piece);
+  vtkNew<vtkMeshOptimizeFilter> f;
+  Messages messages(f);
+  f->SetBoundaryModeToSlide();
+  f->SetBoundaryCurve(curve);
+  f->SetInputData(isOnOne && GetRank() > 0 ? nothing : piece);
+  f->UpdatePiece(GetRank(), GetRanks(), 0);
+  EXPECT_EQ(f->GetErrorCode(), 0u);
+  EXPECT_EQ(messages.Errors, NoMessages);
+  EXPECT_GE(f->GetWorstQualityAfter(), f->GetTargetQuality());
+  vtkUnstructuredGrid* output = f->GetOutput();
+  double area = 0.0, all = 0.0;
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
   {
-    const bool isOnOne = kind == 2;
-    vtkNew<vtkUnstructuredGrid> piece;
-    MakePlanePiece(n, isOnOne ? 0 : rank, isOnOne ? 1 : ranks, piece);
-    vtkNew<vtkUnstructuredGrid> nothing;
-    vtkNew<vtkMeshOptimizeFilter> f;
-    f->SetBoundaryModeToSlide();
-    f->SetBoundaryCurve(
-      kind == 0 ? vtkMeshOptimizeFilter::Straight : vtkMeshOptimizeFilter::BSpline);
-    f->SetInputData(isOnOne && rank > 0 ? nothing : piece);
-    f->UpdatePiece(rank, ranks, 0);
-    Check(f->GetErrorCode() == 0, "sliding: an error");
-    Check(
-      f->GetWorstQualityAfter() >= 0.6, "sliding: " + std::to_string(f->GetWorstQualityAfter()));
-    auto output = vtkUnstructuredGrid::SafeDownCast(f->GetOutputDataObject(0));
-    double area = 0.0, all = 0.0;
-    for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
-    {
-      double x[3][3];
-      for (int i = 0; i < 3; ++i)
-      {
-        output->GetPoint(output->GetCell(c)->GetPointId(i), x[i]);
-      }
-      area += 0.5 *
-        ((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) - (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]));
-    }
-    controller->AllReduce(&area, &all, 1, vtkCommunicator::SUM_OP);
-    Check(std::abs(all - n * n) < 1e-9, "sliding: area " + std::to_string(all));
+    const std::vector<vtkIdType> ids = CellPoints(output, c);
+    const Point x = GetPoint(output, ids[0]), y = GetPoint(output, ids[1]),
+                z = GetPoint(output, ids[2]);
+    area += 0.5 * ((y[0] - x[0]) * (z[1] - x[1]) - (y[1] - x[1]) * (z[0] - x[0]));
   }
+  GetController()->AllReduce(&area, &all, 1, vtkCommunicator::SUM_OP);
+  EXPECT_NEAR(all, n * n, 1e-9); // sides are straight whatever the curve
+}
+
+TEST_F(MeshOptimizeRanks, ABoundaryInPiecesSlidesAlongLines)
+{
+  CheckSlide(vtkMeshOptimizeFilter::Straight, false);
+}
+
+TEST_F(MeshOptimizeRanks, ABoundaryInPiecesSlidesAlongSplines)
+{
+  CheckSlide(vtkMeshOptimizeFilter::BSpline, false);
+}
+
+TEST_F(MeshOptimizeRanks, ABoundaryOfOneRankSlides)
+{
+  CheckSlide(vtkMeshOptimizeFilter::BSpline, true);
 }
 
 /**
  * A rank that fails at any place, outside of any function of Ranks, ends the work of all.
  */
-void TestFailure(vtkMPIController* controller)
+TEST_F(MeshOptimizeRanks, AFailureAtAnyPlaceEndsTheWorkOfAll)
 {
-  const vtkMeshRanks::Ranks ranks(controller);
+  const vtkMeshRanks::Ranks ranks(GetController());
+  const std::string last = "Rank " + std::to_string(ranks.GetCount() - 1) + ": ";
   for (int place = 0; place < 6; ++place)
   {
+    SCOPED_TRACE("place " + std::to_string(place));
     const std::string error = ranks.Together(
       [&]()
       {
@@ -330,31 +415,39 @@ void TestFailure(vtkMPIController* controller)
         }
         return std::string();
       });
-    Check(error.empty() == (place == 5), "place " + std::to_string(place) + ": " + error);
-    const std::string last = "Rank " + std::to_string(ranks.GetCount() - 1) + ": ";
-    Check(place == 5 || error.substr(0, last.size()) == last, error);
+    EXPECT_EQ(error.empty(), place == 5) << error; // there is no step 5
+    EXPECT_TRUE(place == 5 || error.substr(0, last.size()) == last) << error;
   }
-  // Still in step.
-  Check(ranks.Sum(1) == ranks.GetCount(), "the sum");
-  std::vector<vtkMeshRanks::Bytes> out(ranks.GetCount());
+  EXPECT_EQ(ranks.Sum(1), ranks.GetCount()) << "no longer in step";
+}
+
+TEST_F(MeshOptimizeRanks, WhatIsSentComes)
+{
+  const vtkMeshRanks::Ranks ranks(GetController());
+  const auto message = [](int from, int to)
+  { return vtkMeshRanks::Bytes(1000 * to + from, static_cast<char>('a' + from)); };
+  std::vector<vtkMeshRanks::Bytes> out;
   for (int r = 0; r < ranks.GetCount(); ++r)
   {
-    out[r].assign(1000 * r + ranks.GetRank(), 'c');
+    out.push_back(message(ranks.GetRank(), r));
   }
   const auto in = ranks.Exchange(std::move(out));
   for (int r = 0; r < ranks.GetCount(); ++r)
   {
-    Check(in[r].size() == 1000u * ranks.GetRank() + r, "what was sent is not what came");
+    EXPECT_EQ(in[r], message(r, ranks.GetRank())) << "from rank " << r;
   }
 }
 
-void TestShareOfCores(vtkMPIController* controller)
+/**
+ * All ranks run on this computer.
+ */
+TEST_F(MeshOptimizeRanks, CoresAreShared)
 {
-  const vtkMeshRanks::Ranks ranks(controller);
+  const vtkMeshRanks::Ranks ranks(GetController());
   const int share = vtkMeshRanks::GetShareOfCores(ranks);
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  Check(share >= 1 && (share == 1 || share * ranks.GetCount() <= std::max(cores, ranks.GetCount())),
-    "a share of " + std::to_string(share) + " cores");
+  EXPECT_GE(share, 1);
+  EXPECT_TRUE(share == 1 || share * ranks.GetCount() <= cores) << share << " of " << cores;
 }
 
 } // namespace
@@ -364,13 +457,15 @@ int main(int argc, char* argv[])
   vtkNew<vtkMPIController> controller;
   controller->Initialize(&argc, &argv);
   vtkMultiProcessController::SetGlobalController(controller);
-  TestFailure(controller);
-  TestShareOfCores(controller);
-  TestLastGoodState(controller);
-  TestSlide(controller);
-  int all = 0;
-  controller->AllReduce(&failures, &all, 1, vtkCommunicator::SUM_OP);
+  testing::InitGoogleTest(&argc, argv);
+  if (GetRank() > 0)
+  {
+    testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
+    delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new TellFailures);
+  }
+  const int result = RUN_ALL_TESTS();
   vtkMultiProcessController::SetGlobalController(nullptr);
   controller->Finalize();
-  return all > 0 ? 1 : 0;
+  return result;
 }
