@@ -322,28 +322,3 @@ TYPED_TEST(Paper, SizeFieldAndMetricAreSampledAgain)
   EXPECT_EQ(sortedQualities(mesh), stored); // the qualities it worked with are the real ones
   expectSound(mesh);
 }
-
-TEST(PaperOnce, OptionsAreChecked)
-{
-  EXPECT_EQ(Options().check(false), "");
-  const auto refused = [](auto change)
-  {
-    Options options;
-    change(options);
-    return !options.check(false).empty();
-  };
-  const double nan = std::nan("");
-  EXPECT_TRUE(refused([](Options& o) { o.targetQuality = 0.0; }));
-  EXPECT_TRUE(refused([](Options& o) { o.targetQuality = 1.1; }));
-  EXPECT_TRUE(refused([=](Options& o) { o.targetQuality = nan; }));
-  EXPECT_TRUE(refused([](Options& o) { o.beta = -1.0; }));
-  EXPECT_TRUE(refused([](Options& o) { o.beta = 1.0; })); // without h*
-  EXPECT_TRUE(refused([](Options& o) { o.neighborhoodLevel = -1; }));
-  EXPECT_TRUE(refused([](Options& o) { o.maximumNumberOfIterations = -1; }));
-  EXPECT_TRUE(refused([](Options& o) { o.epsilon = 0.0; }));
-  EXPECT_TRUE(refused([](Options& o) { o.armijo = 1.0; }));
-  EXPECT_TRUE(refused([](Options& o) { o.maximumNumberOfAlternations = 0; }));
-  EXPECT_TRUE(refused([](Options& o) { o.measure = Measure::MinimumDihedralAngle; }));
-  EXPECT_TRUE(refused([](Options& o) { o.measure = static_cast<Measure>(99); }));
-  EXPECT_TRUE(refused([](Options& o) { o.algorithm = static_cast<Algorithm>(7); }));
-}

@@ -98,19 +98,6 @@ TEST(WorstFirstStops3D, GrowthBudgetIsHonouredWhileUntangling)
   EXPECT_GT(report.invertedBefore, 0);
 }
 
-TEST(WorstFirstStops3D, GrowthOfSmallMeshes)
-{
-  Options options;
-  options.growthBudget = 0.1;
-  EXPECT_EQ(growthOf(options, 12, 3), 30);
-  EXPECT_EQ(growthOf(options, 10007, 3), 1000);
-  options.growthBudget = 0.0;
-  EXPECT_EQ(growthOf(options, 12, 2), 0);
-  // Ids run out at 2^29 cells, whatever the budget is.
-  EXPECT_EQ(roomToGrow(MaximumNumberOfCells - 100), 50);
-  EXPECT_EQ(roomToGrow(MaximumNumberOfCells), 0);
-}
-
 // ---- why it stops -------------------------------------------------------------------------------
 
 /// One cell whose fourth node is the best there is for its first facet: it has all that is allowed.

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far a point may go towards another sheet: what is left of the distance, measured.
+#include "Surface/RoomLimit.h"
+
+#include "SlidingBoxes.h"
+#include "Surface/NearestInTriangle.h"
+
+using namespace meshopt;
+
+namespace
+{
+std::array<Vec<3>, 3> randomTriangle(TestRandom& random)
+{
+  std::array<Vec<3>, 3> t;
+  for (Vec<3>& x : t)
+  {
+    x = Vec<3>(random(), random(), random());
+  }
+  return t;
+}
+}
+
+/// The limit rests on the nearest point: inside, on each edge and at each corner.
+TEST(RoomLimit, TheNearestPointOfATriangleIsTheNearest)
+{
+  TestRandom random(1);
+  std::array<int, 3> kinds{}; // how many barycentric coordinates are 0
+  for (int k = 0; k < 3000; ++k)
+  {
+    const std::array<Vec<3>, 3> t = randomTriangle(random);
+    const Vec<3> x = 1.5 * Vec<3>(random(), random(), random());
+    const Vec<3> y = nearestInTriangle(t, x);
+    EXPECT_NEAR((y - x).norm(), distanceTo(t, x), 1e-12);
+    EXPECT_NEAR(distanceTo(t, y), 0.0, 1e-12); // a point of the triangle
+    int zeros = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vec<3> edge = t[(i + 1) % 3] - t[i];
+      zeros += edge.cross(y - t[i]).norm() < 1e-12;
+    }
+    ++kinds[zeros];
+  }
+  for (int n : kinds)
+  {
+    EXPECT_GT(n, 100) << "too easy: not all kinds of places";
+  }
+}
+
+/// The whole motion if it is within the limit, else as much of it as the limit allows.
+TEST(RoomLimit, APartOfTheMotion)
+{
+  TestRandom random(2);
+  for (int k = 0; k < 1000; ++k)
+  {
+    RoomLimit limit{ Vec<3>(random(), random(), random()), 0.3 * (1.0 + random()) };
+    const Vec<3> u = 2.0 * Vec<3>(random(), random(), random());
+    for (const bool bothWays : { false, true })
+    {
+      limit.bothWays = bothWays;
+      const double along = u.dot(limit.way);
+      const bool isFree = along <= limit.most && (!bothWays || along >= -limit.most);
+      const double part = limit.part(u);
+      if (isFree)
+      {
+        EXPECT_EQ(part, 1.0);
+      }
+      else
+      {
+        EXPECT_GE(part, 0.0);
+        EXPECT_LT(part, 1.0);
+        EXPECT_NEAR(std::fabs(part * along), limit.most, 1e-12);
+      }
+    }
+  }
+  const RoomLimit limit{ Vec<3>(0, 0, 2), 0.0 };
+  EXPECT_EQ(limit.part(Vec<3>(5, -3, 0)), 1.0); // along the other sheet
+  EXPECT_EQ(limit.part(Vec<3>(0, 0, -9)), 1.0); // away from it
+  EXPECT_EQ(limit.part(Vec<3>(0, 0, 1e-9)), 0.0);
+  EXPECT_EQ(limit.part(Vec<3>::Zero()), 1.0);
+}
+
+/// What the header promises: of the distance from a facet at least the wanted part is left,
+/// wherever the point wants to go. Sharp for motions straight to it.
+TEST(RoomLimit, ThePartOfTheDistanceIsLeft)
+{
+  TestRandom random(3);
+  for (int k = 0; k < 3000; ++k)
+  {
+    const std::array<Vec<3>, 3> t = randomTriangle(random);
+    const Vec<3> x = Vec<3>(random(), random(), random());
+    const Vec<3> way = nearestInTriangle(t, x) - x;
+    const double distance = distanceTo(t, x), share = 0.5 * (1.0 + random());
+    const RoomLimit limit{ way, share * distance * distance };
+    const Vec<3> u = 3.0 * Vec<3>(random(), random(), random());
+    EXPECT_GE(distanceTo(t, x + limit.part(u) * u), (1.0 - share) * distance - 1e-12);
+    EXPECT_NEAR(
+      distanceTo(t, x + limit.part(5.0 * way) * 5.0 * way), (1.0 - share) * distance, 1e-12);
+  }
+}
