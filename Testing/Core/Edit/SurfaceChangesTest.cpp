@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a surface is told of a change: the facets that go and come, the spans and the angles, against
-// a search of the whole mesh before and after.
+// What a surface is told of a change: the facets that go and come, the spans and the angles,
+// against a search of the whole mesh before and after.
 #include "Edit/SurfaceChanges.h"
 
 #include "Mesh/CavityFit.h"

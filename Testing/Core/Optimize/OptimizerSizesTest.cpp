@@ -26,7 +26,7 @@ NodalMetric<2> sizesOf(const MeshInput<2>& in, double least)
   return metric;
 }
 
-/// The metric at each point is that of the wanted sizes, times m, and the qualities are those in it.
+/// The metric at each point is that of the wanted sizes, times m; qualities are those in it.
 void expectWantedSizes(
   Result<2> run, double least, double beta, const Tensor<2>& m = Tensor<2>::Identity())
 {
