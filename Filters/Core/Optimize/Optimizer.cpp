@@ -62,6 +62,7 @@ private:
   }
   bool untangle();
   void limitGrowth();
+  void restore(const SimplexMesh<D>& mesh);
   void optimizeWith(Effort effort, double part);
   void optimizeSliding();
   bool divideAndOptimize(Effort effort, double partsBelow);
@@ -132,6 +133,20 @@ void Optimizer<D>::limitGrowth()
   this->run_.growth = std::max(0L, this->mostCells_ - this->run_.report.history.back().cells);
 }
 
+/// Back to an earlier state of the mesh.
+template <int D>
+void Optimizer<D>::restore(const SimplexMesh<D>& mesh)
+{
+  MeshEditor<D>& editor = this->run_.editor;
+  editor.mesh() = mesh;
+  // A new editor, since the old one has the marks and the free slots of the other mesh.
+  editor = MeshEditor<D>(editor.mesh());
+  if (this->run_.surface)
+  {
+    editor.makeRoomForPlaces(); // before editors of chunks may set some
+  }
+}
+
 /// Improves the worst cells with another effort and with a part of the growth that is left.
 template <int D>
 void Optimizer<D>::optimizeWith(Effort effort, double part)
@@ -173,10 +188,7 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
   const double now = run.report.history.back().worst;
   if (now < worst || (now == worst && run.report.history.back().belowTarget >= below))
   {
-    run.editor.mesh() = before;
-    // A new editor, since the old one has the marks and the free slots of the other mesh.
-    run.editor = MeshEditor<D>(run.editor.mesh());
-    run.editor.makeRoomForPlaces();
+    this->restore(before);
     run.record("divisions undone");
     run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
   }
@@ -364,10 +376,8 @@ void Optimizer<D>::giveSizesUp(
   const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, double worst)
 {
   const Run<D>& run = this->run_;
-  run.editor.mesh() = mesh;
+  this->restore(mesh);
   run.metric = metric;
-  // A new editor, since the old one has the marks and the free slots of the other mesh.
-  run.editor = MeshEditor<D>(run.editor.mesh());
   this->run_.record("sizes given up");
   run.report.sizes.isGivenUp = true;
   run.report.sizes.worstWithSizes = worst;

@@ -183,16 +183,3 @@ TYPED_TEST(PaperStops, ProgressNeverFalls)
   EXPECT_NE(run<D>(mesh, target(0.6), control).stopReason, StopReason::Aborted);
   EXPECT_GE(calls, 1);
 }
-
-TYPED_TEST(PaperStops, WithoutCellsThereIsNothingToDo)
-{
-  constexpr int D = TypeParam::dimension;
-  MeshInput<D> in;
-  in.points.push_back(Vec<D>::Zero()); // points alone are no mesh
-  SimplexMesh<D> empty, points = buildMesh(in);
-  for (SimplexMesh<D>* mesh : { &empty, &points })
-  {
-    NodalMetric<D> metric;
-    EXPECT_EQ(optimize<D>(*mesh, metric, target(0.6), {}).stopReason, StopReason::NothingToDo);
-  }
-}

@@ -65,31 +65,6 @@ TEST(SizeLimits, FixedBoundaryKeepsWhatItHas)
   EXPECT_LT(huge.cells, static_cast<long>(in.cells.size()));
 }
 
-/// In this metric the corners of the square are sharp, and two triangles in them already have the
-/// best shape.
-TEST(SizeLimits, SizesAreGivenUpWhereTheWorstWouldFall)
-{
-  const Tensor<2> m = (Tensor<2>() << 5.05, -4.95, -4.95, 5.05).finished(); // 45 degrees, 1 : 10
-  const MeshInput<2> in = jitteredGrid<2>(8, 0.0);
-  const double angle = std::acos(4.95 / 5.05), sine = std::sin(0.5 * angle);
-  const double best = 1.5 * std::sqrt(3.0) * std::sin(angle) / ((1.0 + sine) * (1.0 + sine));
-  const Result<2> undone = optimized<2>(in, constantMetric<2>(m, 0.015), options(), true);
-  EXPECT_NEAR(undone.report.worstBefore, best, 1e-3);
-  const long before = static_cast<long>(in.cells.size());
-  EXPECT_LE(undone.cells, before + growthOf(options(), before, 2)); // as without sizes
-  EXPECT_EQ(
-    undone.report.history[undone.report.history.size() - 1].worst, undone.report.worstAfter);
-  const auto& rows = undone.report.history;
-  EXPECT_TRUE(std::any_of(
-    rows.begin(), rows.end(), [](const PassRecord& row) { return row.stage == "sizes given up"; }));
-  EXPECT_TRUE(undone.report.sizes.isGivenUp);
-  EXPECT_LT(undone.report.sizes.worstWithSizes, undone.report.worstBefore);
-  const Result<2> made = optimized<2>(in, constantMetric<2>(m, 0.015), options(0.0, 0.35), true);
-  EXPECT_NEAR(made.cells / made.predicted, 1.0, 0.1);
-  EXPECT_FALSE(made.report.sizes.isGivenUp);
-  EXPECT_LE(made.report.worstAfter, best + 1e-9); // no mesh has more
-}
-
 /// Flat cells are repaired before the sizes are followed. The growth budget is for both that and
 /// what follows once the sizes are given up.
 TEST(SizeLimits, TheGrowthBudgetIsForTheRepairToo)

@@ -186,19 +186,6 @@ TYPED_TEST(WorstFirstStops, StopsAtTheTarget)
   EXPECT_EQ(bitsOf(good), before);
 }
 
-TYPED_TEST(WorstFirstStops, WithoutCellsThereIsNothingToDo)
-{
-  constexpr int D = TypeParam::dimension;
-  MeshInput<D> in;
-  in.points.push_back(Vec<D>::Zero()); // points alone are no mesh
-  SimplexMesh<D> empty, points = buildMesh(in);
-  for (SimplexMesh<D>* mesh : { &empty, &points })
-  {
-    NodalMetric<D> metric;
-    EXPECT_EQ(optimize<D>(*mesh, metric, target(0.6), {}).stopReason, StopReason::NothingToDo);
-  }
-}
-
 TYPED_TEST(WorstFirstStops, CanBeAborted)
 {
   constexpr int D = TypeParam::dimension;

@@ -71,9 +71,6 @@ TYPED_TEST(WorstFirst, GoodMeshIsLeftAlone)
   const Report report = run<D>(mesh, target(0.4));
   EXPECT_EQ(report.stopReason, StopReason::TargetReached);
   EXPECT_EQ(bitsOf(mesh), before);
-  SimplexMesh<D> empty = buildMesh(MeshInput<D>());
-  NodalMetric<D> metric;
-  EXPECT_EQ(optimize<D>(empty, metric, target(0.5), {}).stopReason, StopReason::NothingToDo);
 }
 
 TYPED_TEST(WorstFirst, Untangles)
