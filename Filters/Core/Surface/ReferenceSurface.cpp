@@ -57,21 +57,22 @@ void ReferenceSurface::add(
 void ReferenceSurface::finish(double tolerance, double least)
 {
   this->tolerance_ = tolerance;
-  std::vector<int> ids;
-  std::vector<Box> boxes;
+  std::vector<BoxTree::Item> all;
+  std::vector<std::vector<BoxTree::Item>> ofPatch;
   for (const Facet& f : this->facets_)
   {
-    Box box;
-    for (const Vec<3>& x : f.x)
-    {
-      box.extend(Eigen::Vector3d(x));
-    }
-    ids.push_back(static_cast<int>(ids.size()));
-    boxes.push_back(box);
+    const auto patch = static_cast<std::size_t>(f.patch);
+    ofPatch.resize(std::max(ofPatch.size(), patch + 1));
+    all.push_back({ static_cast<int>(all.size()), BoxTree::around(f.x) });
+    ofPatch[patch].push_back(all.back());
   }
-  // Facets are known by their numbers: the tree holds these, in an order of its own.
-  this->tree_.init(ids.begin(), ids.end(), boxes.begin(), boxes.end());
-  // The tree comes first: room() searches it.
+  this->all_.build(all);
+  this->patches_.resize(ofPatch.size());
+  for (std::size_t k = 0; k < ofPatch.size(); ++k)
+  {
+    this->patches_[k].build(ofPatch[k]);
+  }
+  // The trees come first: room() searches it.
   std::vector<int> near;
   for (Facet& f : this->facets_)
   {
@@ -90,7 +91,7 @@ double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
     box.extend(Eigen::Vector3d(x + reach));
     box.extend(Eigen::Vector3d(x - reach));
   }
-  this->findNear(box, None, near);
+  findNear(this->all_, box, near);
   double room = this->tolerance_;
   for (int k : near)
   {
@@ -111,47 +112,30 @@ double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
   return room;
 }
 
-/// Branch and bound over the boxes of the tree.
 int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
 {
-  struct Search
+  Vec<3> nearest = Vec<3>::Zero(); // x and `there` may be the same
+  int facet = -1;
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](int k)
   {
-    using Scalar = double;
-    const ReferenceSurface& surface;
-    Index patch;
-    Eigen::Vector3d x;
-    Vec<3> best = Vec<3>::Zero();
-    double distance = std::numeric_limits<double>::infinity();
-    int facet = -1;
-
-    double minimumOnVolume(const Box& box) const { return box.squaredExteriorDistance(this->x); }
-    double minimumOnObject(int k)
+    const Vec<3> y = nearestInTriangle(this->facets_[k].x, x);
+    const double d = (y - x).squaredNorm();
+    // Of equals the first: the order in which the tree is searched must not matter.
+    if (d < least || (d == least && k < facet))
     {
-      const Facet& f = this->surface.facets_[k];
-      if (f.patch != this->patch)
-      {
-        // Facets of other patches are in the same tree: they never are the nearest.
-        return std::numeric_limits<double>::infinity();
-      }
-      const Vec<3> y = nearestInTriangle(f.x, Vec<3>(this->x));
-      const double d = (y - this->x).squaredNorm();
-      // Of equals the first: the order in which the tree is searched must not matter.
-      if (d < this->distance || (d == this->distance && k < this->facet))
-      {
-        this->distance = d;
-        this->best = y;
-        this->facet = k;
-      }
-      return d;
+      least = d;
+      nearest = y;
+      facet = k;
     }
+    return d;
   };
-  Search search{ *this, patch, Eigen::Vector3d(x) };
-  if (!this->facets_.empty())
+  if (static_cast<std::size_t>(patch) < this->patches_.size())
   {
-    Eigen::BVMinimize(this->tree_, search);
+    this->patches_[patch].findNearest(x, look);
   }
-  there = search.best;
-  return search.facet;
+  there = nearest;
+  return facet;
 }
 
 /// Only facets that face x are in its way, not those beside it.
@@ -159,9 +143,8 @@ std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
 {
   constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
   const double reach = this->tolerance_ / RoomOfWalls;
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
   std::vector<int> near;
-  this->findNear(Box(Eigen::Vector3d(x) - margin, Eigen::Vector3d(x) + margin), None, near);
+  findNear(this->all_, BoxTree::widened(Box(Eigen::Vector3d(x)), reach), near);
   std::vector<RoomLimit> limits;
   for (int k : near)
   {
@@ -197,32 +180,10 @@ double ReferenceSurface::tolerance(int facet) const
   return Share * this->facets_[facet].tolerance;
 }
 
-/// All facets whose boxes touch the box; the order is that of the tree, which depends on the
-/// surface only.
-void ReferenceSurface::findNear(const Box& box, Index patch, std::vector<int>& found) const
+/// All facets whose boxes touch the box.
+void ReferenceSurface::findNear(const BoxTree& tree, const Box& box, std::vector<int>& found)
 {
-  struct Search
-  {
-    const ReferenceSurface& surface;
-    const Box& box;
-    Index patch;
-    std::vector<int>& found;
-
-    bool intersectVolume(const Box& other) const { return other.intersects(this->box); }
-    bool intersectObject(int k)
-    {
-      if (this->patch == None || this->surface.facets_[k].patch == this->patch)
-      {
-        this->found.push_back(k);
-      }
-      return false; // go on
-    }
-  };
   found.clear();
-  if (!this->facets_.empty())
-  {
-    Search search{ *this, box, patch, found };
-    Eigen::BVIntersect(this->tree_, search);
-  }
+  tree.findTouching(box, [&](int k) { found.push_back(k); });
 }
 }

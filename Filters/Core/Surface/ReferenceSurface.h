@@ -8,10 +8,9 @@
 #ifndef meshopt_Surface_ReferenceSurface_h
 #define meshopt_Surface_ReferenceSurface_h
 
+#include "Surface/BoxTree.h"
 #include "Surface/RoomLimit.h"
 #include "Surface/SurfaceChange.h"
-
-#include <unsupported/Eigen/BVH>
 
 #include <vector>
 
@@ -98,7 +97,7 @@ private:
     double cosine;      ///< between the normals
     double area;        ///< of the overlay, twice
   };
-  using Box = Eigen::AlignedBox<double, 3>;
+  using Box = BoxTree::Box;
 
   /// What is left of the tolerance, beside needles and the sides of curves.
   static constexpr double Share = 0.75;
@@ -115,11 +114,11 @@ private:
   bool isNear(const Piece& piece, const std::vector<int>& near, double part = 1.0) const;
   bool isInsideOut(const Piece& piece, const std::vector<int>& near) const;
   double room(const Facet& f, std::vector<int>& near) const;
-  /// `patch`: None for all.
-  void findNear(const Box& box, Index patch, std::vector<int>& found) const;
+  static void findNear(const BoxTree& tree, const Box& box, std::vector<int>& found);
 
   std::vector<Facet> facets_;
-  Eigen::KdBVH<double, 3, int> tree_;
+  BoxTree all_;
+  std::vector<BoxTree> patches_; ///< by number: what is nearest to a point in each
   double tolerance_ = 0.0;
 };
 }

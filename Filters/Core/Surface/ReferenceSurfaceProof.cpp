@@ -170,19 +170,15 @@ bool ReferenceSurface::coversAnew(
   {
     for (const Piece& piece : *pieces)
     {
-      for (const Vec<3>& x : piece.x)
-      {
-        box.extend(Eigen::Vector3d(x));
-      }
+      box.extend(BoxTree::around(piece.x));
     }
   }
   // Facets of the reference that are farther away have no say: see Reach.
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(Reach * this->tolerance_);
-  box = Box(box.min() - margin, box.max() + margin);
+  box = BoxTree::widened(box, Reach * this->tolerance_);
   // Of each thread: chunks ask at the same time.
   thread_local std::vector<int> near;
   thread_local std::vector<std::uint8_t> unclear;
-  this->findNear(box, None, near);
+  findNear(this->all_, box, near);
   unclear.assign(come.size(), 0);
   for (int k : near)
   {
@@ -346,15 +342,12 @@ bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& n
 
 ReferenceSurface::Offset ReferenceSurface::offset(const Piece& piece) const
 {
-  Box box;
-  for (const Vec<3>& x : piece.x)
-  {
-    box.extend(Eigen::Vector3d(x));
-  }
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(Reach * this->tolerance_);
-  box = Box(box.min() - margin, box.max() + margin);
   std::vector<int> near;
-  this->findNear(box, piece.patch, near);
+  if (static_cast<std::size_t>(piece.patch) < this->patches_.size())
+  {
+    findNear(this->patches_[piece.patch],
+      BoxTree::widened(BoxTree::around(piece.x), Reach * this->tolerance_), near);
+  }
   const auto isSame = [&](int k)
   {
     return std::is_permutation(

@@ -22,44 +22,22 @@ double squaredDistance(const std::array<Vec<3>, 2>& edge, const Vec<3>& x)
 
 void SharpEdges::finish()
 {
-  std::vector<int> ids;
-  std::vector<Box> boxes;
-  for (const auto& [a, b] : this->edges_)
+  std::vector<BoxTree::Item> items;
+  for (const auto& edge : this->edges_)
   {
-    Box box{ Eigen::Vector3d(a) };
-    box.extend(Eigen::Vector3d(b));
-    ids.push_back(static_cast<int>(ids.size()));
-    boxes.push_back(box);
+    items.push_back({ static_cast<int>(items.size()), BoxTree::around(edge) });
   }
-  this->tree_.init(ids.begin(), ids.end(), boxes.begin(), boxes.end());
+  this->tree_.build(items);
 }
 
+/// Where there was no sharp edge, none may come.
 bool SharpEdges::isNear(const Vec<3>& a, const Vec<3>& b, double distance) const
 {
-  struct Search
-  {
-    Box box;
-    std::vector<int> found;
-
-    bool intersectVolume(const Box& other) const { return other.intersects(this->box); }
-    bool intersectObject(int k)
-    {
-      this->found.push_back(k);
-      return false; // go on
-    }
-  };
-  if (this->edges_.empty())
-  {
-    // Then no edge was sharp, and none may become so.
-    return false;
-  }
   // An edge that is near to some part of the line has a box that meets this one.
-  Search search;
-  search.box.extend(Eigen::Vector3d(a));
-  search.box.extend(Eigen::Vector3d(b));
-  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(distance);
-  search.box = Box(search.box.min() - margin, search.box.max() + margin);
-  Eigen::BVIntersect(this->tree_, search);
+  const BoxTree::Box box = BoxTree::widened(
+    BoxTree::around(std::array<Vec<3>, 2>{ a, b }), distance);
+  std::vector<int> found;
+  this->tree_.findTouching(box, [&](int k) { found.push_back(k); });
 
   // The distance from one edge is convex: where it is kept at both ends, it is kept between them.
   // What has no such edge is halved.
@@ -76,7 +54,7 @@ bool SharpEdges::isNear(const Vec<3>& a, const Vec<3>& b, double distance) const
       return squaredDistance(this->edges_[k], p) <= limit &&
         squaredDistance(this->edges_[k], q) <= limit;
     };
-    if (std::any_of(search.found.begin(), search.found.end(), isNearTo))
+    if (std::any_of(found.begin(), found.end(), isNearTo))
     {
       continue;
     }

@@ -4,9 +4,7 @@
 #ifndef meshopt_Surface_SharpEdges_h
 #define meshopt_Surface_SharpEdges_h
 
-#include "Mesh/Types.h"
-
-#include <unsupported/Eigen/BVH>
+#include "Surface/BoxTree.h"
 
 #include <array>
 #include <vector>
@@ -24,10 +22,8 @@ public:
   bool isNear(const Vec<3>& a, const Vec<3>& b, double distance) const;
 
 private:
-  using Box = Eigen::AlignedBox<double, 3>;
-
   std::vector<std::array<Vec<3>, 2>> edges_;
-  Eigen::KdBVH<double, 3, int> tree_;
+  BoxTree tree_;
 };
 }
 
