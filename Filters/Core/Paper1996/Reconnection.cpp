@@ -118,7 +118,7 @@ bool Reconnection<D, Shape>::improveCell(Index c)
   // Only clusters that have changed since this cell last failed.
   this->clusters_.gather(this->editor_, c, this->memory_, this->memory_.failed[c]);
   return this->clusters_.forEach(this->mesh_,
-    [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+    [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
     {
       if (!this->isAllowed(kind))
       {
@@ -126,12 +126,12 @@ bool Reconnection<D, Shape>::improveCell(Index c)
       }
       ++this->result_.tried[static_cast<int>(kind)];
       // A filling must lift the worst cell of its cluster by the least gain, as a fraction.
-      const double worst = part.cluster.worst;
-      if (!this->trial_.make(part, apex, worst + this->parameters_.leastGain * std::abs(worst)))
+      const double worst = around.cluster.worst;
+      if (!this->trial_.make(around, apex, worst + this->parameters_.leastGain * std::abs(worst)))
       {
         return false;
       }
-      this->touch(this->trial_.made(), part.cluster.points);
+      this->touch(this->trial_.made(), around.cluster.points);
       ++this->result_.done[static_cast<int>(kind)];
       return true;
     });
@@ -221,7 +221,7 @@ bool Reconnection<D, Shape>::lookAheadAt(Index c)
   // 0: all clusters, whenever they changed: what failed alone may gain with a look-ahead.
   this->clusters_.gather(this->editor_, c, this->memory_, 0);
   return this->clusters_.forEach(this->mesh_,
-    [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+    [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
     {
       // Moving a node to the centre first does not help the repositioning that follows.
       if (!this->isAllowed(kind) || kind == Filling::Centre)
@@ -229,12 +229,12 @@ bool Reconnection<D, Shape>::lookAheadAt(Index c)
         return false;
       }
       ++this->result_.aheadTried;
-      if (!this->ahead_.improve(part, apex))
+      if (!this->ahead_.improve(around, apex))
       {
         return false;
       }
       ++this->result_.aheadDone;
-      this->touch(this->ahead_.changed(), part.cluster.points);
+      this->touch(this->ahead_.changed(), around.cluster.points);
       return true;
     });
 }

@@ -156,7 +156,7 @@ private:
   UnitTensors<D> units_;
   Proposal<D> proposal_;
   std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
-  bool overlaps_;                     // cells may overlap
+  bool tangled_;                      // cells may overlap
 
   int round_ = 0;
   long mostCells_ = 0;       // the brake, see BrakeFactor
