@@ -114,7 +114,7 @@ def rooms():
     spec = importlib.util.spec_from_file_location("rooms", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    return module.ROOMS, module.MODULES
+    return module.ROOMS, module.MODULES, module.PRIVATE
 
 
 # ---- numbering -----------------------------------------------------------------------------------
@@ -337,88 +337,125 @@ def draw_band():
 
 # ---- the life of a run ---------------------------------------------------------------------------
 def draw_run():
-    s = Svg(900, 560)
+    s = Svg(900, 622)
+    draw_stages(s)
+    draw_pass(s, 227)
+    draw_change(s, 362)
+    s.text((450, 605), "Only the judge accepts a change, and only the editor makes it.", 12, color=SOFT)
+    return s
+
+
+def draw_stages(s):
     s.text((20, 28), "The stages of a run", 15, "start", bold=True)
     stages = [("import", "grid to SimplexMesh"), ("untangle", "if cells are inverted"), ("sizes", "if lengths are wanted"),
               ("worst first", "up to the target"), ("polish", "the worst few cells"), ("export", "SimplexMesh to grid")]
-    w, gap = 130, 18
+    w, gap, middle_of = 130, 18, {}
     for k, (name, what) in enumerate(stages):
         x = 20 + k * (w + gap)
+        middle_of[name] = x + w / 2
         outside = name in ("import", "export")
         s.box(x, 45, w, 54, [name, what], fill=PALE if outside else BLUE, stroke=SOFT if outside else BLUE_LINE, size=13)
         if k:
             s.line((x - gap + 1, 72), (x - 1, 72), SOFT, 1.8, arrow=True)
-    s.text((20, 122), "grey: Filters/Bridge and Filters/MeshOptimize; blue: Filters/Core. Paper 1996 runs its own stages instead of the blue ones.",
-           12, "start", color=SOFT)
+    left, right = middle_of["worst first"] - w / 2, middle_of["polish"] + w / 2
+    s.box(left, 124, right - left, 66, ["long edges divided", "if the surface takes part, up to the target,",
+                                          "as long as the worst quality rises"])
+    s.line((middle_of["polish"], 100), (middle_of["polish"], 122), SOFT, 1.8, arrow=True)
+    s.line((middle_of["worst first"], 124), (middle_of["worst first"], 101), SOFT, 1.8, arrow=True)
+    for k, line in enumerate(("grey: Filters/Bridge and Filters/MeshOptimize", "blue: Filters/Core",
+                              "Paper 1996 runs its own stages instead of the blue ones.")):
+        s.text((20, 138 + 20 * k), line, 12, "start", color=SOFT)
 
-    s.text((20, 165), "One pass", 15, "start", bold=True)
-    s.box(20, 182, 190, 66, ["collect", "cells under the target", "that no cap holds"], size=13)
-    s.box(250, 182, 190, 66, ["chunked pass", "cells shared out,", "a queue for each chunk"], size=13)
-    s.box(480, 182, 190, 66, ["improver", "the worst cell of the queue:", "operations, one by one"], size=13)
+
+def draw_pass(s, y):
+    s.text((20, y), "One pass", 15, "start", bold=True)
+    s.box(20, y + 17, 190, 66, ["collect", "cells under the target", "that no cap holds"], size=13)
+    s.box(250, y + 17, 190, 66, ["chunked pass", "cells shared out,", "a queue for each chunk"], size=13)
+    s.box(480, y + 17, 190, 66, ["improver", "the worst cell of the queue:", "operations, one by one"], size=13)
     for x in (212, 442):
-        s.line((x, 215), (x + 36, 215), SOFT, 1.8, arrow=True)
-    s.line((575, 182), (575, 168), SOFT, 1.8)
-    s.line((575, 168), (345, 168), SOFT, 1.8)
-    s.line((345, 168), (345, 180), SOFT, 1.8, arrow=True)
-    s.text((460, 160), "changed cells come back to the queue", 12, color=SOFT)
+        s.line((x, y + 50), (x + 36, y + 50), SOFT, 1.8, arrow=True)
+    s.line((575, y + 17), (575, y + 3), SOFT, 1.8)
+    s.line((575, y + 3), (345, y + 3), SOFT, 1.8)
+    s.line((345, y + 3), (345, y + 15), SOFT, 1.8, arrow=True)
+    s.text((460, y - 5), "changed cells come back to the queue", 12, color=SOFT)
 
-    s.text((692, 165), "in the order tried", 12, "start", bold=True)
-    s.text((888, 165), "least level", 11, "end", color=SOFT)
+    s.text((692, y), "in the order tried", 12, "start", bold=True)
+    s.text((888, y), "least level", 11, "end", color=SOFT)
     for k, (name, level) in enumerate(operations()):
-        s.text((692, 190 + 21 * k), name, 12.5, "start")
-        s.text((888, 190 + 21 * k), level, 11, "end", color=SOFT)
+        s.text((692, y + 25 + 21 * k), name, 12.5, "start")
+        s.text((888, y + 25 + 21 * k), level, 11, "end", color=SOFT)
 
-    s.text((20, 300), "One change", 15, "start", bold=True)
-    s.box(20, 320, 190, 66, ["operation", "looks for a better", "filling or place"], fill=NEW, stroke=NEW_LINE)
-    s.box(250, 320, 190, 66, ["proposal", "cavity, cells or moves,", "worst before and after"], fill=NEW, stroke=NEW_LINE)
-    s.box(480, 320, 190, 66, ["judge", "quality, topology,", "growth, guard"], fill=NEW, stroke=NEW_LINE)
+
+def draw_change(s, y):
+    s.text((20, y), "One change", 15, "start", bold=True)
+    s.box(20, y + 20, 190, 66, ["operation", "looks for a better", "filling or place"], fill=NEW, stroke=NEW_LINE)
+    s.box(250, y + 20, 190, 66, ["proposal", "cavity, cells or moves,", "worst before and after"], fill=NEW, stroke=NEW_LINE)
+    s.box(480, y + 20, 190, 66, ["judge", "quality, topology, surface,", "growth, guard"], fill=NEW, stroke=NEW_LINE)
     for x in (212, 442):
-        s.line((x, 353), (x + 36, 353), SOFT, 1.8, arrow=True)
-    s.box(480, 440, 190, 66, ["editor", "replaces or moves,", "writes the journal"], fill=NEW, stroke=NEW_LINE)
-    s.line((575, 388), (575, 438), SOFT, 1.8, arrow=True)
-    s.text((585, 418), "accepted", 12, "start", color=NEW_LINE)
-    s.line((480, 375), (458, 375), SOFT, 1.8)
-    s.line((458, 375), (458, 473), SOFT, 1.8)
-    s.line((458, 473), (212, 473), SOFT, 1.8, arrow=True)
-    s.text((335, 464), "refused: the mesh is as it was", 12, color=BAD_LINE)
-    s.box(20, 440, 190, 66, ["next operation", "or the cell is stamped:", "failed at this time"], fill=PALE, stroke=SOFT)
-    s.line((672, 473), (716, 473), SOFT, 1.8, arrow=True)
-    s.box(718, 440, 165, 66, ["mesh", "cells, places, metric:", "undone bit for bit"], fill=PALE, stroke=SOFT)
-    s.text((450, 543), "Only the judge accepts a change, and only the editor makes it.", 12, color=SOFT)
-    return s
+        s.line((x, y + 53), (x + 36, y + 53), SOFT, 1.8, arrow=True)
+    s.box(480, y + 140, 190, 66, ["editor", "replaces or moves,", "writes the journal"], fill=NEW, stroke=NEW_LINE)
+    s.line((575, y + 88), (575, y + 138), SOFT, 1.8, arrow=True)
+    s.text((585, y + 118), "accepted", 12, "start", color=NEW_LINE)
+    s.line((480, y + 75), (458, y + 75), SOFT, 1.8)
+    s.line((458, y + 75), (458, y + 173), SOFT, 1.8)
+    s.line((458, y + 173), (212, y + 173), SOFT, 1.8, arrow=True)
+    s.text((335, y + 164), "refused: the mesh is as it was", 12, color=BAD_LINE)
+    s.box(20, y + 140, 190, 66, ["next operation", "or the cell is stamped:", "failed at this time"], fill=PALE, stroke=SOFT)
+    s.line((672, y + 173), (716, y + 173), SOFT, 1.8, arrow=True)
+    s.box(718, y + 140, 165, 66, ["mesh", "cells, places, metric:", "undone bit for bit"], fill=PALE, stroke=SOFT)
 
 
 # ---- rooms ---------------------------------------------------------------------------------------
+STEP, HEIGHT = 54, 40
+MODULE_WORDS = {"ParaViewPlugin": "XML, icons, help", "MeshOptimize": "see on the right", "Thermoelastic": "its filter",
+                "TetGen": "AGPL, optional", "Bridge": "between grid and core"}
+CORE_WORDS = {"Optimize": "optimize()", "Thermoelastic": "analyse()", "WorstFirst": "fast engine", "Sizes": "wanted lengths",
+              "Paper1996": "the paper's", "Run": "options, report, chunked pass", "Operations": "a file each; they only propose",
+              "Edit": "proposal, judge", "Reposition": "where to put nodes", "Surface": "curves, patches", "Bound": "caps, bounds",
+              "Quality": "the measures", "Metric": "tensors, sizes", "Mesh": "SimplexMesh, MeshEditor", "Base": "control, clock"}
+PRIVATE_WORDS = {"the filters": "classes, properties, requests of VTK", "Tasks": "all grids of the input; warnings",
+                 "Rounds": "one mesh on many ranks", "OneGrid": "one grid through the optimizer",
+                 "Boundary": "what a boundary slides along, what rides on it", "Grid": "grid to core, back",
+                 "QualityMinMax": "work of this filter", "SolutionMetric": "work of this filter",
+                 "Request": "what is asked for", "Ranks": "a mesh divided among them"}
+
+
+def draw_ladder(s, x, y, width, rows):
+    """Rows of rooms, each a list of names, a table of words, a fill and a stroke. Returns the lower end."""
+    for k, (names, words, fill, stroke) in enumerate(rows):
+        w = width / len(names)
+        for i, name in enumerate(names):
+            s.box(x + i * w + 4, y + k * STEP, w - 8, HEIGHT, [name, *([words[name]] if name in words else [])], fill, stroke, 12)
+        if k + 1 < len(rows):
+            s.line((x + width / 2, y + k * STEP + HEIGHT + 1), (x + width / 2, y + (k + 1) * STEP - 1), SOFT, 1.6, arrow=True)
+    return y + len(rows) * STEP - (STEP - HEIGHT)
+
+
+def draw_bracket(s, x, y, end, words, stroke):
+    s.line((x, y), (x, end), stroke, 2)
+    for k, line in enumerate(words):
+        s.text((x - 9, (y + end) / 2 + 4 - 10 * (len(words) - 1) + 20 * k), line, 13 if k == 0 else 12, "end", bold=k == 0,
+               color=stroke if k == 0 else SOFT)
+
+
 def draw_rooms():
-    levels, modules = rooms()
-    step, height = 46, 32
-    s = Svg(900, 90 + step * (len(levels) + 3))
+    levels, modules, private = rooms()
+    above = [(["ParaViewPlugin"], MODULE_WORDS, PALE, SOFT)] + [(row, MODULE_WORDS, BLUE, BLUE_LINE) for row in reversed(modules[1:])]
+    core = [(row, CORE_WORDS, NEW, NEW_LINE) for row in reversed(levels)]
+    inside = [(row, PRIVATE_WORDS, BLUE, BLUE_LINE) for row in reversed(private)]
+    top = 74
+    s = Svg(900, top + STEP * (len(above) + len(core)) + 22)
     s.text((450, 28), "Who may include whom: what stands below, never what stands above or beside", 15, bold=True)
-    y = 50
-    rows = [(["ParaViewPlugin"], PALE, SOFT)]
-    rows += [([f"Filters/{m}" for m in row], BLUE, BLUE_LINE) for row in reversed(modules[1:])]
-    rows += [(row, NEW, NEW_LINE) for row in reversed(levels)]
-    top_of_core = None
-    for names, fill, stroke in rows:
-        if fill == NEW and top_of_core is None:
-            top_of_core = y
-        w = 530 / len(names) - 10
-        for k, name in enumerate(names):
-            s.box(135 + k * (530 / len(names)), y, w, height, [name], fill, stroke, 12)
-        y += step
-    for k in range(len(rows) - 1):
-        s.line((395, 50 + step * k + height + 1), (395, 50 + step * (k + 1) - 1), SOFT, 1.6, arrow=True)
-    what = {"Optimize": "optimize(), analyse()", "WorstFirst": "schedules", "Run": "options, report, chunked pass",
-            "Operations": "a file each; they only propose", "Edit": "proposal, judge", "Reposition": "where to put nodes",
-            "Surface": "curves, patches; caps, bounds", "Quality": "the measures", "Metric": "tensors, sizes",
-            "Mesh": "SimplexMesh, MeshEditor", "Base": "control, clock", "Filters/Bridge": "between grid and core"}
-    for k, (names, fill, _) in enumerate(rows):
-        if names[0] in what:
-            s.text((672, 50 + step * k + 21), what[names[0]], 11, "start", color=SOFT)
-    s.line((122, top_of_core), (122, y - step + height), NEW_LINE, 2)
-    s.text((112, (top_of_core + y) / 2 - 10), "Filters/Core", 13, "end", bold=True, color=NEW_LINE)
-    s.text((112, (top_of_core + y) / 2 + 10), "no VTK", 12, "end", color=SOFT)
-    s.text((395, y + 12), "Testing/Core/rooms.py holds it.", 12, color=SOFT)
+    s.text((296, 60), "Modules, and rooms of the core", 13, bold=True, color=SOFT)
+    draw_bracket(s, 107, top + STEP, top + STEP * len(above) - (STEP - HEIGHT), ["Filters"], BLUE_LINE)
+    end = draw_ladder(s, 114, top, 366, above + core)
+    draw_bracket(s, 107, top + STEP * len(above), end, ["Filters/Core", "no VTK"], NEW_LINE)
+
+    s.text((704, 60), "Inside Filters/MeshOptimize", 13, bold=True, color=SOFT)
+    below = draw_ladder(s, 520, top, 370, inside)
+    s.text((705, below + 26), "All but the filters stand in Private.", 12, color=SOFT)
+    s.text((705, below + 46), "Each may include Filters/Bridge and Filters/Core.", 12, color=SOFT)
+    s.text((297, end + 24), "Testing/Core/rooms.py holds both.", 12, color=SOFT)
     return s
 
 

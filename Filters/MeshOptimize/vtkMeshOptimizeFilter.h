@@ -129,8 +129,9 @@ public:
   ///@{
   /**
    * Stop once the worst quality is at least this (WorstFirst with the effort Best continues). Range
-   * ]0, 1], default 0.6; 1: continue as long as something improves. Cells under the target are
-   * counted as BelowTarget in the history.
+   * [0, 1], default 0.6; 1: continue as long as something improves. 0 is an error when the filter
+   * runs: cells without volume would be good enough. Cells under the target are counted as
+   * BelowTarget in the history.
    */
   vtkSetClampMacro(TargetQuality, double, 0.0, 1.0);
   vtkGetMacro(TargetQuality, double);

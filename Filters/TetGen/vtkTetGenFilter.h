@@ -134,8 +134,9 @@ public:
   /**
    * Marks the compartment around the point (x, y, z). Its tetrahedra have `attribute`, a whole
    * number, in the array `Region`, and are no larger than `maximumVolume` (0: no limit; if
-   * MaximumVolume is set, too, both limits hold). A point outside of the mesh gives a warning or,
-   * outside of the convex hull, an error.
+   * MaximumVolume is set, too, both limits hold). While the surface is kept, tetrahedra at a coarse
+   * surface stay larger. A point outside of the mesh gives a warning or, outside of the convex
+   * hull, an error.
    */
   void AddRegion(double x, double y, double z, double attribute, double maximumVolume);
   void RemoveAllRegions();

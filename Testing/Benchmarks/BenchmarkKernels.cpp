@@ -46,7 +46,7 @@ struct Edit
 };
 
 /// A cell and one of its edges or facets.
-struct Place
+struct EdgeOrFacet
 {
   Index cell;
   int local;
@@ -60,7 +60,7 @@ struct Bench
   MeshEditor<3> editor;
   QualityModel<3, Shape> model;
   std::vector<Corners<3>> elements;
-  std::vector<Place> edges, facets;
+  std::vector<EdgeOrFacet> edges, facets;
   std::vector<Index> nodes;
   std::vector<Edit> edits;
   double secondsPerTet = 0.0;
@@ -255,7 +255,7 @@ void edgeRemoval(benchmark::State& state, bool all)
   const InTets count(state);
   for (auto _ : state)
   {
-    const Place& at = bench.edges[k++ % 1024];
+    const EdgeOrFacet& at = bench.edges[k++ % 1024];
     const double above = all ? Never : bench.mesh.quality(at.cell);
     benchmark::DoNotOptimize(removal.propose(bench.editor, bench.model, at.cell, at.local, above));
     cells += removal.cavity().size();
@@ -271,7 +271,7 @@ void faceRemoval(benchmark::State& state)
   const InTets count(state);
   for (auto _ : state)
   {
-    const Place& at = bench.facets[k++ % 1024];
+    const EdgeOrFacet& at = bench.facets[k++ % 1024];
     benchmark::DoNotOptimize(
       removal.propose(bench.editor, bench.model, at.cell, at.local, bench.mesh.quality(at.cell)));
   }

@@ -19,10 +19,54 @@ namespace
 constexpr double pi = 3.14159265358979323846;
 constexpr double shapeConstant = MeanEdgeShape<3>::constant;
 
-/// How well a maximum is known where it sets a bound: relative.
-constexpr double exactly = 1e-13;
 /// The dihedral angle of the regular tetrahedron.
 const double bestAngle = std::acos(1.0 / 3.0);
+
+/// How well a maximum is known where it sets a bound: relative. Some hundred times the rounding
+/// error; with less the steps would not end, with more the bound would be too high by it.
+constexpr double Exactly = 1e-13;
+/// Qualities that differ by less, relatively, count as equal. Above what rounding does to them
+/// (about 1e-14), or levels that are reached would seem to be missed; below all tolerances.
+constexpr double Rounding = 1e-12;
+/// Stands for a bound that is not known: above each lambda, so that it is always valid.
+constexpr double NoBound = 1e30;
+/// Where the search for the best node begins: its height over the facet, as a part of the
+/// perimeter. That of a regular apex, sqrt(2/3) / 3, rounded; another one only takes longer.
+constexpr double ApexHeight = 0.27;
+/// Newton steps: about a dozen are taken, on needles, too. Where they do not do, no bound is known,
+/// so that there should be some to spare.
+constexpr int MostSteps = 60;
+/// Halvings of a step: the shortest is 1e-12 of it, and moves the node by little more than rounding
+/// does.
+constexpr int MostHalvings = 40;
+/// A step leaves the node at least this part of its height. Nearer to the facet the root is so
+/// steep that the next step is useless; with a larger part a node too high comes down slowly.
+constexpr double LeastHeight = 0.1;
+/// Where the quality does not rise any more, steps go on while each makes the slope smaller by this
+/// factor. Newton's do so by far unless rounding stops them.
+constexpr double Falling = 0.5;
+/// Where the search for the best tetrahedron at an angle begins: near the radius of the regular
+/// one. The best radii are from 0.77 to 1.04, and five Newton steps find them to the last bit.
+constexpr double RadiusAtEdge = 0.85;
+constexpr int StepsAtEdge = 8;
+/// Tries of false position: about 40 are taken for the smallest width. Fewer leave it wider.
+constexpr int MostTries = 100;
+/// How far a try stays away from both ends, as a part of the wanted width. Under 1/2, so that two
+/// tries close the interval once the zero is found; with much less, rounding would decide on which
+/// side of the zero they are.
+constexpr double OffEnds = 0.4;
+/// How well a maximum is known where an angle is wanted, as a part of the width of that angle: what
+/// is left widens the interval of angles, and must be small beside the width.
+constexpr double PartOfWidth = 3e-3;
+/// What an error of the angle does to a quality, relatively (views of facets have that error, too),
+/// and to the quality of two tetrahedra. Both rounded up: smaller ones would not be certain.
+constexpr double ViewErrors = 8.0, PairErrors = 100.0;
+/// While the level known to be reached is below this part of the forbidden one, false position
+/// knows too little of the curve: the level then falls by a factor.
+constexpr double FarBelow = 0.1, FallByFactor = 0.3;
+/// False position keeps this part of the interval away from both its ends. With less, an end that
+/// is almost right leaves the other one where it is; with more, good guesses are cut off.
+constexpr double LeastPart = 0.02;
 
 double cubed(double x) { return x * x * x; }
 
@@ -65,15 +109,15 @@ struct ApexProblem
 
   /// Returns an upper bound of the maximum. Starts at p, which becomes the best place. Stops as
   /// soon as `enough` is reached, or the bound is known to the relative `precision`.
-  double maximize(Point& p, double enough, double precision = exactly) const
+  double maximize(Point& p, double enough, double precision = Exactly) const
   {
     double z = p[N - 1];
     double s = this->sum(p);
     // Cubes are compared, since roots take long. The margin is for rounding: what is returned is
     // then not below `enough`.
-    const double most = cubed(enough) * (1.0 + 1e-12);
-    double lastRest = 1e30;
-    for (int iteration = 0; iteration < 60; ++iteration)
+    const double most = cubed(enough) * (1.0 + Rounding);
+    double lastRest = NoBound;
+    for (int iteration = 0; iteration < MostSteps; ++iteration)
     {
       if (z >= most * cubed(s))
       {
@@ -99,7 +143,7 @@ struct ApexProblem
       if (!this->advance(step, p, z, s))
       {
         // Rounding hides any further gain of z / s^3; steps may still make the slope smaller.
-        if (rest > 0.5 * lastRest || p[N - 1] + step[N - 1] <= 0.0)
+        if (rest > Falling * lastRest || p[N - 1] + step[N - 1] <= 0.0)
         {
           return std::cbrt(z) / s * (1.0 + std::min(rest, lastRest));
         }
@@ -109,8 +153,7 @@ struct ApexProblem
         s = this->sum(p);
       }
     }
-    // Not converged: no bound is known. A huge value is always a valid one.
-    return 1e30;
+    return NoBound; // not converged
   }
 
 private:
@@ -118,11 +161,11 @@ private:
   bool advance(const Point& step, Point& p, double& z, double& s) const
   {
     double t = 1.0;
-    for (int halving = 0; halving < 40; ++halving, t *= 0.5)
+    for (int halving = 0; halving < MostHalvings; ++halving, t *= 0.5)
     {
       const Point next = p + t * step;
       // Stay on the positive side of the facet, and well off its plane, where the root is steep.
-      if (next[N - 1] < 0.1 * p[N - 1])
+      if (next[N - 1] < LeastHeight * p[N - 1])
       {
         continue;
       }
@@ -180,8 +223,7 @@ double facetCap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, double enough
   }
   problem.base = (u.norm() + v.norm() + (v - u).norm()) / unit;
   const double area = 0.5 * twiceArea / (unit * unit);
-  // 0.27 perimeters is about the height of the best apex of a regular facet: sqrt(2/3) / 3.
-  Eigen::Vector3d p(0.0, 0.0, 0.27 * problem.base);
+  Eigen::Vector3d p(0.0, 0.0, ApexHeight * problem.base);
   const double target = std::isfinite(enough) ? lambdaOf(enough, area) : enough;
   const double lambda = problem.maximize(p, target);
   if (apex)
@@ -196,8 +238,8 @@ double angleCap(double phi)
   // The edge has length 1, and the other nodes have distance r from its middle. dS/dr = 0 means m
   // (1 - r s) = 2 r^2 - 1, with s = sin(phi / 2), m = sqrt(r^2 + 1/4). The difference falls in r.
   const double s = std::sin(0.5 * phi);
-  double r = 0.85;
-  for (int i = 0; i < 8; ++i)
+  double r = RadiusAtEdge;
+  for (int i = 0; i < StepsAtEdge; ++i)
   {
     const double m = std::sqrt(r * r + 0.25);
     const double f = m * (1.0 - r * s) - 2.0 * r * r + 1.0;
@@ -223,11 +265,11 @@ template <class F>
 double crossing(double out, double fOut, double in, double fIn, double c, double width, F&& f)
 {
   double a = fOut - c, b = fIn - c;
-  for (int i = 0; i < 100 && std::fabs(in - out) > width; ++i)
+  for (int i = 0; i < MostTries && std::fabs(in - out) > width; ++i)
   {
     double x = b > a ? out + (in - out) * (-a / (b - a)) : 0.5 * (in + out);
     // Keep a little off both ends, so that the interval closes from both sides.
-    const double least = 0.4 * width, margin = in > out ? least : -least;
+    const double least = OffEnds * width, margin = in > out ? least : -least;
     x = std::fabs(x - out) < least ? out + margin : std::fabs(x - in) < least ? in - margin : x;
     const double y = f(x) - c;
     if (y >= 0.0)
@@ -279,8 +321,8 @@ EdgeView::EdgeView(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<
 double EdgeView::cap(double phi, double enough) const
 {
   // The start: beside the centroid, about as far away as a regular apex.
-  Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
-  return this->capFrom(phi, enough, p, exactly);
+  Eigen::Vector2d p((1.0 + this->along) / 3.0, ApexHeight * this->perimeter);
+  return this->capFrom(phi, enough, p, Exactly);
 }
 
 double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p, double precision) const
@@ -307,12 +349,12 @@ double EdgeView::capFrom(double phi, double enough, Eigen::Vector2d& p, double p
 double EdgeView::limit(double c, double end, double width) const
 {
   const double most = std::numeric_limits<double>::infinity();
-  const double precision = std::max(exactly, 3e-3 * width);
-  Eigen::Vector2d p((1.0 + this->along) / 3.0, 0.27 * this->perimeter);
+  const double precision = std::max(Exactly, PartOfWidth * width);
+  Eigen::Vector2d p((1.0 + this->along) / 3.0, ApexHeight * this->perimeter);
   const auto value = [&](double phi) { return this->capFrom(phi, most, p, precision); };
   const double atBest = value(this->best);
   // Not even at its best angle is the facet good enough.
-  return atBest < c * (1.0 - 1e-12)
+  return atBest < c * (1.0 - Rounding)
     ? -1.0
     : crossing(end, 0.0, this->best, std::max(atBest, c), c, width, value);
 }
@@ -349,7 +391,7 @@ double excess(
   double c, double theta, const EdgeView& first, const EdgeView& last, double slack, double width)
 {
   // On the safe side: the views of the facets have this error.
-  c *= 1.0 - 8.0 * slack;
+  c *= 1.0 - ViewErrors * slack;
   const double l1 = first.lowest(c, width), l2 = last.lowest(c, width);
   if (l1 < 0.0 || l2 < 0.0)
   {
@@ -376,16 +418,16 @@ double excess(
 double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
   double spanned, double tolerance, double slack, double width)
 {
-  constexpr double rounding = 1e-12, nothing = 1.0;
+  constexpr double nothing = 1.0;
   if (!first.usable || !last.usable || !std::isfinite(theta) || above <= 0.0 || spanned >= above)
   {
     return nothing;
   }
   // Filling by two: V at the other facet is wrong by slack times the distance of the node, and S by
   // at most 1833 / 24 slack.
-  const double pair = (pairCap(theta, first, last, tolerance, above) + 100.0 * slack) /
-    (1.0 - 8.0 * slack);
-  double low = (1.0 + rounding) * std::max({ 0.0, spanned, pair }), high = above;
+  const double pair = (pairCap(theta, first, last, tolerance, above) + PairErrors * slack) /
+    (1.0 - ViewErrors * slack);
+  double low = (1.0 + Rounding) * std::max({ 0.0, spanned, pair }), high = above;
   if (low >= high || fillsSimply(high, theta, first, last))
   {
     return nothing;
@@ -401,11 +443,10 @@ double edgeCap(double above, double theta, const EdgeView& first, const EdgeView
   {
     return nothing;
   }
-  while (high - low > tolerance * high && high > rounding)
+  while (high - low > tolerance * high && high > Rounding)
   {
-    // While only a tiny low end is known, steps by a factor find the magnitude faster.
-    const double part = std::clamp(atLow / (atLow - atHigh), 0.02, 0.98);
-    const double middle = low > 0.1 * high ? low + part * (high - low) : 0.3 * high;
+    const double part = std::clamp(atLow / (atLow - atHigh), LeastPart, 1.0 - LeastPart);
+    const double middle = low > FarBelow * high ? low + part * (high - low) : FallByFactor * high;
     const double value = by(middle);
     (value > 0.0 ? high : low) = middle;
     (value > 0.0 ? atHigh : atLow) = value;

@@ -7,6 +7,13 @@
 
 namespace meshopt
 {
+namespace
+{
+/// Cells above the largest cap by this factor are at none: seen without a look-up. It must exceed
+/// rounding, or cells at their caps would be missed; a larger one costs look-ups for nothing.
+constexpr double AboveAllCaps = 1.01;
+}
+
 /// The bound is computed once. After that caps are looked up for each try.
 template <int D>
 void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, bool known)
@@ -84,7 +91,7 @@ bool Caps<D>::isCapped(const SimplexMesh<D>& mesh, Index c) const
   // Stored qualities may be weighed; caps never are.
   const double q = mesh.quality(c) / (this->weighed_ ? this->weight(mesh.nodes(c)) : 1.0);
   // The caps are looked up only for cells that may be at one: most are above the largest cap.
-  if (!(q * (1.0 / this->reached_) <= this->largest_ * 1.01) && !(q <= this->largest_))
+  if (!(q * (1.0 / this->reached_) <= this->largest_ * AboveAllCaps) && !(q <= this->largest_))
   {
     return false;
   }

@@ -14,6 +14,24 @@ namespace meshopt
 {
 namespace
 {
+/// Where the search for the node begins: the distance from the edge, as a part of both perimeters.
+/// About that of a regular apex (half of 0.27, since they are two); another one only takes longer.
+constexpr double StartAway = 0.13;
+/// Newton steps for one weight (about ten are taken), and tries of weights (some pairs use up all).
+/// With fewer the bound is still valid, but too high.
+constexpr int MostSteps = 40, MostWeights = 40;
+/// Halvings of a step: the shortest is 1e-12 of it, and moves the node by little more than rounding
+/// does.
+constexpr int MostHalvings = 40;
+/// How exactly the maximum for one weight has to be known, as a part of the tolerance for the cap.
+/// What is left is added to the bound: with a larger part the tolerance might not be reached
+/// (three times this part is spent), a smaller one takes more steps. Under the least precision
+/// rounding keeps what is left from falling, and steps would be wasted.
+constexpr double PartOfTolerance = 0.03, LeastPrecision = 1e-11;
+/// The next weight keeps this part of the interval away from both its ends. With less, an end that
+/// is almost right leaves the other one where it is; with more, good guesses are cut off.
+constexpr double LeastPart = 0.01;
+
 /// One of the two tetrahedra; p is the free node. The common edge goes from 0 to (1, 0, 0).
 struct Half
 {
@@ -77,7 +95,7 @@ public:
   /// In the middle of the angle, about as far from the edge as a regular apex.
   static Vec<3> start(double theta, const EdgeView& first, const EdgeView& last)
   {
-    const double away = 0.13 * (first.perimeter + last.perimeter);
+    const double away = StartAway * (first.perimeter + last.perimeter);
     return { 0.25 + 0.25 * (first.along + last.along), away * std::cos(0.5 * theta),
       away * std::sin(0.5 * theta) };
   }
@@ -99,7 +117,7 @@ public:
   {
     double lambda = this->mean(p, weight);
     double rest = 0.0;
-    for (int iteration = 0; iteration < 40; ++iteration)
+    for (int iteration = 0; iteration < MostSteps; ++iteration)
     {
       Vec<3> g = Vec<3>::Zero();
       Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
@@ -124,7 +142,7 @@ private:
   bool advance(const Vec<3>& step, double weight, Vec<3>& p, double& lambda) const
   {
     double t = 1.0;
-    for (int halving = 0; halving < 40; ++halving, t *= 0.5)
+    for (int halving = 0; halving < MostHalvings; ++halving, t *= 0.5)
     {
       const Vec<3> next = p + t * step;
       const double value = this->isInside(next) ? this->mean(next, weight) : 0.0;
@@ -148,11 +166,12 @@ double pairCap(
   double theta, const EdgeView& first, const EdgeView& last, double tolerance, double enough)
 {
   const Pair pair(theta, first, last);
-  const double wanted = std::cbrt(enough), precision = std::max(1e-11, 0.03 * tolerance);
+  const double wanted = std::cbrt(enough),
+               precision = std::max(LeastPrecision, PartOfTolerance * tolerance);
   Vec<3> p = Pair::start(theta, first, last);
   double bound = 1.0, reached = 0.0; // as S^(1/3)
   double low = 0.0, high = 1.0, atLow = 0.0, atHigh = 0.0, weight = 0.5;
-  for (int k = 0; k < 40 && pair.isInside(p); ++k)
+  for (int k = 0; k < MostWeights && pair.isInside(p); ++k)
   {
     const double s1 = pair.first(p), s2 = pair.last(p);
     reached = std::max(reached, std::min(s1, s2));
@@ -175,7 +194,8 @@ double pairCap(
     }
     // Until both signs are known, by halving.
     const bool isBetween = atLow < 0.0 && atHigh > 0.0;
-    const double part = isBetween ? std::clamp(atLow / (atLow - atHigh), 0.01, 0.99) : 0.5;
+    const double part = isBetween ? std::clamp(atLow / (atLow - atHigh), LeastPart, 1.0 - LeastPart)
+                                  : 0.5;
     weight = low + part * (high - low);
     bound = std::min(bound, pair.maximize(weight, precision, p));
   }

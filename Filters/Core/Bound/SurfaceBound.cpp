@@ -15,6 +15,26 @@ namespace
 {
 constexpr double pi = 3.14159265358979323846;
 
+/// The error of an angle between facets that are no needles, in rounding errors. Rounded up: about
+/// ten operations lead to it, and a smaller one would not be certain.
+constexpr double AngleRoundings = 16.0;
+/// An angle with a greater error, in radians, is not known. It could not certify much.
+constexpr double MostAngleError = 1e-3;
+/// A cap of an edge is lower than those of its facets only by at least this part: equal ones differ
+/// by rounding. With less, many edges would be listed that forbid nothing of their own.
+constexpr double ClearlyLower = 1e-9;
+/// Added to the quality of the tetrahedron that two facets span: the volume of a flat one differs
+/// by some 1e-14, depending on the corner that it is seen from.
+constexpr double SpannedError = 1e-13;
+/// How well the cap of an edge and the angles of its facets are known: where it sets the bound, and
+/// where it is only looked up. The first are seen in the bound; finer ones cost time, and nobody
+/// sees a difference. The others are much cheaper and are needed for most edges.
+constexpr double ExactCap = 1e-7, ExactAngle = 1e-9, RoughCap = 5e-3, RoughAngle = 1e-3;
+/// A rough cap is too high, by RoughCap and by what RoughAngle does. Where this part of it is under
+/// the bound, an exact one may be, too: with a larger part the edge that sets the bound could be
+/// missed.
+constexpr double NearBound = 0.9;
+
 /// Edge (3D) or node (2D) k of a side. Sorted, those that coincide become neighbours.
 struct Rim
 {
@@ -80,7 +100,7 @@ struct Angle
   /// `blur`: relative errors of y and x, in units of the rounding error.
   Angle(double y, double x, double blur)
     : value(std::atan2(y, x))
-    , error(16.0 * std::numeric_limits<double>::epsilon() * blur)
+    , error(AngleRoundings * std::numeric_limits<double>::epsilon() * blur)
   {
     // 0 becomes a full turn. Both are as uncertain: see known().
     this->value += this->value > 0.0 ? 0.0 : 2.0 * pi;
@@ -88,7 +108,8 @@ struct Angle
   /// False if it may be 0 as well as 2 pi, or if nothing is known.
   bool known() const
   {
-    return this->error < 1e-3 && this->value > this->error && this->value < 2.0 * pi - this->error;
+    return this->error<MostAngleError&& this->value> this->error &&
+      this->value < 2.0 * pi - this->error;
   }
   bool isBelow(const Angle& other) const
   {
@@ -319,9 +340,8 @@ void BoundBuilder<D>::capWedge(const Rim& from, const Rim& to, const Angle& thet
   const double facets = std::min(
     this->result_.sideCaps[from.side], this->result_.sideCaps[to.side]);
   const double below = std::min(facets, std::max(this->result_.bound, list));
-  // Strictly lower, beyond rounding.
-  const double cap = this->wedgeCap(from, to, theta, below * (1.0 - 1e-9));
-  if (cap < below * (1.0 - 1e-9))
+  const double cap = this->wedgeCap(from, to, theta, below * (1.0 - ClearlyLower));
+  if (cap < below * (1.0 - ClearlyLower))
   {
     if (cap < list)
     {
@@ -383,18 +403,18 @@ double BoundBuilder<3>::wedgeCap(
   const double theta = angle.value, slack = angle.error;
   const Vec<3>&a = this->points_[from.low], &b = this->points_[from.high];
   const Vec<3>&c = this->points_[this->tip(from)], &d = this->points_[this->tip(to)];
-  // Rounding: the volume of a flat tetrahedron differs by some 1e-14, depending on the corner that
-  // it is seen from.
-  const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + 1e-13 : 0.0;
+  const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + SpannedError
+                                            : 0.0;
   const EdgeView first(a, b, c, this->apexes_[from.side]);
   const EdgeView last(a, b, d, this->apexes_[to.side]);
   // Exact only for edges that set the bound: all others are for look-up.
   const bool exact = below <= this->result_.bound;
-  const double width = exact ? 1e-9 : 1e-3 * std::min(1.0, theta);
-  const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 5e-3, slack, width);
+  const double width = exact ? ExactAngle : RoughAngle * std::min(1.0, theta);
+  const double cap = edgeCap(
+    below, theta, first, last, spanned, exact ? ExactCap : RoughCap, slack, width);
   // A coarse cap near the bound could hide that this edge sets it.
-  return !exact && 0.9 * cap < this->result_.bound
-    ? std::min(cap, edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack))
+  return !exact && NearBound * cap < this->result_.bound
+    ? std::min(cap, edgeCap(this->result_.bound, theta, first, last, spanned, ExactCap, slack))
     : cap;
 }
 }

@@ -2,7 +2,7 @@
 /// @file ElementMetric.h
 /// The metric and the wanted size of one element.
 ///
-/// Reference: Buscaglia, Dari, Zavattieri (1996), (2.2) and section 4.
+/// Reference: Buscaglia, Dari, Zavattieri (1996), (2.2) and section 5.
 #ifndef meshopt_Metric_ElementMetric_h
 #define meshopt_Metric_ElementMetric_h
 

@@ -17,13 +17,31 @@ namespace meshopt
 {
 namespace
 {
+/// How exactly the number of elements is met, as a logarithm: without gradation, and with it, where
+/// each look composes all tensors. Meshes miss the number by some percent in any case.
+constexpr double CountTolerance = 1e-4, GradedTolerance = 1e-3;
+/// A wanted number beyond the range of the limits is taken this far inside of it, relatively: at
+/// its ends the curve is flat, and there would be no zero to find. As small as CountTolerance, so
+/// that nobody sees it.
+constexpr double InsideRange = 1e-4;
+/// Limits that allow numbers within this part of each other allow one number only. More than twice
+/// InsideRange, or the ends would cross.
+constexpr double NoRange = 1e-3;
+/// Looks at the number in one search. Ends those whose number never comes within the tolerance.
+constexpr int MostLooks = 100;
+/// Limits make the curve flatter than without them: each step towards the zero is longer by this
+/// factor than the last. With 1 it would take many; with more the zero is left far behind.
+constexpr double Stretch = 1.5;
+/// Eigenvalues that differ by less, relatively, are the same up to rounding: the tensor stays as it
+/// is, instead of being composed anew with other rounding errors.
+constexpr double SameValues = 1e-12;
+
 /// Finds the zero of a falling function of ln h, to `tolerance` in its value. First come steps that
 /// would be exact without limits, until the zero lies between two of them; then regula falsi (the
 /// Illinois variant). `highest` bounds ln h.
 template <class F>
 double findZero(F&& value, double start, double highest, double slope, double tolerance)
 {
-  constexpr int maximumNumberOfEvaluations = 100;
   double x = std::min(start, highest), y = value(x);
   double other = x, otherY = y;
   double stretch = 1.0;
@@ -31,7 +49,7 @@ double findZero(F&& value, double start, double highest, double slope, double to
   while (std::abs(y) > tolerance && otherY * y > 0.0)
   {
     // Too many elements even at the end of the range: there is no zero.
-    if ((y > 0.0 && x >= highest) || evaluations >= maximumNumberOfEvaluations)
+    if ((y > 0.0 && x >= highest) || evaluations >= MostLooks)
     {
       return x;
     }
@@ -39,11 +57,10 @@ double findZero(F&& value, double start, double highest, double slope, double to
     otherY = y;
     x = std::min(highest, x + stretch * y / slope);
     y = value(x);
-    // Limits make the function flatter than `slope`: longer and longer steps make up for that.
-    stretch *= 1.5;
+    stretch *= Stretch;
     ++evaluations;
   }
-  while (std::abs(y) > tolerance && evaluations < maximumNumberOfEvaluations)
+  while (std::abs(y) > tolerance && evaluations < MostLooks)
   {
     const double next = (other * y - x * otherY) / (y - otherY);
     const double nextY = value(next);
@@ -203,7 +220,7 @@ void MetricScaling<D>::makeUnit(double h)
       // The gradation may overstep the limits of a point a little.
       SymmetricEigen<D> e = SymmetricEigen<D>::of(this->unit_[p]);
       const Vec<D> values = this->limited(e.values, 1.0);
-      if (!values.isApprox(e.values, 1e-12))
+      if (!values.isApprox(e.values, SameValues))
       {
         e.values = values;
         this->unit_[p] = e.compose();
@@ -231,23 +248,23 @@ ScaledMetric<D> MetricScaling<D>::withCount(double count)
   const double most = this->limits_.minimumSize > 0.0
     ? this->uniformCount(this->limits_.minimumSize)
     : std::numeric_limits<double>::infinity();
-  // Slightly inside the range that the limits allow, so that there is a zero to find.
-  const double goal = std::max(fewest * 1.0001, std::min(most * 0.9999, count));
+  const double goal = std::max(
+    fewest * (1.0 + InsideRange), std::min(most * (1.0 - InsideRange), count));
   // At this h* everything has the maximum size, and so it has at any greater one.
   const double highest = std::log(this->maximumSize_ * std::sqrt(this->greatest_));
-  if (!(most > 1.001 * fewest))
+  if (!(most > (1.0 + NoRange) * fewest))
   {
     ScaledMetric<D> uniform = this->withSize(std::exp(highest));
-    uniform.isCountReached = std::abs(count - fewest) <= 0.001 * fewest;
+    uniform.isCountReached = std::abs(count - fewest) <= NoRange * fewest;
     return uniform;
   }
   // First without gradation, which is much cheaper; its zero is the start of the other search.
   double x = findZero([&](double lnH) { return std::log(this->predict(std::exp(lnH)) / goal); },
-    highest, highest, D, 1e-4);
+    highest, highest, D, CountTolerance);
   if (this->limits_.gradation > 1.0)
   {
     x = findZero([&](double lnH) { return std::log(this->predictGraded(std::exp(lnH)) / goal); }, x,
-      highest, D, 1e-3);
+      highest, D, GradedTolerance);
   }
   ScaledMetric<D> result = this->withSize(std::exp(x));
   result.isCountReached = count >= fewest && count <= most;

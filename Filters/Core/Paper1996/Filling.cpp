@@ -32,7 +32,7 @@ bool ReconnectionMemory<D>::hasChanged(
 
 /// From a boundary point the core vanishes if it is inside; at kept facets it stays.
 template <int D>
-Filling Part<D>::kindFromBoundary() const
+Filling ElementCluster<D>::kindFromBoundary() const
 {
   if (this->isEdge())
   {
@@ -50,25 +50,25 @@ void ElementClusters<D>::gather(
   const auto hasChanged = [&](Index p) { return memory.changed[p] > when; };
   for (int e = 0; e < Local<D>::numberOfEdges; ++e)
   {
-    Part<D>& part = this->edges_[e];
-    part.core = { nodes[Local<D>::edges[e][0]], nodes[Local<D>::edges[e][1]] };
+    ElementCluster<D>& around = this->edges_[e];
+    around.core = { nodes[Local<D>::edges[e][0]], nodes[Local<D>::edges[e][1]] };
     // A change in the cluster of an edge touches both of its ends.
-    part.usable = hasChanged(part.core[0]) && hasChanged(part.core[1]) &&
-      gatherFanCluster<D>(editor, c, part.core.data(), 2, part.cluster);
+    around.usable = hasChanged(around.core[0]) && hasChanged(around.core[1]) &&
+      gatherFanCluster<D>(editor, c, around.core.data(), 2, around.cluster);
   }
   for (int i = 0; i <= D; ++i)
   {
-    Part<D>& part = this->nodes_[i];
-    part.core = { nodes[i], None };
-    part.usable = hasChanged(nodes[i]) &&
-      gatherFanCluster<D>(editor, c, part.core.data(), 1, part.cluster);
+    ElementCluster<D>& around = this->nodes_[i];
+    around.core = { nodes[i], None };
+    around.usable = hasChanged(nodes[i]) &&
+      gatherFanCluster<D>(editor, c, around.core.data(), 1, around.cluster);
   }
 }
 
 template struct ReconnectionMemory<2>;
 template struct ReconnectionMemory<3>;
-template struct Part<2>;
-template struct Part<3>;
+template struct ElementCluster<2>;
+template struct ElementCluster<3>;
 template class ElementClusters<2>;
 template class ElementClusters<3>;
 }

@@ -49,7 +49,7 @@ struct ReconnectionMemory
 
 /// A cluster, and the node or edge (second id not None) that it surrounds.
 template <int D>
-struct Part
+struct ElementCluster
 {
   FanCluster<D> cluster;
   std::array<Index, 2> core{ None, None };
@@ -71,7 +71,7 @@ public:
   void gather(
     MeshEditor<D>& editor, Index c, const ReconnectionMemory<D>& memory, std::uint32_t when);
 
-  /// Calls f(part, kind, apex) for every filling to be tried, in the order of the paper's figure:
+  /// Calls f(around, kind, apex) for every filling to be tried, in the order of the paper's figure:
   /// edge clusters from ring nodes, node clusters from the centre, node clusters from boundary
   /// nodes, edge clusters from the midpoint. So nodes are added only where nothing else helps.
   /// Apexes come in ascending order of ids; a new point has no id. Stops and returns true once f
@@ -81,23 +81,24 @@ public:
 
 private:
   template <class F>
-  static bool fromBoundary(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f);
+  static bool fromBoundary(const SimplexMesh<D>& mesh, const ElementCluster<D>& around, F&& f);
   template <class F>
-  static bool fromCentre(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f);
+  static bool fromCentre(const SimplexMesh<D>& mesh, const ElementCluster<D>& around, F&& f);
   template <class F>
-  static bool fromMidpoint(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f);
+  static bool fromMidpoint(const SimplexMesh<D>& mesh, const ElementCluster<D>& around, F&& f);
 
-  std::array<Part<D>, Local<D>::numberOfEdges> edges_;
-  std::array<Part<D>, D + 1> nodes_;
+  std::array<ElementCluster<D>, Local<D>::numberOfEdges> edges_;
+  std::array<ElementCluster<D>, D + 1> nodes_;
 };
 
 template <int D>
 template <class F>
-bool ElementClusters<D>::fromBoundary(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f)
+bool ElementClusters<D>::fromBoundary(
+  const SimplexMesh<D>& mesh, const ElementCluster<D>& around, F&& f)
 {
-  const FanCluster<D>& cluster = part.cluster;
-  const Filling kind = part.kindFromBoundary();
-  if (!part.usable || (kind == Filling::BoundaryNode && !mesh.isFree(part.core[0])))
+  const FanCluster<D>& cluster = around.cluster;
+  const Filling kind = around.kindFromBoundary();
+  if (!around.usable || (kind == Filling::BoundaryNode && !mesh.isFree(around.core[0])))
   {
     return false;
   }
@@ -105,7 +106,7 @@ bool ElementClusters<D>::fromBoundary(const SimplexMesh<D>& mesh, const Part<D>&
   {
     const Apex<D> apex{ static_cast<int>(k), cluster.points[k], cluster.x[k] };
     // A fan from the core itself would be the cluster as it is.
-    if (apex.id != part.core[0] && apex.id != part.core[1] && f(part, kind, apex))
+    if (apex.id != around.core[0] && apex.id != around.core[1] && f(around, kind, apex))
     {
       return true;
     }
@@ -115,27 +116,29 @@ bool ElementClusters<D>::fromBoundary(const SimplexMesh<D>& mesh, const Part<D>&
 
 template <int D>
 template <class F>
-bool ElementClusters<D>::fromCentre(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f)
+bool ElementClusters<D>::fromCentre(
+  const SimplexMesh<D>& mesh, const ElementCluster<D>& around, F&& f)
 {
-  const bool moves = part.cluster.coreInside;
-  if (!part.usable || (moves && !mesh.isFree(part.core[0])))
+  const bool moves = around.cluster.coreInside;
+  if (!around.usable || (moves && !mesh.isFree(around.core[0])))
   {
     return false;
   }
-  const Apex<D> apex{ -1, moves ? part.core[0] : None, clusterCentre<D>(part.cluster) };
-  return f(part, moves ? Filling::Centre : Filling::NewCentre, apex);
+  const Apex<D> apex{ -1, moves ? around.core[0] : None, clusterCentre<D>(around.cluster) };
+  return f(around, moves ? Filling::Centre : Filling::NewCentre, apex);
 }
 
 template <int D>
 template <class F>
-bool ElementClusters<D>::fromMidpoint(const SimplexMesh<D>& mesh, const Part<D>& part, F&& f)
+bool ElementClusters<D>::fromMidpoint(
+  const SimplexMesh<D>& mesh, const ElementCluster<D>& around, F&& f)
 {
-  if (!part.usable || !part.cluster.closed)
+  if (!around.usable || !around.cluster.closed)
   {
     return false;
   }
-  const Vec<D> middle = 0.5 * (mesh.point(part.core[0]) + mesh.point(part.core[1]));
-  return f(part, Filling::Midpoint, Apex<D>{ -1, None, middle });
+  const Vec<D> middle = 0.5 * (mesh.point(around.core[0]) + mesh.point(around.core[1]));
+  return f(around, Filling::Midpoint, Apex<D>{ -1, None, middle });
 }
 
 template <int D>
@@ -164,8 +167,8 @@ bool ElementClusters<D>::forEach(const SimplexMesh<D>& mesh, F&& f) const
 
 extern template struct ReconnectionMemory<2>;
 extern template struct ReconnectionMemory<3>;
-extern template struct Part<2>;
-extern template struct Part<3>;
+extern template struct ElementCluster<2>;
+extern template struct ElementCluster<3>;
 extern template class ElementClusters<2>;
 extern template class ElementClusters<3>;
 }

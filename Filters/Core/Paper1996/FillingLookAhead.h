@@ -32,7 +32,7 @@ public:
 
   /// Tries one filling (except Filling::Centre). If it is kept, changed() are the cells that are
   /// new or have another quality.
-  bool improve(const Part<D>& part, const Apex<D>& apex);
+  bool improve(const ElementCluster<D>& around, const Apex<D>& apex);
   const std::vector<Index>& changed() const { return this->changed_; }
 
 private:
@@ -97,15 +97,15 @@ void FillingLookAhead<D, Shape>::reposition(double& before)
 }
 
 template <int D, class Shape>
-bool FillingLookAhead<D, Shape>::improve(const Part<D>& part, const Apex<D>& apex)
+bool FillingLookAhead<D, Shape>::improve(const ElementCluster<D>& around, const Apex<D>& apex)
 {
   // A filling may be worse at first, but not more inverted.
-  const double required = std::min(0.0, part.cluster.worst);
+  const double required = std::min(0.0, around.cluster.worst);
   const auto mark = this->judge_.begin();
-  if (this->trial_.make(part, apex, required))
+  if (this->trial_.make(around, apex, required))
   {
     this->changed_ = this->trial_.made();
-    double before = part.cluster.worst;
+    double before = around.cluster.worst;
     this->reposition(before);
     if (this->worstOfChanged() > before + this->leastGain_ * std::abs(before))
     {

@@ -24,7 +24,7 @@ public:
     , model_(editor.mesh(), metric, beta)
     , judge_(editor, this->model_, this->switches_)
     , solver_(this->judge_, parameters.local, parameters.leastGain)
-    , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
+    , queue_(editor.mesh(), parameters.target)
   {
     // Nothing in this algorithm reads them.
     this->judge_.setStampsStars(false);

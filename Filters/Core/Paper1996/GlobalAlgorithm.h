@@ -30,7 +30,6 @@ struct RepositionParameters
   long maximumNumberOfIterations = 0; ///< M; 0: no limit
   double target = 1.0;                ///< elements of at least this quality are left alone
   double leastGain = 1e-3;            ///< of one cluster, as a fraction of its quality
-  bool naiveSearch = false;           ///< see WorstQueue
   LocalParameters local;
 };
 
@@ -45,7 +44,8 @@ struct RepositionResult
 using KeepGoing = std::function<bool(double worst)>;
 
 /// Runs the global algorithm. The qualities of the cells must be up to date, and are kept up to
-/// date. Appends each KWORST to `sequence` if given.
+/// date. Appends each KWORST to `sequence` if given: tests compare it with the six steps, since an
+/// element that only loses its nodes in step 2 leaves no other trace.
 template <int D>
 RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
   double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,

@@ -117,8 +117,6 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   const Options& o = this->options_;
   ReconnectionParameters parameters;
   parameters.target = this->target_;
-  // By a full search for each worst element, as printed: the heap must give the same sequence.
-  parameters.naiveSearch = o.naiveSearch;
   parameters.growth = this->run_.growth;
   // A look-ahead moves nodes: it needs that switch, too.
   parameters.lookAhead = o.moveNodes && this->lookAhead_ ? lookAhead : 0;
@@ -189,7 +187,6 @@ void Paper1996<D>::repositionAll()
   parameters.neighborhoodLevel = o.neighborhoodLevel;
   parameters.maximumNumberOfIterations = o.maximumNumberOfIterations;
   parameters.target = this->target_;
-  parameters.naiveSearch = o.naiveSearch;
   // Of the active set (2.8), and alpha of Armijo's rule (2.7).
   parameters.local.epsilon = o.epsilon;
   parameters.local.armijo = o.armijo;

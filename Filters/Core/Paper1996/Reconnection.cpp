@@ -27,7 +27,7 @@ public:
     , mesh_(editor.mesh())
     , parameters_(parameters)
     , memory_(memory)
-    , queue_(editor.mesh(), parameters.target, parameters.naiveSearch)
+    , queue_(editor.mesh(), parameters.target)
     , model_(editor.mesh(), metric, beta)
     , pinched_(pinchedPoints<D>(editor.mesh()))
     , judge_(editor, this->model_, this->switches_)
@@ -44,11 +44,10 @@ public:
     this->judge_.growth.left = parameters.growth;
   }
 
-  ReconnectionResult run(
-    const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence);
+  ReconnectionResult run(const std::function<bool(double)>& keepGoing);
 
 private:
-  bool iterate(const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence);
+  bool iterate(const std::function<bool(double)>& keepGoing);
   void improveAround(Index worst);
   void collectCandidates(Index worst);
   bool improveCell(Index c);
@@ -119,7 +118,7 @@ bool Reconnection<D, Shape>::improveCell(Index c)
   // Only clusters that have changed since this cell last failed.
   this->clusters_.gather(this->editor_, c, this->memory_, this->memory_.failed[c]);
   return this->clusters_.forEach(this->mesh_,
-    [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+    [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
     {
       if (!this->isAllowed(kind))
       {
@@ -127,12 +126,12 @@ bool Reconnection<D, Shape>::improveCell(Index c)
       }
       ++this->result_.tried[static_cast<int>(kind)];
       // A filling must lift the worst cell of its cluster by the least gain, as a fraction.
-      const double worst = part.cluster.worst;
-      if (!this->trial_.make(part, apex, worst + this->parameters_.leastGain * std::abs(worst)))
+      const double worst = around.cluster.worst;
+      if (!this->trial_.make(around, apex, worst + this->parameters_.leastGain * std::abs(worst)))
       {
         return false;
       }
-      this->touch(this->trial_.made(), part.cluster.points);
+      this->touch(this->trial_.made(), around.cluster.points);
       ++this->result_.done[static_cast<int>(kind)];
       return true;
     });
@@ -222,7 +221,7 @@ bool Reconnection<D, Shape>::lookAheadAt(Index c)
   // 0: all clusters, whenever they changed: what failed alone may gain with a look-ahead.
   this->clusters_.gather(this->editor_, c, this->memory_, 0);
   return this->clusters_.forEach(this->mesh_,
-    [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+    [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
     {
       // Moving a node to the centre first does not help the repositioning that follows.
       if (!this->isAllowed(kind) || kind == Filling::Centre)
@@ -230,12 +229,12 @@ bool Reconnection<D, Shape>::lookAheadAt(Index c)
         return false;
       }
       ++this->result_.aheadTried;
-      if (!this->ahead_.improve(part, apex))
+      if (!this->ahead_.improve(around, apex))
       {
         return false;
       }
       ++this->result_.aheadDone;
-      this->touch(this->ahead_.changed(), part.cluster.points);
+      this->touch(this->ahead_.changed(), around.cluster.points);
       return true;
     });
 }
@@ -270,8 +269,7 @@ bool Reconnection<D, Shape>::lookAhead(const std::function<bool(double)>& keepGo
 
 // Runs until all elements under the target are set aside; false if cancelled.
 template <int D, class Shape>
-bool Reconnection<D, Shape>::iterate(
-  const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
+bool Reconnection<D, Shape>::iterate(const std::function<bool(double)>& keepGoing)
 {
   for (;;)
   {
@@ -287,23 +285,17 @@ bool Reconnection<D, Shape>::iterate(
       this->result_.cancelled = true;
       return false;
     }
-    if (sequence)
-    {
-      sequence->push_back(worst);
-    }
     this->improveAround(worst);
   }
 }
 
 template <int D, class Shape>
-ReconnectionResult Reconnection<D, Shape>::run(
-  const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
+ReconnectionResult Reconnection<D, Shape>::run(const std::function<bool(double)>& keepGoing)
 {
   this->memory_.resize(this->mesh_);
   this->queue_.fill();
   // A successful look-ahead makes ordinary reconnection worth trying again, which is cheaper.
-  while (this->iterate(keepGoing, sequence) && this->parameters_.lookAhead > 0 &&
-    this->lookAhead(keepGoing))
+  while (this->iterate(keepGoing) && this->parameters_.lookAhead > 0 && this->lookAhead(keepGoing))
   {
   }
   // May be negative: fillings can also take cells away.
@@ -315,7 +307,7 @@ ReconnectionResult Reconnection<D, Shape>::run(
 template <int D>
 ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
   double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,
-  const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence)
+  const std::function<bool(double)>& keepGoing)
 {
   const FollowedMetric<D> follows(editor, metric);
   // The measure is chosen here, once, and not in the loops.
@@ -324,14 +316,12 @@ ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Meas
     {
       using Shape = decltype(shape);
       Reconnection<D, Shape> reconnection(editor, metric, beta, parameters, memory);
-      return reconnection.run(keepGoing, sequence);
+      return reconnection.run(keepGoing);
     });
 }
 
 template ReconnectionResult reconnect<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
-  const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&,
-  std::vector<Index>*);
+  const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&);
 template ReconnectionResult reconnect<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
-  const ReconnectionParameters&, ReconnectionMemory<3>&, const std::function<bool(double)>&,
-  std::vector<Index>*);
+  const ReconnectionParameters&, ReconnectionMemory<3>&, const std::function<bool(double)>&);
 }

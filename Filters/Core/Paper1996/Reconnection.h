@@ -54,7 +54,6 @@ struct ReconnectionParameters
   double target = 1.0;     ///< elements of at least this quality are left alone
   double leastGain = 1e-3; ///< of the worst quality of a cluster, as a fraction of it
   std::array<bool, NumberOfFillings> allowed{ true, true, true, true, true, true };
-  bool naiveSearch = false; ///< see WorstQueue
   /// When all elements are set aside, this many of the worst get a look-ahead (FillingLookAhead.h).
   /// The iteration continues if one of them gains. 0: none, as in the paper.
   int lookAhead = 0;
@@ -81,19 +80,17 @@ struct ReconnectionResult
 };
 
 /// Runs the iteration of section 2.3. The qualities of the cells must be up to date, and are kept
-/// up to date. `keepGoing` is called before every iteration with the worst quality; false cancels.
-/// Appends each worst element to `sequence` if given.
+/// up to date. `keepGoing` is called before every iteration with the quality of the worst element
+/// that is not set aside, and before every look-ahead with that of its element; false cancels.
 template <int D>
 ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
   double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,
-  const std::function<bool(double)>& keepGoing, std::vector<Index>* sequence = nullptr);
+  const std::function<bool(double)>& keepGoing);
 
 extern template ReconnectionResult reconnect<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
-  const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&,
-  std::vector<Index>*);
+  const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&);
 extern template ReconnectionResult reconnect<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
-  const ReconnectionParameters&, ReconnectionMemory<3>&, const std::function<bool(double)>&,
-  std::vector<Index>*);
+  const ReconnectionParameters&, ReconnectionMemory<3>&, const std::function<bool(double)>&);
 }
 
 #endif

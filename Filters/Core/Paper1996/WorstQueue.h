@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file WorstQueue.h
-/// Finds the worst cell repeatedly: a heap with lazy deletion, or a plain scan of all cells.
+/// Finds the worst cell repeatedly: a heap with lazy deletion.
 #ifndef meshopt_Paper1996_WorstQueue_h
 #define meshopt_Paper1996_WorstQueue_h
 
@@ -15,18 +15,17 @@
 namespace meshopt
 {
 /// The next cell by (quality, id) among the live cells with a quality under `limit` that the caller
-/// says are eligible. Both ways of searching give the same sequence, if every cell is pushed when
-/// its quality changes and when it becomes eligible (again). Entries of the heap are checked when
-/// they come to the top. An entry is dropped if its cell is dead, has another quality, or is not
-/// eligible. A push costs O(log n), and so does a cell found; a scan costs O(cells) each time.
+/// says are eligible. It is the one that a scan of all cells would find, if every cell is pushed
+/// when its quality changes and when it becomes eligible (again). Entries of the heap are checked
+/// when they come to the top. An entry is dropped if its cell is dead, has another quality, or is
+/// not eligible. A push costs O(log n), and so does a cell found.
 template <int D>
 class WorstQueue
 {
 public:
-  WorstQueue(const SimplexMesh<D>& mesh, double limit, bool naive)
+  WorstQueue(const SimplexMesh<D>& mesh, double limit)
     : mesh_(&mesh)
     , limit_(limit)
-    , naive_(naive)
   {
   }
 
@@ -35,7 +34,7 @@ public:
   {
     this->heap_.clear();
     this->queued_.assign(this->mesh_->numberOfCellSlots(), NotQueued);
-    for (Index c = 0; c < this->mesh_->numberOfCellSlots() && !this->naive_; ++c)
+    for (Index c = 0; c < this->mesh_->numberOfCellSlots(); ++c)
     {
       if (this->isCandidate(c))
       {
@@ -48,7 +47,7 @@ public:
 
   void push(Index c)
   {
-    if (this->naive_ || !this->isCandidate(c))
+    if (!this->isCandidate(c))
     {
       return;
     }
@@ -69,10 +68,6 @@ public:
   template <class Eligible>
   Index worst(Eligible&& eligible)
   {
-    if (this->naive_)
-    {
-      return this->scan(eligible);
-    }
     while (!this->heap_.empty())
     {
       const auto [q, c] = this->heap_.front();
@@ -98,24 +93,8 @@ private:
     return this->mesh_->isAlive(c) && this->mesh_->quality(c) < this->limit_;
   }
 
-  template <class Eligible>
-  Index scan(Eligible&& eligible) const
-  {
-    Index best = None;
-    for (Index c = 0; c < this->mesh_->numberOfCellSlots(); ++c)
-    {
-      if (this->isCandidate(c) && eligible(c) &&
-        (best == None || this->mesh_->quality(c) < this->mesh_->quality(best)))
-      {
-        best = c;
-      }
-    }
-    return best;
-  }
-
   const SimplexMesh<D>* mesh_;
   double limit_;
-  bool naive_;
   std::vector<std::pair<double, Index>> heap_;
   std::vector<double> queued_; // per cell: quality of its last push, if still queued
 };

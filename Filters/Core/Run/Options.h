@@ -41,7 +41,6 @@ struct Options : Switches
   double epsilon = 0.02;                ///< (2.8)
   double armijo = 0.01;                 ///< alpha of (2.7)
   int maximumNumberOfAlternations = 20; ///< most rounds of reconnection + repositioning
-  bool naiveSearch = false; ///< rescan for the worst cell instead of the heap; same result (tests)
 
   // --- the fast engine's
   Effort effort = Effort::Default;

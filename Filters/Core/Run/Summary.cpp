@@ -31,8 +31,8 @@ void computeQualities(
     });
 }
 
-template <int D>
 /// Of the qualities that the cells have stored: no cell is measured again.
+template <int D>
 PassRecord summarize(const SimplexMesh<D>& mesh, double target, long* inverted)
 {
   PassRecord row;

@@ -18,11 +18,11 @@ SizeStage<D>::SizeStage(Run<D>& run)
   , improver_(run.editor, this->model_, run.options, run.surface) // caps are for the engine later
   , units_(run.metric)
   , pinched_(pinchedPoints<D>(run.mesh()))
-  , overlaps_(!this->pinched_.empty() || run.mesh().numberOfFoldedFacets() > 0 ||
+  , tangled_(!this->pinched_.empty() || run.mesh().numberOfFoldedFacets() > 0 ||
       (run.report.invertedBefore > 0 && mayOverlap<D>(run.mesh(), this->pinched_)))
 {
   // Inverted cells are excluded by the precondition; nodes are stamped one by one (see moveNode()).
-  this->judge().setTangled(this->overlaps_, false, this->pinched_);
+  this->judge().setTangled(this->tangled_, false, this->pinched_);
   // A stamp on every node of a star would make each move look like a change at all neighbours.
   this->judge().setStampsStars(false);
   // The tensors follow the points only from now on: compute those of the points that are there.

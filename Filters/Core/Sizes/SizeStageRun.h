@@ -26,14 +26,23 @@ namespace sizes
 {
 // A factor of 2 in between: half of an edge that is too long is not too short.
 constexpr double Longest = 1.4142135623730951, Shortest = 1.0 / Longest;
+/// Rounds after the first ones, which halve the longest edges. Most runs end by themselves before:
+/// see FewChanges and MaximumIdle.
 constexpr int MaximumRounds = 12;
-constexpr int Sweeps = 3; // of node motion in each round
+/// Sweeps of node motion in each round. In one sweep a length spreads from a node to its neighbours
+/// only.
+constexpr int Sweeps = 3;
 /// A node moves only if the energy of its edges falls to less than this fraction.
 constexpr double WorthMoving = 0.97;
 /// A round that changes fewer edges than this fraction of the cells is the last one.
 constexpr double FewChanges = 0.005;
-constexpr double Settling = 0.8; // more than this part of the last changes: not settling
+/// A round with more than this part of the changes of the one before does not settle; so many such
+/// rounds in a row end the stage, too. The same edges may be split and contracted for ever.
+constexpr double Settling = 0.8;
 constexpr int MaximumIdle = 2;
+/// If the number of cells differs by more from the predicted one, h* is corrected: so often, and by
+/// no more than this factor in all. Where edges cannot follow, no h* gives the number, and lengths
+/// would only move away from those that are wanted.
 constexpr double CountTolerance = 0.03;
 constexpr int MaximumCorrections = 3;
 constexpr double GreatestScale = 1.25;
@@ -58,14 +67,21 @@ constexpr double GoodEnough = 0.3, WorstSplit = 0.3;
 template <int D>
 constexpr double SwapBelow = D == 2 ? std::numeric_limits<double>::infinity() : 0.7;
 
+/// Lengths at the ends of an edge whose logarithms differ by less count as equal: the formula below
+/// loses digits as they come closer, and at this difference 1/2 is wrong by 1e-5 only.
+constexpr double EqualLengths = 1e-4;
+/// No edge is split nearer to an end than this part of it. The lengths may differ by any factor,
+/// but cells at a very short part would be bad, and the long part would be split again.
+constexpr double NearestToEnd = 0.25;
+
 /// Where to halve an edge with lengths la and lb at its ends, as a fraction of the way from a; not
 /// too close to an end. With r = ln(lb / la) and ln l linear in between, both parts are equally
-/// long if exp(r t) = (1 + exp(r)) / 2. For r near 0 this loses its digits, and t is 1/2.
+/// long if exp(r t) = (1 + exp(r)) / 2.
 inline double metricMiddle(double la, double lb)
 {
   const double r = std::log(lb / la);
-  const double t = std::fabs(r) < 1e-4 ? 0.5 : std::log(0.5 * (1.0 + std::exp(r))) / r;
-  return std::clamp(t, 0.25, 0.75);
+  const double t = std::fabs(r) < EqualLengths ? 0.5 : std::log(0.5 * (1.0 + std::exp(r))) / r;
+  return std::clamp(t, NearestToEnd, 1.0 - NearestToEnd);
 }
 
 /// A pseudo-random number in [-1, 1] that depends on the edge only, so that runs are reproducible.
@@ -140,7 +156,7 @@ private:
   UnitTensors<D> units_;
   Proposal<D> proposal_;
   std::vector<std::uint8_t> pinched_; // see PinchedPoints.h
-  bool overlaps_;                     // cells may overlap
+  bool tangled_;                      // cells may overlap
 
   int round_ = 0;
   long mostCells_ = 0;       // the brake, see BrakeFactor

@@ -14,6 +14,18 @@ namespace meshopt::fem
 {
 namespace
 {
+/// Motions with an eigenvalue below this part of the trace violate nothing. With more constraints
+/// the trace and the rounding errors are greater, by the same. A smaller part takes rounding for a
+/// constraint. A larger one overlooks constraints at points near each other: with this one they are
+/// up to 3e-7 of the group apart (the root, since conditions are squared).
+constexpr double NoConstraint = 1e-13;
+/// Of motions (columns of norm 1) smaller entries count as 0 in a message. Above what rounding
+/// leaves of an eigenvector, below what a person would call a slope.
+constexpr double Shown = 1e-6;
+/// Of numbers that differ by less, relatively, the first one is taken, so that rounding does not
+/// decide what a message says.
+constexpr double SameEntries = 1e-6, SameMotions = 1e-9;
+
 /// Displacement at r from the centre, for each of the six (2D: three) numbers of the motion. Linear
 /// in them, since strains and rotations are small.
 template <int D>
@@ -88,14 +100,14 @@ Eigen::MatrixXd nameMotions(Eigen::MatrixXd m)
   {
     while (done < m.cols())
     {
-      // The greatest entry left, with a margin, so that rounding does not decide.
+      // The greatest entry left.
       Index row = None, column = None;
-      double most = 1e-6;
+      double most = Shown;
       for (Index r = 0; r < m.rows(); ++r)
       {
         for (Index c = done; c < m.cols() && !used[r] && isRotation(r) == rotations; ++c)
         {
-          if (std::abs(m(r, c)) > most * (1.0 + 1e-6))
+          if (std::abs(m(r, c)) > most * (1.0 + SameEntries))
           {
             most = std::abs(m(r, c));
             row = r;
@@ -332,9 +344,7 @@ private:
       const Eigen::MatrixXd& normal = this->normals_[g];
       // Eigenvalues ascend: the null space comes first.
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-      // The null space: the motions that violate nothing, up to rounding.
-      // Relative to the trace: with more constraints rounding is greater, too.
-      const double tiny = 1e-13 * std::max(1.0, normal.trace());
+      const double tiny = NoConstraint * std::max(1.0, normal.trace());
       Index count = 0;
       while (count < normal.rows() && eigen.eigenvalues()[count] < tiny)
       {
@@ -355,7 +365,7 @@ private:
 /// Rounded for output, without "-0".
 double tidy(double x, double scale)
 {
-  const double unit = 1e-6 * scale;
+  const double unit = Shown * scale;
   const double rounded = unit * std::round(x / unit);
   return std::abs(rounded) < unit ? 0.0 : rounded;
 }
@@ -374,7 +384,7 @@ std::string list(const Vec<D>& v, double scale)
 
 std::string describeMotion(const Vec<2>& t, const Vec<1>& w, const Vec<2>& centre, double length)
 {
-  if (std::abs(w[0]) < 1e-6 * t.norm())
+  if (std::abs(w[0]) < Shown * t.norm())
   {
     return "translate along " + list<2>(t.normalized(), 1.0);
   }
@@ -385,7 +395,7 @@ std::string describeMotion(const Vec<2>& t, const Vec<1>& w, const Vec<2>& centr
 
 std::string describeMotion(const Vec<3>& t, const Vec<3>& w, const Vec<3>& centre, double length)
 {
-  if (w.norm() < 1e-6 * t.norm())
+  if (w.norm() < Shown * t.norm())
   {
     return "translate along " + list<3>(t.normalized(), 1.0);
   }
@@ -395,7 +405,7 @@ std::string describeMotion(const Vec<3>& t, const Vec<3>& w, const Vec<3>& centr
                      w[0] * t[1] - w[1] * t[0]) /
     w.squaredNorm();
   // A screw: what goes along the axis is no part of a rotation.
-  const std::string pitch = std::abs(t.dot(axis)) > 1e-6 ? " (and translate along it)" : "";
+  const std::string pitch = std::abs(t.dot(axis)) > Shown ? " (and translate along it)" : "";
   return "rotate about the axis through " + list<3>(Vec<3>(centre + length * r), length) +
     " along " + list<3>(axis, 1.0) + pitch;
 }
@@ -435,9 +445,8 @@ std::string RigidModes<D>::describe(Index group, Index mode) const
   // Linear in the bodies: this is only for a message.
   for (const Body& body : this->bodies)
   {
-    // With a margin, as where pins are chosen: of equals the first body.
     if (body.group == group &&
-      (!most || motion(body).squaredNorm() > motion(*most).squaredNorm() * (1.0 + 1e-9)))
+      (!most || motion(body).squaredNorm() > motion(*most).squaredNorm() * (1.0 + SameMotions)))
     {
       most = &body;
     }

@@ -97,7 +97,7 @@ Outcome<D> tryAll(const MeshInput<D>& in, double leastGain)
     ElementClusters<D> clusters;
     clusters.gather(editor, c, memory, 0);
     clusters.forEach(mesh,
-      [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+      [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
       {
         if (kind == Filling::Centre)
         {
@@ -105,16 +105,16 @@ Outcome<D> tryAll(const MeshInput<D>& in, double leastGain)
         }
         const auto mark = judge.begin();
         const bool byItself = alone.make(
-          part, apex, part.cluster.worst + leastGain * std::abs(part.cluster.worst));
+          around, apex, around.cluster.worst + leastGain * std::abs(around.cluster.worst));
         judge.rollback(mark);
         const auto next = judge.begin();
-        const bool done = ahead.improve(part, apex);
+        const bool done = ahead.improve(around, apex);
         ++(done ? outcome.kept : outcome.undone);
         outcome.notByItself += done && !byItself;
         EXPECT_TRUE(done || !byItself) << "moving nodes makes nothing worse";
         if (done)
         {
-          check(part.cluster);
+          check(around.cluster);
         }
         else
         {
@@ -179,9 +179,9 @@ TEST(FillingLookAhead2D, OutsideOfATransactionItCommitsOrUndoes)
     clusters.gather(editor, worst, memory, 0);
     const std::vector<double> before = sortedQualities(mesh);
     const bool done = clusters.forEach(mesh,
-      [&](const Part<2>& part, Filling kind, const Apex<2>& apex)
+      [&](const ElementCluster<2>& around, Filling kind, const Apex<2>& apex)
       {
-        const bool gained = kind != Filling::Centre && ahead.improve(part, apex);
+        const bool gained = kind != Filling::Centre && ahead.improve(around, apex);
         EXPECT_FALSE(editor.inTransaction());
         EXPECT_TRUE(gained || sortedQualities(mesh) == before);
         return gained;

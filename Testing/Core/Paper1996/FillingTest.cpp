@@ -67,9 +67,9 @@ struct Scene
     clusters.gather(this->editor, c, this->memory, when);
     std::vector<Tried> all;
     const bool stopped = clusters.forEach(this->mesh,
-      [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+      [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
       {
-        all.push_back({ kind, part.core, apex.id });
+        all.push_back({ kind, around.core, apex.id });
         return false;
       });
     EXPECT_FALSE(stopped);
@@ -111,19 +111,19 @@ TEST(ReconnectionMemory, KnowsWhatHasChangedSince)
   EXPECT_EQ(memory.changed[p], 1u);
 }
 
-TEST(Part, KindOfItsFillings)
+TEST(ElementCluster, KindOfItsFillings)
 {
-  Part<3> part;
-  part.core = { 4, 5 };
-  EXPECT_TRUE(part.isEdge());
-  EXPECT_EQ(part.kindFromBoundary(), Open);
-  part.cluster.closed = true;
-  EXPECT_EQ(part.kindFromBoundary(), Ring);
-  part.core = { 4, None };
-  EXPECT_FALSE(part.isEdge());
-  EXPECT_EQ(part.kindFromBoundary(), Open);
-  part.cluster.coreInside = true;
-  EXPECT_EQ(part.kindFromBoundary(), Away);
+  ElementCluster<3> around;
+  around.core = { 4, 5 };
+  EXPECT_TRUE(around.isEdge());
+  EXPECT_EQ(around.kindFromBoundary(), Open);
+  around.cluster.closed = true;
+  EXPECT_EQ(around.kindFromBoundary(), Ring);
+  around.core = { 4, None };
+  EXPECT_FALSE(around.isEdge());
+  EXPECT_EQ(around.kindFromBoundary(), Open);
+  around.cluster.coreInside = true;
+  EXPECT_EQ(around.kindFromBoundary(), Away);
 }
 
 TEST(ElementClusters, AllFillingsOfAHexagonInTheirOrder)
@@ -146,7 +146,7 @@ TEST(ElementClusters, PlacesOfApexesThatAreNoPointOfTheCluster)
   ElementClusters<2> clusters;
   clusters.gather(s.editor, 0, s.memory, 0);
   clusters.forEach(s.mesh,
-    [&](const Part<2>& part, Filling kind, const Apex<2>& apex)
+    [&](const ElementCluster<2>& around, Filling kind, const Apex<2>& apex)
     {
       Vec<2> wanted = s.mesh.point(std::max(apex.id, 0));
       const Vec<2> a = s.mesh.point(0), b = s.mesh.point(1), c = s.mesh.point(2);
@@ -156,16 +156,16 @@ TEST(ElementClusters, PlacesOfApexesThatAreNoPointOfTheCluster)
       }
       else if (kind == New)
       {
-        wanted = (a + b + c + s.mesh.point(part.core[0] == 1 ? 6 : 3)) / 4.0;
+        wanted = (a + b + c + s.mesh.point(around.core[0] == 1 ? 6 : 3)) / 4.0;
       }
       else if (kind == Middle)
       {
-        wanted = 0.5 * (s.mesh.point(part.core[0]) + s.mesh.point(part.core[1]));
+        wanted = 0.5 * (s.mesh.point(around.core[0]) + s.mesh.point(around.core[1]));
       }
       EXPECT_LT((apex.x - wanted).norm(), 1e-15);
       const bool isOfCluster = kind == Ring || kind == Open || kind == Away;
       EXPECT_EQ(apex.local >= 0, isOfCluster);
-      EXPECT_TRUE(apex.local < 0 || part.cluster.points[apex.local] == apex.id);
+      EXPECT_TRUE(apex.local < 0 || around.cluster.points[apex.local] == apex.id);
       return false;
     });
 }
@@ -206,7 +206,7 @@ TEST(ElementClusters, EndsWithTheFirstThatIsTaken)
   {
     std::size_t calls = 0;
     EXPECT_TRUE(clusters.forEach(
-      s.mesh, [&](const Part<2>&, Filling, const Apex<2>&) { return ++calls == stop; }));
+      s.mesh, [&](const ElementCluster<2>&, Filling, const Apex<2>&) { return ++calls == stop; }));
     EXPECT_EQ(calls, stop);
   }
 }

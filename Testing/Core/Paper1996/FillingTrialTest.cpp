@@ -42,7 +42,7 @@ struct Scene
     this->memory.resize(this->mesh);
   }
 
-  /// Calls f(part, kind, apex) for all fillings of all cells.
+  /// Calls f(around, kind, apex) for all fillings of all cells.
   template <class F>
   void forAll(F&& f)
   {
@@ -54,9 +54,9 @@ struct Scene
         this->memory.resize(this->mesh); // f may have added cells and points
         clusters.gather(this->editor, c, this->memory, 0);
         clusters.forEach(this->mesh,
-          [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+          [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
           {
-            f(part, kind, apex);
+            f(around, kind, apex);
             return false;
           });
       }
@@ -99,13 +99,13 @@ TYPED_TEST(FillingTrials, AreMadeIfAllCellsAreBetter)
   const auto kept = keptFacets(s.mesh);
   std::array<int, NumberOfFillings> made{}, refused{};
   s.forAll(
-    [&](const Part<D>& part, Filling kind, const Apex<D>& apex)
+    [&](const ElementCluster<D>& around, Filling kind, const Apex<D>& apex)
     {
       std::size_t cells = 0;
-      const double worst = worstOfFan<D>(part.cluster, apex, cells);
-      const double required = part.cluster.worst;
+      const double worst = worstOfFan<D>(around.cluster, apex, cells);
+      const double required = around.cluster.worst;
       const auto mark = s.judge.begin(); // so that all fillings are tried on the same mesh
-      const bool done = trial.make(part, apex, required);
+      const bool done = trial.make(around, apex, required);
       EXPECT_EQ(done, worst > required) << static_cast<int>(kind) << " " << worst;
       ++(done ? made : refused)[static_cast<int>(kind)];
       if (done)
@@ -141,9 +141,9 @@ TYPED_TEST(FillingTrials, ARefusedOneLeavesTheMeshAsItWas)
   const std::vector<double> qualities = sortedQualities(s.mesh);
   int tried = 0;
   s.forAll(
-    [&](const Part<D>& part, Filling, const Apex<D>& apex)
+    [&](const ElementCluster<D>& around, Filling, const Apex<D>& apex)
     {
-      EXPECT_FALSE(trial.make(part, apex, 1.0)); // no cell is better than the best
+      EXPECT_FALSE(trial.make(around, apex, 1.0)); // no cell is better than the best
       EXPECT_TRUE(trial.made().empty());
       ++tried;
     });
@@ -163,12 +163,12 @@ TYPED_TEST(FillingTrials, NoMoreInvertedCellsThanBefore)
   FillingTrial<D, Shape<D>> trial(s.judge);
   int inverted = 0;
   s.forAll(
-    [&](const Part<D>& part, Filling, const Apex<D>& apex)
+    [&](const ElementCluster<D>& around, Filling, const Apex<D>& apex)
     {
       std::size_t cells = 0;
-      const bool isInverted = worstOfFan<D>(part.cluster, apex, cells) <= 0.0;
+      const bool isInverted = worstOfFan<D>(around.cluster, apex, cells) <= 0.0;
       const auto mark = s.judge.begin();
-      EXPECT_EQ(trial.make(part, apex, -1.0), !isInverted);
+      EXPECT_EQ(trial.make(around, apex, -1.0), !isInverted);
       s.judge.rollback(mark);
       inverted += isInverted;
     });
@@ -185,8 +185,8 @@ TEST(FillingTrial2D, SwapAndSplitOfADiamond)
     Scene<2> s(in);
     FillingTrial<2, Shape<2>> trial(s.judge);
     bool done = false;
-    s.forAll([&](const Part<2>& part, Filling kind, const Apex<2>& apex)
-      { done = done || (kind == wanted && trial.make(part, apex, part.cluster.worst)); });
+    s.forAll([&](const ElementCluster<2>& around, Filling kind, const Apex<2>& apex)
+      { done = done || (kind == wanted && trial.make(around, apex, around.cluster.worst)); });
     ASSERT_TRUE(done);
     const bool isSplit = wanted == Filling::Midpoint;
     EXPECT_EQ(s.mesh.countCells(), isSplit ? 4 : 2);

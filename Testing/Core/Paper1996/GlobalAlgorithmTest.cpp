@@ -100,11 +100,12 @@ MeshInput<D> grid()
 TYPED_TEST(GlobalAlgorithm, TakesElementsInTheOrderOfThePaper)
 {
   constexpr int D = TypeParam::dimension;
+  const MeshInput<D> grids[] = { grid<D>(), jitteredGrid<D>(D == 3 ? 5 : 10, 0.35, 1) };
   for (int level : { 0, 1 })
   {
     for (double target : { 1.0, 0.6 })
     {
-      Scene<D> a(grid<D>()), b(grid<D>());
+      Scene<D> a(grids[level]), b(grids[level]);
       a.parameters.neighborhoodLevel = b.parameters.neighborhoodLevel = level;
       a.parameters.target = b.parameters.target = target;
       std::vector<Index> sequence, wanted;

@@ -143,35 +143,6 @@ TYPED_TEST(Paper, SwitchesTurnKindsOff)
   }
 }
 
-TYPED_TEST(Paper, HeapGivesTheSequenceOfTheRescan)
-{
-  constexpr int D = TypeParam::dimension;
-  std::vector<Index> sequence[2];
-  MeshBits<D> bits[2];
-  for (const bool naive : { false, true })
-  {
-    SimplexMesh<D> mesh = buildMesh(testMesh<D>(0.35));
-    NodalMetric<D> metric;
-    MeshEditor<D> editor(mesh);
-    computeQualities<D>(editor, metric, Measure::Shape, 0.0);
-    RepositionParameters parameters;
-    parameters.naiveSearch = naive;
-    const auto result = reposition<D>(
-      editor, metric, Measure::Shape, 0.0, parameters, KeepGoing(), &sequence[naive]);
-    EXPECT_GT(result.done, 3);
-    bits[naive] = bitsOf(mesh);
-    expectSound(mesh);
-  }
-  EXPECT_EQ(sequence[0], sequence[1]);
-  EXPECT_EQ(bits[0], bits[1]);
-  SimplexMesh<D> a = buildMesh(testMesh<D>(0.35)), b = a;
-  Options options = target(1.0);
-  run<D>(a, options);
-  options.naiveSearch = true;
-  run<D>(b, options);
-  EXPECT_EQ(bitsOf(a), bitsOf(b));
-}
-
 TYPED_TEST(Paper, SameBitsOnEveryRun)
 {
   constexpr int D = TypeParam::dimension;

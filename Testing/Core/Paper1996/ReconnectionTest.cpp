@@ -9,15 +9,13 @@ using namespace meshopt;
 namespace
 {
 template <int D>
-ReconnectionResult run(SimplexMesh<D>& mesh, std::vector<Filling> kinds, bool naive = false,
-  std::vector<Index>* sequence = nullptr, int lookAhead = 0,
+ReconnectionResult run(SimplexMesh<D>& mesh, std::vector<Filling> kinds, int lookAhead = 0,
   const std::function<bool(double)>& keepGoing = {})
 {
   NodalMetric<D> metric;
   MeshEditor<D> editor(mesh);
   computeQualities<D>(editor, metric, Measure::Shape, 0.0);
   ReconnectionParameters parameters;
-  parameters.naiveSearch = naive;
   parameters.lookAhead = lookAhead;
   if (!kinds.empty())
   {
@@ -28,7 +26,7 @@ ReconnectionResult run(SimplexMesh<D>& mesh, std::vector<Filling> kinds, bool na
     }
   }
   ReconnectionMemory<D> memory;
-  return reconnect<D>(editor, metric, Measure::Shape, 0.0, parameters, memory, keepGoing, sequence);
+  return reconnect<D>(editor, metric, Measure::Shape, 0.0, parameters, memory, keepGoing);
 }
 
 template <int D>
@@ -202,24 +200,132 @@ TEST(Reconnection, KeptEdgeStays)
 // ---- the iteration
 // -------------------------------------------------------------------------------
 
+/// What is asked before each step, against a look at all elements: the worst one that is not set
+/// aside; if all are, the worst one whose look-ahead has not failed since something changed.
 template <int D>
-void heapEqualsRescan(int lookAhead)
+class Order
+{
+public:
+  Order(const SimplexMesh<D>& mesh, const ReconnectionMemory<D>& memory, int lookAhead)
+    : mesh_(mesh)
+    , memory_(memory)
+    , lookAhead_(lookAhead)
+  {
+  }
+
+  void expect(double asked, double target)
+  {
+    std::vector<std::pair<double, Index>> under;
+    for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
+    {
+      if (this->mesh_.isAlive(c) && this->mesh_.quality(c) < target)
+      {
+        under.emplace_back(this->mesh_.quality(c), c);
+      }
+    }
+    std::sort(under.begin(), under.end());
+    const double worst = this->first(under, this->memory_.failed);
+    under.resize(std::min<std::size_t>(under.size(), this->lookAhead_));
+    // Not a number, which equals nothing, if there is none at all.
+    EXPECT_EQ(asked, std::isnan(worst) ? this->first(under, this->memory_.ahead) : worst);
+    ++(std::isnan(worst) ? this->ahead : this->steps);
+  }
+
+  long steps = 0, ahead = 0;
+
+private:
+  double first(const std::vector<std::pair<double, Index>>& sorted,
+    const std::vector<std::uint32_t>& failed) const
+  {
+    for (const auto& [q, c] : sorted)
+    {
+      if (this->memory_.hasChanged(this->mesh_, c, failed[c]))
+      {
+        return q;
+      }
+    }
+    return std::nan("");
+  }
+
+  const SimplexMesh<D>& mesh_;
+  const ReconnectionMemory<D>& memory_;
+  int lookAhead_;
+};
+
+/// Three rounds with one memory, as in the paper's alternation, with nodes moved between them.
+template <int D>
+void takesTheWorst(int lookAhead)
+{
+  SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(D == 3 ? 5 : 12, 0.35, 4));
+  MeshEditor<D> editor(mesh);
+  NodalMetric<D> metric;
+  ReconnectionMemory<D> memory;
+  Order<D> order(mesh, memory, lookAhead);
+  TestRandom random(5);
+  for (const double target : { 0.5, 1.0, 1.0 })
+  {
+    computeQualities<D>(editor, metric, Measure::Shape, 0.0);
+    ReconnectionParameters parameters;
+    parameters.target = target;
+    parameters.lookAhead = lookAhead;
+    const ReconnectionResult result = reconnect<D>(editor, metric, Measure::Shape, 0.0, parameters,
+      memory,
+      [&](double worst)
+      {
+        order.expect(worst, target);
+        return true;
+      });
+    EXPECT_GT(result.total(), 0);
+    expectSound(mesh);
+    // At its end all elements under the target are set aside.
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      EXPECT_FALSE(mesh.isAlive(c) && mesh.quality(c) < target &&
+        memory.hasChanged(mesh, c, memory.failed[c]));
+    }
+    ++memory.time;
+    for (Index p = 0; p < mesh.numberOfPointSlots(); p += 3)
+    {
+      if (mesh.isPointAlive(p) && mesh.isFree(p))
+      {
+        editor.movePoint(p, mesh.point(p) + 0.02 * Vec<D>::NullaryExpr([&] { return random(); }));
+        std::vector<Index> star;
+        editor.star(p, star);
+        for (Index c : star)
+        {
+          for (Index q : mesh.nodes(c))
+          {
+            memory.touch(q);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(order.steps, 60);
+  EXPECT_EQ(order.ahead > 0, lookAhead > 0);
+}
+
+TEST(Reconnection, TakesTheWorstThatIsNotSetAside)
+{
+  takesTheWorst<2>(0);
+  takesTheWorst<3>(0);
+  takesTheWorst<3>(10);
+}
+
+template <int D>
+void sameBitsOnEveryRun(int lookAhead)
 {
   const MeshInput<D> in = jitteredGrid<D>(D == 3 ? 5 : 12, 0.35, 4);
   SimplexMesh<D> a = buildMesh(in), b = buildMesh(in);
-  std::vector<Index> heap, naive;
-  run<D>(a, {}, false, &heap, lookAhead);
-  run<D>(b, {}, true, &naive, lookAhead);
-  EXPECT_GT(heap.size(), 20u);
-  EXPECT_EQ(heap, naive);
+  run<D>(a, {}, lookAhead);
+  run<D>(b, {}, lookAhead);
   EXPECT_EQ(bitsOf(a), bitsOf(b));
 }
 
-TEST(Reconnection, HeapGivesTheSequenceOfTheRescan)
+TEST(Reconnection, SameBitsOnEveryRun)
 {
-  heapEqualsRescan<2>(0);
-  heapEqualsRescan<3>(0);
-  heapEqualsRescan<3>(10);
+  sameBitsOnEveryRun<2>(0);
+  sameBitsOnEveryRun<3>(10);
 }
 
 template <int D>
@@ -228,7 +334,7 @@ void risesLexicographically()
   SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(D == 3 ? 4 : 8, 0.4, 2));
   std::vector<double> before;
   long steps = 0;
-  run<D>(mesh, {}, false, nullptr, 10,
+  run<D>(mesh, {}, 10,
     [&](double)
     {
       const std::vector<double> now = sortedQualities(mesh);

@@ -40,65 +40,55 @@ const auto everyCell = [](Index) { return true; };
 
 TEST(WorstQueue, TiesGoToTheLowestId)
 {
-  for (bool naive : { false, true })
+  SimplexMesh<2> mesh = apart(5);
+  MeshEditor<2> editor(mesh);
+  const double q[] = { 0.5, 0.2, 0.7, 0.2, 0.2 };
+  for (Index c = 0; c < 5; ++c)
   {
-    SimplexMesh<2> mesh = apart(5);
-    MeshEditor<2> editor(mesh);
-    const double q[] = { 0.5, 0.2, 0.7, 0.2, 0.2 };
-    for (Index c = 0; c < 5; ++c)
-    {
-      editor.setQuality(c, q[c]);
-    }
-    WorstQueue<2> queue(mesh, 1.0, naive);
-    queue.fill();
-    EXPECT_EQ(queue.worst(everyCell), 1);
-    EXPECT_EQ(queue.worst(everyCell), 1) << "it stays in the queue";
-    EXPECT_EQ(queue.worst([](Index c) { return c != 1; }), 3);
-    EXPECT_EQ(queue.worst([](Index c) { return c == 0 || c == 2; }), 0);
+    editor.setQuality(c, q[c]);
   }
+  WorstQueue<2> queue(mesh, 1.0);
+  queue.fill();
+  EXPECT_EQ(queue.worst(everyCell), 1);
+  EXPECT_EQ(queue.worst(everyCell), 1) << "it stays in the queue";
+  EXPECT_EQ(queue.worst([](Index c) { return c != 1; }), 3);
+  EXPECT_EQ(queue.worst([](Index c) { return c == 0 || c == 2; }), 0);
 }
 
 TEST(WorstQueue, WhatIsNotUnderTheLimitIsNotThere)
 {
-  for (bool naive : { false, true })
-  {
-    SimplexMesh<2> mesh = apart(3);
-    MeshEditor<2> editor(mesh);
-    editor.setQuality(0, 0.6);
-    editor.setQuality(1, 0.5);
-    editor.setQuality(2, 0.5);
-    WorstQueue<2> queue(mesh, 0.5, naive);
-    queue.fill();
-    EXPECT_EQ(queue.worst(everyCell), None);
-    editor.setQuality(2, std::nextafter(0.5, 0.0));
-    queue.push(2);
-    EXPECT_EQ(queue.worst(everyCell), 2);
-  }
+  SimplexMesh<2> mesh = apart(3);
+  MeshEditor<2> editor(mesh);
+  editor.setQuality(0, 0.6);
+  editor.setQuality(1, 0.5);
+  editor.setQuality(2, 0.5);
+  WorstQueue<2> queue(mesh, 0.5);
+  queue.fill();
+  EXPECT_EQ(queue.worst(everyCell), None);
+  editor.setQuality(2, std::nextafter(0.5, 0.0));
+  queue.push(2);
+  EXPECT_EQ(queue.worst(everyCell), 2);
 }
 
 TEST(WorstQueue, ACellThatWasNotEligibleComesBackWhenPushed)
 {
-  for (bool naive : { false, true })
+  SimplexMesh<2> mesh = apart(4);
+  MeshEditor<2> editor(mesh);
+  for (Index c = 0; c < 4; ++c)
   {
-    SimplexMesh<2> mesh = apart(4);
-    MeshEditor<2> editor(mesh);
-    for (Index c = 0; c < 4; ++c)
-    {
-      editor.setQuality(c, 0.1 * (c + 1));
-    }
-    WorstQueue<2> queue(mesh, 1.0, naive);
-    queue.fill();
-    EXPECT_EQ(queue.worst([](Index c) { return c == 3; }), 3);
-    queue.push(1);
-    EXPECT_EQ(queue.worst([](Index c) { return c > 0; }), 1);
-    queue.push(0);
-    queue.push(0);
-    EXPECT_EQ(queue.worst(everyCell), 0);
+    editor.setQuality(c, 0.1 * (c + 1));
   }
+  WorstQueue<2> queue(mesh, 1.0);
+  queue.fill();
+  EXPECT_EQ(queue.worst([](Index c) { return c == 3; }), 3);
+  queue.push(1);
+  EXPECT_EQ(queue.worst([](Index c) { return c > 0; }), 1);
+  queue.push(0);
+  queue.push(0);
+  EXPECT_EQ(queue.worst(everyCell), 0);
 }
 
-/// Qualities change, cells go and come, and become eligible and not: both ways of searching give
-/// what sorting gives.
+/// Qualities change, cells go and come, and become eligible and not.
 TEST(WorstQueue, EqualsSortingThroughRandomChanges)
 {
   constexpr double limit = 0.8;
@@ -111,16 +101,10 @@ TEST(WorstQueue, EqualsSortingThroughRandomChanges)
   {
     editor.setQuality(c, quality());
   }
-  WorstQueue<2> heap(mesh, limit, false), scan(mesh, limit, true);
-  heap.fill();
-  scan.fill();
+  WorstQueue<2> queue(mesh, limit);
+  queue.fill();
   std::vector<char> eligible(200, 1);
   const auto isEligible = [&](Index c) { return eligible[c] != 0; };
-  const auto push = [&](Index c)
-  {
-    heap.push(c);
-    scan.push(c);
-  };
   int found = 0, gone = 0;
   for (int step = 0; step < 3000; ++step)
   {
@@ -135,22 +119,21 @@ TEST(WorstQueue, EqualsSortingThroughRandomChanges)
       // The cell becomes another one, of a slot that may have been another's.
       const Simplex<2> n = mesh.nodes(c);
       ASSERT_TRUE(editor.replace({ c }, { { n[1], n[2], n[0] } }, { quality() }));
-      push(editor.created()[0]);
+      queue.push(editor.created()[0]);
       ++gone;
     }
     else if (kind > 0.2)
     {
       editor.setQuality(c, quality());
-      push(c);
+      queue.push(c);
     }
     else if (kind > -0.4)
     {
       eligible[c] = !eligible[c];
-      push(c);
+      queue.push(c);
     }
     const Index wanted = leastOfAll(mesh, limit, isEligible);
-    ASSERT_EQ(heap.worst(isEligible), wanted) << step;
-    ASSERT_EQ(scan.worst(isEligible), wanted) << step;
+    ASSERT_EQ(queue.worst(isEligible), wanted) << step;
     found += wanted != None;
   }
   EXPECT_GT(found, 1000);
@@ -165,7 +148,7 @@ TEST(WorstQueue, FillForgetsWhatWasThere)
   {
     editor.setQuality(c, 0.1 * (c + 1));
   }
-  WorstQueue<2> queue(mesh, 1.0, false);
+  WorstQueue<2> queue(mesh, 1.0);
   queue.fill();
   EXPECT_EQ(queue.worst([](Index) { return false; }), None); // all are dropped
   EXPECT_EQ(queue.worst(everyCell), None);

@@ -11,7 +11,7 @@ using namespace meshopt;
 namespace
 {
 /// A part of a mesh: some of its cells, with the points in the order of the whole.
-struct Part
+struct PartOfMesh
 {
   SimplexMesh<2> mesh;
   std::vector<Index> names; ///< of the whole, by point of the part
@@ -34,14 +34,14 @@ struct Whole
     EXPECT_EQ(this->boundary.make(this->network, nullptr, options, 1.0, this->places), "");
   }
 
-  Part part(const std::function<bool(Index)>& has) const
+  PartOfMesh part(const std::function<bool(Index)>& has) const
   {
     std::set<Index> used, beyond;
     for (Index c = 0; c < static_cast<Index>(this->in.cells.size()); ++c)
     {
       (has(c) ? used : beyond).insert(this->in.cells[c].begin(), this->in.cells[c].end());
     }
-    Part part;
+    PartOfMesh part;
     part.names.assign(used.begin(), used.end());
     std::map<Index, Index> numbers;
     MeshInput<2> some;
@@ -68,7 +68,7 @@ struct Whole
 
   /// Puts a part on the curves, and compares all that it says with the whole. Returns how many of
   /// its points may slide.
-  int compare(Part& part, BoundaryCurves& curves) const
+  int compare(PartOfMesh& part, BoundaryCurves& curves) const
   {
     MeshEditor<2> editor(part.mesh);
     curves.build(editor, this->boundary, part.boundary);
@@ -110,7 +110,7 @@ TEST(WholeBoundary, TheWholeIsAPart)
   for (const MeshInput<2>& in : { jitteredGrid<2>(5, 0.2), ring(9, 0.5, 1.0), disc(7) })
   {
     const Whole whole(in);
-    Part part = whole.part([](Index) { return true; });
+    PartOfMesh part = whole.part([](Index) { return true; });
     BoundaryCurves curves, direct;
     whole.compare(part, curves);
     SimplexMesh<2> mesh = buildMesh(in);
@@ -138,7 +138,7 @@ TEST(WholeBoundary, PartsAreOnTheSamePieces)
       {
         for (Index length : { Index(1), Index(2), Index(n / 3), Index(n / 2), Index(n - 1) })
         {
-          Part part = whole.part([&](Index c) { return (c - from + n) % n < length; });
+          PartOfMesh part = whole.part([&](Index c) { return (c - from + n) % n < length; });
           BoundaryCurves curves;
           whole.compare(part, curves);
         }
@@ -156,7 +156,7 @@ TEST(WholeBoundary, SidesOfASlitAreToldApart)
   const auto n = static_cast<Index>(in.cells.size());
   for (Index from = 0; from < n; from += 3)
   {
-    Part part = whole.part([&](Index c) { return (c - from + n) % n < n / 2; });
+    PartOfMesh part = whole.part([&](Index c) { return (c - from + n) % n < n / 2; });
     BoundaryCurves curves;
     sliding += whole.compare(part, curves);
   }
@@ -167,7 +167,7 @@ TEST(WholeBoundary, SidesOfASlitAreToldApart)
 TEST(WholeBoundary, HullBetweenTheEndsOfAPiece)
 {
   const Whole whole(disc(6), curveOptions(180.0, true));
-  Part part = whole.part([](Index c) { return c < 2; }); // 0, 1, 2 and the centre
+  PartOfMesh part = whole.part([](Index c) { return c < 2; }); // 0, 1, 2 and the centre
   BoundaryCurves curves;
   EXPECT_EQ(whole.compare(part, curves), 1);
   EXPECT_FALSE(curves.span(part.mesh, 0, 3).has_value());
@@ -186,7 +186,7 @@ TEST(WholeBoundary, WhatCannotBeToldStays)
   ASSERT_EQ(whole.boundary.pieces.size(), 1u);
   for (Index first : { 0, 7 })
   {
-    Part part = whole.part([&](Index c) { return c == first; });
+    PartOfMesh part = whole.part([&](Index c) { return c == first; });
     MeshEditor<2> editor(part.mesh);
     BoundaryCurves curves;
     curves.build(editor, whole.boundary, part.boundary);
@@ -198,7 +198,7 @@ TEST(WholeBoundary, WhatCannotBeToldStays)
   // With two edges the order of the parameters tells.
   for (Index first : { 0, 6 })
   {
-    Part part = whole.part([&](Index c) { return c == first || c == first + 1; });
+    PartOfMesh part = whole.part([&](Index c) { return c == first || c == first + 1; });
     BoundaryCurves curves;
     EXPECT_EQ(whole.compare(part, curves), 1);
   }

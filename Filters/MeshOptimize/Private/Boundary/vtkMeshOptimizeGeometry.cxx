@@ -33,6 +33,13 @@ using vtkMeshBridge::Frame;
 namespace
 {
 
+// How far points of the geometry may be from the plane of the mesh, as a part of the diagonal of
+// their box. Files with single precision are off by 1e-7; what is off by more was meant to be.
+constexpr double InPlane = 1e-6;
+// Points nearer to each other than this part of that diagonal were meant to be one. Rounding only:
+// with more, short lines would vanish; with none, lines that meet would not hang together.
+constexpr double SamePlace = 1e-10;
+
 vtkDataArray* FindCorners(vtkAlgorithm* filter, vtkPolyData* geometry)
 {
   vtkInformation* wanted = filter->GetInputArrayInformation(CornerArray);
@@ -128,7 +135,7 @@ std::string CheckPoints(
     geometry->GetPoint(static_cast<vtkIdType>(p), x);
     frame.ToGrid(frame.ToCore(x), back);
     const double away = std::hypot(x[0] - back[0], x[1] - back[1], x[2] - back[2]);
-    if (used[p] && away > 1e-6 * box.GetDiagonalLength())
+    if (used[p] && away > InPlane * box.GetDiagonalLength())
     {
       return "Point " + std::to_string(p) +
         " of the geometry is not in the plane of the mesh, but " + std::to_string(away) +
@@ -165,8 +172,7 @@ std::string ReadLines(
   vtkNew<vtkPoints> distinct;
   distinct->SetDataTypeToDouble();
   vtkNew<vtkPointLocator> places;
-  // Rounding only: points nearer than that were meant to be one.
-  places->SetTolerance(1e-10 * box.GetDiagonalLength());
+  places->SetTolerance(SamePlace * box.GetDiagonalLength());
   places->InitPointInsertion(distinct, bounds, geometry->GetNumberOfPoints());
   std::vector<Index> ids(used.size(), meshopt::None);
   for (std::size_t p = 0; p < used.size(); ++p)

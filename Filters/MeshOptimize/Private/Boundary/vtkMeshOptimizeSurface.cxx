@@ -91,9 +91,9 @@ std::vector<meshopt::Facet<3>> ListOuterFaces(vtkUnstructuredGrid* grid)
   return once;
 }
 
-using Place = std::array<double, 9>; // of a facet: its corners in order
+using FaceCorners = std::array<double, 9>; // of its corners, ascending: their coordinates
 
-Place PlaceOf(vtkUnstructuredGrid* grid, const meshopt::Facet<3>& face)
+FaceCorners CornersOf(vtkUnstructuredGrid* grid, const meshopt::Facet<3>& face)
 {
   // Compared bit for bit.
   std::array<std::array<double, 3>, 3> x;
@@ -103,12 +103,12 @@ Place PlaceOf(vtkUnstructuredGrid* grid, const meshopt::Facet<3>& face)
   }
   // Different blocks number the corners differently.
   std::sort(x.begin(), x.end());
-  Place place;
+  FaceCorners corners;
   for (int i = 0; i < 9; ++i)
   {
-    place[i] = x[i / 3][i % 3];
+    corners[i] = x[i / 3][i % 3];
   }
-  return place;
+  return corners;
 }
 
 } // namespace
@@ -147,12 +147,12 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
     return locked;
   }
   // Faces of different blocks at the same place.
-  std::vector<std::tuple<Place, std::size_t, meshopt::Facet<3>>> faces;
+  std::vector<std::tuple<FaceCorners, std::size_t, meshopt::Facet<3>>> faces;
   for (std::size_t k = 0; k < grids.size(); ++k)
   {
     for (const meshopt::Facet<3>& face : ListOuterFaces(grids[k]))
     {
-      faces.emplace_back(PlaceOf(grids[k], face), k, face);
+      faces.emplace_back(CornersOf(grids[k], face), k, face);
     }
   }
   std::sort(faces.begin(), faces.end());

@@ -14,14 +14,14 @@ namespace vtkMeshRanks
 namespace
 {
 
-using Place = std::array<double, 3>;
+using Position = std::array<double, 3>;
 
 /**
  * Not divided by the number of corners: centers are only compared with each other.
  */
-Place CenterOf(const Part& part, vtkIdType c)
+Position CenterOf(const Part& part, vtkIdType c)
 {
-  Place sum{};
+  Position sum{};
   for (int i = 0; i < part.Corners; ++i)
   {
     for (int k = 0; k < 3; ++k)
@@ -34,10 +34,10 @@ Place CenterOf(const Part& part, vtkIdType c)
 
 using Iterator = std::vector<vtkIdType>::iterator;
 
-int LongestSide(const std::vector<Place>& centers, Iterator first, Iterator last)
+int LongestSide(const std::vector<Position>& centers, Iterator first, Iterator last)
 {
   constexpr double far = std::numeric_limits<double>::infinity();
-  Place low{ { far, far, far } }, high{ { -far, -far, -far } };
+  Position low{ { far, far, far } }, high{ { -far, -far, -far } };
   for (; first != last; ++first)
   {
     for (int k = 0; k < 3; ++k)
@@ -58,7 +58,7 @@ int LongestSide(const std::vector<Place>& centers, Iterator first, Iterator last
  * Parts [first, last) such that the work before the result is `share` of the whole, as nearly as
  * may be. By halves, each of which is found in linear time.
  */
-Iterator CutAt(const std::vector<Place>& centers, const std::vector<double>& work, int axis,
+Iterator CutAt(const std::vector<Position>& centers, const std::vector<double>& work, int axis,
   double share, Iterator first, Iterator last)
 {
   const auto sum = [&](Iterator from, Iterator to) {
@@ -88,7 +88,7 @@ Iterator CutAt(const std::vector<Place>& centers, const std::vector<double>& wor
   return first != last && 2.0 * left >= work[*first] ? last : first;
 }
 
-void Cut(const std::vector<Place>& centers, const std::vector<double>& work, Iterator first,
+void Cut(const std::vector<Position>& centers, const std::vector<double>& work, Iterator first,
   Iterator last, int begin, int end, std::vector<int>& target)
 {
   if (end - begin == 1)
@@ -111,8 +111,8 @@ constexpr vtkIdType MostSamples = 1 << 15;
  * Cuts the samples as Cut() does, and with them the cells of this rank. All ranks have the same
  * samples in the same order, and so the same cuts.
  */
-void CutBoth(const std::vector<Place>& samples, const std::vector<double>& work, Iterator first,
-  Iterator last, const std::vector<Place>& centers, Iterator firstCell, Iterator lastCell,
+void CutBoth(const std::vector<Position>& samples, const std::vector<double>& work, Iterator first,
+  Iterator last, const std::vector<Position>& centers, Iterator firstCell, Iterator lastCell,
   int begin, int end, std::vector<int>& target)
 {
   if (end - begin == 1 || first == last)
@@ -133,9 +133,9 @@ void CutBoth(const std::vector<Place>& samples, const std::vector<double>& work,
   CutBoth(samples, work, middle, last, centers, middleCell, lastCell, half, end, target);
 }
 
-std::vector<Place> CentersOf(const Part& part)
+std::vector<Position> CentersOf(const Part& part)
 {
-  std::vector<Place> centers;
+  std::vector<Position> centers;
   centers.reserve(part.CellIds.size());
   for (vtkIdType c = 0; c < part.GetNumberOfCells(); ++c)
   {
@@ -206,7 +206,7 @@ std::vector<double> PredictWork(const Ranks& ranks, const Part& part, meshopt::M
 
 std::vector<int> Divide(const Part& part, const std::vector<double>& work, int count)
 {
-  const std::vector<Place> centers = CentersOf(part);
+  const std::vector<Position> centers = CentersOf(part);
   std::vector<vtkIdType> cells = NumbersUpTo(centers.size());
   std::vector<int> target(cells.size(), 0);
   Cut(centers, work, cells.begin(), cells.end(), 0, count, target);
@@ -215,7 +215,7 @@ std::vector<int> Divide(const Part& part, const std::vector<double>& work, int c
 
 std::vector<int> DivideAnew(const Ranks& ranks, const Part& part, const std::vector<double>& work)
 {
-  const std::vector<Place> centers = CentersOf(part);
+  const std::vector<Position> centers = CentersOf(part);
   const vtkIdType step = 1 + ranks.Sum(part.GetNumberOfCells()) / MostSamples;
   Bytes mine;
   // A sample stands for the cells up to the next one.
@@ -226,13 +226,13 @@ std::vector<int> DivideAnew(const Ranks& ranks, const Part& part, const std::vec
     Put(mine, centers[c]);
     Put(mine, std::accumulate(from, to, 0.0));
   }
-  std::vector<Place> samples;
+  std::vector<Position> samples;
   std::vector<double> workOfSamples;
   for (const Bytes& bytes : ranks.Gather(mine))
   {
     for (Reader reader(bytes); !reader.IsAtEnd();)
     {
-      samples.push_back(reader.Take<Place>());
+      samples.push_back(reader.Take<Position>());
       workOfSamples.push_back(reader.Take<double>());
     }
   }

@@ -22,14 +22,14 @@ namespace vtkMeshRanks
 namespace
 {
 
-using Place = std::array<double, 3>;
+using Position = std::array<double, 3>;
 
 /**
  * A facet on the surface of a piece: its corners in the order of their coordinates.
  */
 struct OpenFacet
 {
-  std::array<Place, 3> Places;
+  std::array<Position, 3> Positions;
   std::array<vtkIdType, 3> Points; ///< indices on its rank
 };
 
@@ -39,8 +39,9 @@ struct Entry
   int Rank;
   bool operator<(const Entry& other) const
   {
-    return this->Facet.Places != other.Facet.Places ? this->Facet.Places < other.Facet.Places
-                                                    : this->Rank < other.Rank;
+    return this->Facet.Positions != other.Facet.Positions
+      ? this->Facet.Positions < other.Facet.Positions
+      : this->Rank < other.Rank;
   }
 };
 
@@ -61,12 +62,12 @@ struct Link
 };
 
 // Bits decide: neighbours' pieces come from one mesh, and have the same coordinates.
-std::uint64_t HashOf(const std::array<Place, 3>& places)
+std::uint64_t HashOf(const std::array<Position, 3>& positions)
 {
   std::uint64_t hash = 0;
-  for (const Place& place : places)
+  for (const Position& position : positions)
   {
-    for (const double x : place)
+    for (const double x : position)
     {
       hash = meshopt::addToHash(hash, x + 0.0); // -0 is 0
     }
@@ -80,7 +81,7 @@ std::uint64_t HashOf(const std::array<Place, 3>& places)
 bool MakeOpenFacet(const Part& part, const CellFacet& facet, OpenFacet& open)
 {
   const int n = part.Corners - 1;
-  std::array<std::pair<Place, vtkIdType>, 3> corners{};
+  std::array<std::pair<Position, vtkIdType>, 3> corners{};
   for (int i = 0; i < n; ++i)
   {
     const double* x = part.GetPoint(facet.Nodes[i]);
@@ -99,7 +100,7 @@ bool MakeOpenFacet(const Part& part, const CellFacet& facet, OpenFacet& open)
   open = OpenFacet{};
   for (int i = 0; i < n; ++i)
   {
-    open.Places[i] = corners[i].first;
+    open.Positions[i] = corners[i].first;
     open.Points[i] = corners[i].second;
     if (i > 0 && corners[i].first == corners[i - 1].first)
     {
@@ -127,7 +128,7 @@ std::vector<Bytes> Match(
   std::vector<Bytes> answers(facets.size());
   for (std::size_t i = 0, j = 0; i < entries.size(); i = j)
   {
-    for (j = i + 1; j < entries.size() && entries[j].Facet.Places == entries[i].Facet.Places;)
+    for (j = i + 1; j < entries.size() && entries[j].Facet.Positions == entries[i].Facet.Positions;)
     {
       ++j;
     }
@@ -171,7 +172,7 @@ std::vector<std::vector<Link>> FindLinks(const Ranks& ranks, const Part& part,
     if (MakeOpenFacet(part, facet, open))
     {
       // Any rank can be asked where a place is looked after: the hash says.
-      Put(out[HashOf(open.Places) % ranks.GetCount()], open);
+      Put(out[HashOf(open.Positions) % ranks.GetCount()], open);
     }
   }
   std::string error;

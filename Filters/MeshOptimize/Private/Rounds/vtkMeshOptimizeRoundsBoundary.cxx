@@ -122,8 +122,8 @@ void MarkTwins(LineNetwork& network)
  */
 LineNetwork Rounds::GatherGeometry() const
 {
-  using Place = std::array<double, 2>;
-  std::vector<std::array<LineEnd<Place>, 2>> mine;
+  using Position = std::array<double, 2>;
+  std::vector<std::array<LineEnd<Position>, 2>> mine;
   std::string error;
   if (this->Wanted.Geometry && this->Wanted.Geometry->GetNumberOfLines() > 0)
   {
@@ -131,8 +131,8 @@ LineNetwork Rounds::GatherGeometry() const
     error = ReadGeometry(this->Wanted, this->Plane, network);
     const auto end = [&](Index p)
     {
-      const Place x{ { network.points[p][0], network.points[p][1] } };
-      return LineEnd<Place>{ x, x, network.corners[p] };
+      const Position x{ { network.points[p][0], network.points[p][1] } };
+      return LineEnd<Position>{ x, x, network.corners[p] };
     };
     for (const std::array<Index, 2>& line : network.lines)
     {
@@ -140,8 +140,8 @@ LineNetwork Rounds::GatherGeometry() const
     }
   }
   this->All.Agree(error);
-  std::vector<Place> places;
-  LineNetwork all = GatherLines(this->All, mine, places);
+  std::vector<Position> positions;
+  LineNetwork all = GatherLines(this->All, mine, positions);
   this->All.Agree(all.lines.empty() ? "The geometry has no lines on any rank." : "");
   return all;
 }
