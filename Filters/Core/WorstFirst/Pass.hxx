@@ -30,8 +30,8 @@ void Schedule<D, Shape>::pass(const Task& task, const std::vector<Index>& bad)
   this->drain(task, bad, MaximumChunks);
   // Past the target they may wait: there are many stages. Before it the next pass would spend more
   // on them than they need. When polishing, it is the same again.
-  const bool past = this->guard_ && task.target > this->options_.targetQuality;
-  const bool mayWait = past || (!this->guard_ && !this->hardlyAny(bad));
+  const bool past = this->lifts() && task.target > this->options_.targetQuality;
+  const bool mayWait = past || (!this->lifts() && !this->hardlyAny(bad));
   if (mayWait || this->chunks_.heldUp().empty())
   {
     return;
@@ -87,11 +87,11 @@ void Schedule<D, Shape>::drain(const Task& task, const std::vector<Index>& bad, 
 template <int D, class Shape>
 int Schedule<D, Shape>::numberOfChunks(std::size_t numberOfBadCells, int most) const
 {
-  const long each = this->guard_ ? BadCellsPerChunk : PolishedPerChunk;
+  const long each = this->lifts() ? BadCellsPerChunk : PolishedPerChunk;
   int n = static_cast<int>(std::min<long>(
     this->mesh().numberOfCellSlots() / CellsPerChunk, static_cast<long>(numberOfBadCells) / each));
   n -= n % 2; // with an odd number, one of two threads would wait for the other
-  return this->tangled_ ? 1 : std::min(std::max(n, 1), most);
+  return this->tangle_.mayOverlap() ? 1 : std::min(std::max(n, 1), most);
 }
 
 /// Tells the judges of all chunks the task, and how many cells each may add.
@@ -99,11 +99,11 @@ template <int D, class Shape>
 void Schedule<D, Shape>::instruct(const Task& task)
 {
   const int n = this->chunks_.size();
-  const bool onTheWay = this->guard_ && !(task.target > this->options_.targetQuality);
+  const bool onTheWay = this->lifts() && !(task.target > this->options_.targetQuality);
   const long few = this->fewCells();
   const long limit = onTheWay && task.level == Level::LookAhead ? few / n
                                                                 : std::numeric_limits<long>::max();
-  const bool polishes = !this->guard_ && !this->isPast(this->polishTarget_);
+  const bool polishes = !this->lifts() && !this->isPast(this->polishTarget_);
   const long looks = polishes ? std::max<long>(1, (this->mostLooks() - this->looks_) / n)
                               : std::numeric_limits<long>::max();
   const double most = this->mostEvaluations() / n;
@@ -111,22 +111,19 @@ void Schedule<D, Shape>::instruct(const Task& task)
   // changes are then guarded at the target. Otherwise the guard only keeps cells from falling below
   // the first stage.
   const bool many = onTheWay && task.level > 0 && task.below > few;
-  const double guard = !this->guard_ ? -1.0 : many ? task.target : Stages[0];
+  const double guard = !this->lifts() ? -1.0 : many ? task.target : Stages[0];
   const bool wide = polishes && !this->slides() && this->isFarBelowBound();
-  // The shares are fixed before the pass: a chunk must not depend on what others use up meanwhile.
-  const long reserve = this->guard_ ? this->reserve_ : 0;
-  Growth share;
-  share.left = (this->growth_ - reserve) / n;
-  share.most = this->guard_ ? (this->mostGrowth_ - reserve) / n : std::numeric_limits<long>::max();
+  const Growth share = this->budget_.share(this->phase_, n);
   for (int k = 0; k < n; ++k)
   {
     Worker& w = this->chunks_.worker(k);
     Judge<D, Shape>& judge = w.improver.judge();
     judge.growth = share;
-    judge.setTangled(this->tangled_, this->inverted_, this->pinched_);
+    judge.setTangled(
+      this->tangle_.mayOverlap(), this->tangle_.hasInverted(), this->tangle_.pinched());
     judge.setTarget(task.target);
-    judge.setThorough(!this->model_.plain || (this->guard_ && task.below <= few));
-    judge.setWide(wide ? this->mostSwallowed() : None);
+    judge.setThorough(!this->model_.plain || (this->lifts() && task.below <= few));
+    judge.setWide(wide ? this->budget_.mostSwallowed() : None);
     judge.setGuard(guard, this->model_.weights || many);
     this->demand(judge, task, false);
     w.demand = judge.demand();
@@ -161,14 +158,15 @@ double Schedule<D, Shape>::mostEvaluations() const
   {
     return std::numeric_limits<double>::infinity();
   }
-  return this->guard_ ? this->costs_.leftForPass() : this->costs_.leftForPolish();
+  return this->lifts() ? this->costs_.leftForPass() : this->costs_.leftForPolish();
 }
 
 template <int D, class Shape>
 bool Schedule<D, Shape>::isSpent(const Worker& w) const
 {
-  const double earned = this->guard_ ? this->costs_.pricePerLifted() * static_cast<double>(w.lifted)
-                                     : 0.0;
+  const double earned = this->lifts()
+    ? this->costs_.pricePerLifted() * static_cast<double>(w.lifted)
+    : 0.0;
   return static_cast<double>(w.evaluations) > w.most + earned;
 }
 
@@ -177,6 +175,7 @@ template <int D, class Shape>
 void Schedule<D, Shape>::gather()
 {
   long left = 0;
+  bool isShort = false;
   std::array<long, NumberOfOperations> tried{}, done{}, gained{}; // in this drain
   for (int k = 0; k < this->chunks_.size(); ++k)
   {
@@ -187,7 +186,7 @@ void Schedule<D, Shape>::gather()
       this->failures_.note(demand, this->run_.editor.clock());
     }
     left += judge.growth.left;
-    this->isShort_ |= judge.growth.isShort;
+    isShort |= judge.growth.isShort;
     this->kept_ += w.kept;
     this->creeps_ |= w.creeps;
     for (int i : { 0, 1 })
@@ -195,12 +194,12 @@ void Schedule<D, Shape>::gather()
       this->surface_[i] += std::exchange(judge.surfaceChanges[i], 0);
     }
     this->spent_ += w.evaluations;
-    if (this->guard_)
+    if (this->lifts())
     {
       this->costs_.notePass(w.evaluations, w.lifted);
     }
     this->run_.report.evaluations += std::exchange(w.evaluations, 0);
-    this->looks_ += this->guard_ ? 0 : judge.tried[static_cast<int>(Operation::LookAhead)];
+    this->looks_ += this->lifts() ? 0 : judge.tried[static_cast<int>(Operation::LookAhead)];
     for (int op = 0; op < NumberOfOperations; ++op)
     {
       tried[op] += std::exchange(judge.tried[op], 0);
@@ -218,12 +217,12 @@ void Schedule<D, Shape>::gather()
     const auto op = static_cast<int>(operation);
     this->costs_.noteTries(kind, tried[op], gained[op] * Patience >= tried[op]);
   };
-  if (this->guard_)
+  if (this->lifts())
   {
     note(CostModel::Insertion, Operation::NodeInsertion);
     note(CostModel::Look, Operation::LookAhead);
   }
-  this->growth_ = left + (this->guard_ ? this->reserve_ : 0);
+  this->budget_.takeBack(this->phase_, left, isShort);
 }
 
 /// The level of a worker's next try. Insertion and look-ahead are given up for a pass if they
@@ -262,7 +261,7 @@ template <int D, class Shape>
 void Schedule<D, Shape>::watch(Worker& w, const Task& task)
 {
   ++w.tries;
-  if (!this->guard_)
+  if (!this->lifts())
   {
     if (w.tries >= MostPolishTries * w.given && !this->slides() && this->model_.plain)
     {
@@ -353,7 +352,7 @@ void Schedule<D, Shape>::work(Worker& w, const Task& task)
     else if (!w.editor.blocked())
     {
       // A failure is remembered only if no border played a part in it: another pass may succeed.
-      w.editor.setFailed(c, w.editor.clock(), this->rank(level));
+      w.editor.setFailed(c, w.editor.clock(), rankOf(this->phase_, level));
     }
     else
     {

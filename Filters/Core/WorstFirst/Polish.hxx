@@ -33,7 +33,10 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
     // ends no lower. (Only caps of edges may differ, by their rounding: they are listed up to
     // another limit.)
     const bool isFinal = isLast || (!(target < this->options_.targetQuality) && now < target);
-    this->reserve_ = isFinal && !again ? 0 : this->reserve_;
+    if (isFinal && !again)
+    {
+      this->budget_.openReserve();
+    }
     const bool many = !this->slides() &&
       this->run_.report.history.back().belowTarget > this->fewCells();
     const bool finely = many && isFinal;
@@ -61,7 +64,7 @@ bool Schedule<D, Shape>::polishAndRepair(double target, bool isLast)
 template <int D, class Shape>
 bool Schedule<D, Shape>::polish(double target, bool finely)
 {
-  this->guard_ = false;
+  this->phase_ = Phase::Polishing;
   this->polishTarget_ = target;
   const double leastGain = finely ? FineGain : this->usualGain_;
   const double reached = finely ? CapReachedFinely : CapReached;
@@ -131,7 +134,7 @@ bool Schedule<D, Shape>::polish(double target, bool finely)
       break;
     }
   }
-  this->guard_ = true;
+  this->phase_ = Phase::Lifting;
   this->gain_ = this->usualGain_;
   this->caps_.setReached(CapReached);
   return more;

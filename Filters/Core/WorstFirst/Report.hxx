@@ -21,10 +21,10 @@ void Schedule<D, Shape>::record(double target, int pass)
   {
     this->weights_.switchOn();
   }
-  this->setInverted(inverted);
+  this->tangle_.setInverted(inverted);
   char name[32];
-  std::snprintf(name, sizeof name, this->guard_ ? "towards %.2f, pass %d" : "polish towards %.2f",
-    this->guard_ ? target : this->polishTarget_, pass + 1);
+  std::snprintf(name, sizeof name, this->lifts() ? "towards %.2f, pass %d" : "polish towards %.2f",
+    this->lifts() ? target : this->polishTarget_, pass + 1);
   row.stage = name;
   row.tried = this->tried_;
   row.done = this->done_;
@@ -86,13 +86,10 @@ StopReason Schedule<D, Shape>::reason()
   {
     return this->run_.stopped();
   }
-  // A small rest counts as used up: hardly any change fits into it.
-  const double nothing = UsedUp * static_cast<double>(this->allowed_) + OneNode;
-  const bool isUsedUp = this->isShort_ && static_cast<double>(this->growth_) <= nothing;
-  return below == 0   ? StopReason::TargetReached
-    : below == capped ? StopReason::CappedBySurface
-    : isUsedUp        ? StopReason::GrowthLimit
-                      : StopReason::NoFurtherGain;
+  return below == 0            ? StopReason::TargetReached
+    : below == capped          ? StopReason::CappedBySurface
+    : this->budget_.isUsedUp() ? StopReason::GrowthLimit
+                               : StopReason::NoFurtherGain;
 }
 }
 }

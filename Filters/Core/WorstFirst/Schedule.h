@@ -6,19 +6,18 @@
 #define meshopt_WorstFirst_Schedule_h
 
 #include "Bound/Caps.h"
-#include "Mesh/PinchedPoints.h"
 #include "Quality/Measures.h"
 #include "Run/ChunkedPass.h"
 #include "Run/Improver.h"
 #include "Run/Run.h"
-#include "Surface/SurfaceFaults.h"
 #include "WorstFirst/Constants.h"
 #include "WorstFirst/CostModel.h"
+#include "WorstFirst/GrowthBudget.h"
 #include "WorstFirst/Parts.h"
+#include "WorstFirst/Tangle.h"
 #include "WorstFirst/Weights.h"
 
 #include <cstdio>
-#include <optional>
 
 namespace meshopt
 {
@@ -69,7 +68,6 @@ private:
     long below; ///< cells under the target, including those not tried
   };
 
-  void findTangle();
   long countFreeNodes() const;
   std::vector<double> stages() const;
   int levelOf(int pass) const;
@@ -115,11 +113,6 @@ private:
   }
   /// Whether cells at facets with tiny caps count. At the border of a part they do not.
   bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
-  /// The most nodes that may vanish in one wide insertion.
-  int mostSwallowed() const
-  {
-    return this->growth_ < this->leanGrowth_ ? MostSwallowed : FewestSwallowed;
-  }
   /// Whether the many bad cells are left as they are from now on: the last pass over them crept,
   /// and the surface, that holds most of such cells, is kept. Only the worst get more effort.
   /// `badBefore`: before the pass that made them `bad`, 0 before the first one.
@@ -127,7 +120,7 @@ private:
   {
     const double cells = static_cast<double>(this->mesh().countCells());
     const bool isQuick = this->options_.effort == Effort::Quick && target > Stages[0];
-    return this->guard_ && this->creeps_ && !this->slides() &&
+    return this->lifts() && this->creeps_ && !this->slides() &&
       ((isQuick && bad > ManyStuckQuick * cells) ||
         (badBefore > 0 && bad > HopelesslyMany * badBefore && bad > ManyStuck * cells));
   }
@@ -135,13 +128,11 @@ private:
   /// tries. In a metric, and where the surface takes part, fewer are stuck for good.
   bool isThrifty(double target, long below) const
   {
-    return this->guard_ && this->model_.plain && !this->slides() && !this->isPast(target) &&
+    return this->lifts() && this->model_.plain && !this->slides() && !this->isPast(target) &&
       below > this->fewCells();
   }
-  /// How hard a try is, to compare with an earlier failure. Tries without guard are the hardest.
-  int rank(int level) const { return level + (this->guard_ ? 0 : Level::Count); }
+  bool lifts() const { return this->phase_ == Phase::Lifting; }
   bool goesOn(double target);
-  void setInverted(long cells);
   void record(double target, int pass);
   StopReason reason();
 
@@ -176,24 +167,18 @@ private:
   Weights<D, Shape> weights_;
   ChunkedPass<D, Worker> chunks_;
   int variant_ = 0; ///< which of Shifts is next
-  bool guard_ = true;
+  Phase phase_ = Phase::Lifting;
   double usualGain_; ///< least gain of a change
   double gain_;
   double polishTarget_ = 0.0;
-  bool tangled_ = true;               ///< cells may overlap
-  bool inverted_ = true;              ///< some are inverted
-  std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
-  std::optional<bool> overlaps_;      ///< see mayOverlap(): known once no cell is inverted
-  long growth_, mostGrowth_;          ///< see Growth
-  long leanGrowth_;                   ///< from here on, fewer nodes vanish in wide insertions
-  long allowed_;                      ///< growth_ at the start
-  long reserve_;                      ///< part of the growth reserved for polish()
-  bool isShort_ = false;              ///< a change was left out for lack of growth budget
-  long kept_ = 0;                     ///< accepted changes of the pass
-  std::int64_t spent_ = 0;            ///< evaluations of the pass
-  bool creeps_ = false;               ///< the pass: see watch()
-  bool leavesMany_ = false;           ///< see givesUpMany()
-  double worstInside_ = 0.0;          ///< see worst()
+  Tangle<D> tangle_;
+  // If sizes are followed, any number of cells may vanish.
+  GrowthBudget budget_;
+  long kept_ = 0;            ///< accepted changes of the pass
+  std::int64_t spent_ = 0;   ///< evaluations of the pass
+  bool creeps_ = false;      ///< the pass: see watch()
+  bool leavesMany_ = false;  ///< see givesUpMany()
+  double worstInside_ = 0.0; ///< see worst()
   CostModel costs_;
   FailureMemory failures_;
   long looks_ = 0; ///< look-aheads of polish() up to now
@@ -213,36 +198,11 @@ Schedule<D, Shape>::Schedule(Run<D>& run)
       [this] { return std::make_unique<Worker>(this->run_, this->model_, this->caps_); })
   , usualGain_(this->model_.plain ? Gain : CoarseGain)
   , gain_(this->usualGain_)
-  , growth_(run.growth)
-  , allowed_(run.growth)
-  , reserve_(run.growth / ReservedPart)
+  , tangle_(run.mesh(), run.report.invertedBefore > 0)
+  , budget_(run.options, run.growth, run.mesh().countCells(), !this->model_.plain)
   , costs_(run.options.effort)
   , passBegin_(run.clock.seconds())
 {
-  const long shrink = run.options.mostShrink >= 0
-    ? run.options.mostShrink
-    : static_cast<long>(ShrinkBudget * this->mesh().countCells());
-  this->leanGrowth_ = run.growth + WideShrink * shrink;
-  // If sizes are followed, any number of cells may vanish.
-  this->mostGrowth_ = this->model_.plain ? run.growth + shrink : std::numeric_limits<long>::max();
-}
-
-/// Finds out whether cells may overlap: every change then needs expensive checks.
-template <int D, class Shape>
-void Schedule<D, Shape>::findTangle()
-{
-  this->tangled_ = this->run_.report.invertedBefore > 0 || this->mesh().numberOfFoldedFacets() > 0;
-  if (this->tangled_ || (D == 2 && this->mesh().countCells() < CellsPerChunk)) // elsewhere too slow
-  {
-    this->pinched_ = pinchedPoints<D>(this->mesh());
-    this->tangled_ = this->tangled_ || !this->pinched_.empty();
-  }
-  long inverted = 0;
-  if (this->tangled_)
-  {
-    summarize(this->mesh(), this->options_.targetQuality, &inverted);
-  }
-  this->setInverted(inverted);
 }
 
 /// Only those that some cell has.
@@ -296,7 +256,7 @@ int Schedule<D, Shape>::levelOf(int pass) const
 {
   constexpr int levels[] = { Level::Topology, Level::Insertion, Level::LookAhead };
   // Polishing is for a few cells that all cheaper levels have failed on.
-  return this->guard_ ? levels[std::min(pass, this->passesThatRise())] : Level::LongLookAhead;
+  return this->lifts() ? levels[std::min(pass, this->passesThatRise())] : Level::LongLookAhead;
 }
 
 /// Stage after stage up to the target, or beyond it. Polishes after the first stage, at the target,
@@ -304,7 +264,6 @@ int Schedule<D, Shape>::levelOf(int pass) const
 template <int D, class Shape>
 void Schedule<D, Shape>::optimize()
 {
-  this->findTangle();
   // Caps are needed up to the highest target of any stage: a cell above that is never tried.
   const double highest = this->options_.effort == Effort::Best
     ? std::max(*(std::end(Stages) - 1), this->options_.targetQuality)
@@ -369,23 +328,6 @@ bool Schedule<D, Shape>::goesOn(double target)
     return std::string(line);
   };
   return this->run_.clock.goesOn(this->stageDone_, text);
-}
-
-/// Sets the number of inverted cells. Cells may overlap even if none is inverted: this is checked
-/// once, when no cell is inverted any more.
-template <int D, class Shape>
-void Schedule<D, Shape>::setInverted(long cells)
-{
-  this->inverted_ = cells > 0;
-  if (this->tangled_ && !this->inverted_)
-  {
-    if (!this->overlaps_)
-    {
-      this->overlaps_ = this->mesh().numberOfFoldedFacets() > 0 ||
-        mayOverlap<D>(this->mesh(), this->pinched_);
-    }
-    this->tangled_ = *this->overlaps_;
-  }
 }
 }
 }

@@ -26,10 +26,10 @@ bool Schedule<D, Shape>::stage(double target)
   std::vector<Index> bad;
   // Without guard (polishing) the first pass is at the highest level: it includes all cheaper
   // operations, and those have just failed on these cells.
-  const int last = this->guard_ ? this->passesThatRise() : 0;
+  const int last = this->lifts() ? this->passesThatRise() : 0;
   long below = 0;
   bool raised = false;
-  if (this->guard_)
+  if (this->lifts())
   {
     this->costs_.startStage(target);
   }
@@ -39,7 +39,7 @@ bool Schedule<D, Shape>::stage(double target)
     const long belowBefore = std::exchange(below, this->collect(target, level, bad));
     // Most cells of a large mesh can be stuck. A pass that does not lift the worst and creeps, or
     // does not make them clearly fewer, then ends the stage.
-    const bool idle = this->guard_ && pass > last && !raised && below > this->fewCells() &&
+    const bool idle = this->lifts() && pass > last && !raised && below > this->fewCells() &&
       (this->creeps_ || below > HardlyFewer * belowBefore);
     if ((bad.empty() && pass >= last) || idle)
     {
@@ -52,7 +52,7 @@ bool Schedule<D, Shape>::stage(double target)
     }
     this->pass({ target, level, below }, bad);
     this->record(target, pass);
-    if (!this->guard_)
+    if (!this->lifts())
     {
       this->costs_.notePolish(this->spent_, this->worst());
     }
@@ -65,7 +65,7 @@ bool Schedule<D, Shape>::stage(double target)
     {
       break;
     }
-    const bool isSpent = !this->guard_ && !this->isPast(this->polishTarget_) &&
+    const bool isSpent = !this->lifts() && !this->isPast(this->polishTarget_) &&
       (this->looks_ >= this->mostLooks() || this->mostEvaluations() < 0.0);
     const bool leavesMany = this->givesUpMany(target, below, belowBefore);
     this->leavesMany_ |= leavesMany;
@@ -83,7 +83,7 @@ bool Schedule<D, Shape>::worthTrying(Index c, int level) const
 {
   const auto& data = this->mesh().cellData(c);
   const auto& nodes = this->mesh().nodes(c);
-  return data.stamp == 0 || data.level < this->rank(level) ||
+  return data.stamp == 0 || data.level < rankOf(this->phase_, level) ||
     std::any_of(nodes.begin(), nodes.end(),
       [&](Index p) { return this->mesh().pointData(p).stamp > data.stamp; });
 }
@@ -95,7 +95,7 @@ long Schedule<D, Shape>::collect(double target, int level, std::vector<Index>& b
 {
   bad.clear();
   long below = 0;
-  const bool leaves = !this->guard_ || this->isPast(target);
+  const bool leaves = !this->lifts() || this->isPast(target);
   for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
   {
     if (this->mesh().quality(c) < target && this->mesh().isAlive(c) &&
