@@ -386,15 +386,15 @@ double BoundBuilder<3>::wedgeCap(
   // Rounding: the volume of a flat tetrahedron differs by some 1e-14, depending on the corner that
   // it is seen from.
   const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + 1e-13 : 0.0;
-  const EdgeView first(a, b, c, this->apexes_[from.side]);
-  const EdgeView last(a, b, d, this->apexes_[to.side]);
+  const FacetWedge wedge{ theta, { a, b, c, this->apexes_[from.side] },
+    { a, b, d, this->apexes_[to.side] }, spanned, slack };
   // Exact only for edges that set the bound: all others are for look-up.
   const bool exact = below <= this->result_.bound;
   const double width = exact ? 1e-9 : 1e-3 * std::min(1.0, theta);
-  const double cap = edgeCap(below, theta, first, last, spanned, exact ? 1e-7 : 5e-3, slack, width);
+  const double cap = edgeCap(below, wedge, exact ? 1e-7 : 5e-3, width);
   // A coarse cap near the bound could hide that this edge sets it.
   return !exact && 0.9 * cap < this->result_.bound
-    ? std::min(cap, edgeCap(this->result_.bound, theta, first, last, spanned, 1e-7, slack))
+    ? std::min(cap, edgeCap(this->result_.bound, wedge))
     : cap;
 }
 }

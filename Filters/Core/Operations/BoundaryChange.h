@@ -184,7 +184,7 @@ private:
       // To where it is: the attached metric takes its values there, beginning its search at a.
       judge.editor().movePoint(p, x, a);
       judge.editor().setPlace(p, { Freedom::Curve, span->part, s });
-      done = proposeSplit(judge.editor(), judge.surface(), t, a, b, p, this->proposal_) &&
+      done = proposeSplit(judge.editor(), judge.surface(), { t, a, b, p }, this->proposal_) &&
         this->offer(judge);
     }
     judge.count(Operation::NodeInsertion, done);

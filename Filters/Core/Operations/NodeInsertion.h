@@ -189,8 +189,8 @@ template <int D, class Shape>
 double NodeInsertion<D, Shape>::grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed)
 {
   judge.editor().movePoint(p, seed.x, judge.mesh().nodes(t)[0]);
-  return this->cavity_.grow(judge.editor(), judge.model(), t, p, seed.x, this->limits_,
-    seed.isOnSurface() ? &seed.opening : nullptr);
+  return this->cavity_.grow(judge.editor(), judge.model(), t,
+    { p, seed.x, seed.isOnSurface() ? &seed.opening : nullptr }, this->limits_);
 }
 
 /// Orders the seeds by their promise: the worst quality of the new cells, relative to the old one.

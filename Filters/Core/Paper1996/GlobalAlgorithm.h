@@ -16,9 +16,8 @@
 #ifndef meshopt_Paper1996_GlobalAlgorithm_h
 #define meshopt_Paper1996_GlobalAlgorithm_h
 
-#include "Mesh/MeshEditor.h"
-#include "Metric/NodalMetric.h"
 #include "Paper1996/LocalAlgorithm.h"
+#include "Paper1996/MeasuredMesh.h"
 
 #include <functional>
 
@@ -44,17 +43,15 @@ struct RepositionResult
 /// Called before every iteration with the quality of the worst element; false cancels.
 using KeepGoing = std::function<bool(double worst)>;
 
-/// Runs the global algorithm. The qualities of the cells must be up to date, and are kept up to
-/// date. Appends each KWORST to `sequence` if given.
+/// Runs the global algorithm. Appends each KWORST to `sequence` if given.
 template <int D>
-RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
-  double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,
-  std::vector<Index>* sequence = nullptr);
+RepositionResult reposition(const MeasuredMesh<D>& mesh, const RepositionParameters& parameters,
+  const KeepGoing& keepGoing, std::vector<Index>* sequence = nullptr);
 
-extern template RepositionResult reposition<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
-  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
-extern template RepositionResult reposition<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
-  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+extern template RepositionResult reposition<2>(
+  const MeasuredMesh<2>&, const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+extern template RepositionResult reposition<3>(
+  const MeasuredMesh<3>&, const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
 }
 
 #endif

@@ -157,7 +157,7 @@ TYPED_TEST(Paper, HeapGivesTheSequenceOfTheRescan)
     RepositionParameters parameters;
     parameters.naiveSearch = naive;
     const auto result = reposition<D>(
-      editor, metric, Measure::Shape, 0.0, parameters, KeepGoing(), &sequence[naive]);
+      { editor, metric, Measure::Shape }, parameters, KeepGoing(), &sequence[naive]);
     EXPECT_GT(result.done, 3);
     bits[naive] = bitsOf(mesh);
     expectSound(mesh);

@@ -28,7 +28,7 @@ ReconnectionResult run(SimplexMesh<D>& mesh, std::vector<Filling> kinds, bool na
     }
   }
   ReconnectionMemory<D> memory;
-  return reconnect<D>(editor, metric, Measure::Shape, 0.0, parameters, memory, keepGoing, sequence);
+  return reconnect<D>({ editor, metric, Measure::Shape }, parameters, memory, keepGoing, sequence);
 }
 
 template <int D>
