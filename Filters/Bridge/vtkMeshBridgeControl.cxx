@@ -22,9 +22,11 @@ int ResolveNumberOfThreads(int wanted)
   return wanted > 0 ? wanted : std::max(available, 1);
 }
 
-meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last)
+meshopt::Control MakeControl(
+  vtkAlgorithm* filter, int numberOfThreads, double first, double last, meshopt::Deadline deadline)
 {
   meshopt::Control control;
+  control.deadline = deadline;
   control.progress = [=](double fraction, const std::string& text)
   {
     filter->SetProgressText(text.c_str());

@@ -21,8 +21,10 @@ int ResolveNumberOfThreads(int wanted);
  * Reports progress of the core as the part [first, last] of the filter's progress, and stops the
  * core when the user aborts. Loops run on `numberOfThreads` threads of vtkSMPTools in a scope of
  * their own. The application's choice of backend (Debian's is Sequential) is not changed.
+ * `deadline`: that of the whole run, of which this is a part.
  */
-meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last);
+meshopt::Control MakeControl(vtkAlgorithm* filter, int numberOfThreads, double first, double last,
+  meshopt::Deadline deadline = meshopt::NoDeadline);
 
 } // namespace vtkMeshBridge
 

@@ -212,7 +212,9 @@ bridge::Request MakeRequest(vtkMeshOptimizeFilter* filter, vtkPolyData* geometry
   o.effort = static_cast<meshopt::Effort>(filter->GetEffort());
   request.NumberOfThreads = filter->GetNumberOfThreads();
   o.growthBudget = filter->GetGrowthBudget();
-  o.timeLimit = filter->GetTimeLimit();
+  // It includes reading the grid, and all grids of the input.
+  request.TimeLimit = filter->GetTimeLimit();
+  request.Control.deadline = meshopt::deadlineIn(request.TimeLimit);
   request.OptimizeBelow = filter->GetOptimizeBelow();
   request.NumberOfLayers = filter->GetNumberOfLayers();
   request.NumberOfGhostLevels = filter->GetNumberOfGhostLevels();

@@ -35,7 +35,7 @@ ROWS = {
     "untangling": ["optimizePaper1996<"],
     "bound": ["Caps<", "surfaceBound<"],
 }
-FILTER, ENGINE = "vtkMeshOptimizeFilter::RequestData", "worstfirst::Schedule<"
+FILTER, ENGINE = "vtkMeshOptimizeFilter::RequestData", "worstfirst::"
 
 
 def run(path, effort):

@@ -343,6 +343,7 @@ TEST_P(MeshOptimizeFilterBadInput, Options)
   ExpectError(box, { "target" }, [](vtkMeshOptimizeFilter* f) { f->SetTargetQuality(NaN); });
   ExpectError(box, { "beta" }, [](vtkMeshOptimizeFilter* f) { f->SetBeta(NaN); });
   ExpectError(box, { "OptimizeBelow" }, [](vtkMeshOptimizeFilter* f) { f->SetOptimizeBelow(NaN); });
+  ExpectError(box, { "time limit" }, [](vtkMeshOptimizeFilter* f) { f->SetTimeLimit(NaN); });
 }
 
 TEST_P(MeshOptimizeFilterBadInput, MeasureMustBeOneToOptimize)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file Clock.h
-/// Whether a run continues: progress, abort and time limit in one place.
+/// Whether a run continues: progress, abort and deadline in one place.
 #ifndef meshopt_Base_Clock_h
 #define meshopt_Base_Clock_h
 
@@ -13,10 +13,10 @@ namespace meshopt
 class Clock
 {
 public:
-  /// `timeLimit`: in seconds; 0: none. The control must outlive the clock.
-  explicit Clock(const Control& control, double timeLimit = 0.0)
-    : progress_(control)
-    , timeLimit_(timeLimit)
+  /// The control must outlive the clock.
+  explicit Clock(const Control& control)
+    : control_(&control)
+    , progress_(control)
   {
   }
 
@@ -31,7 +31,7 @@ public:
   }
   bool isAborted() const { return this->progress_.cancelled(); }
   /// May be called by any thread.
-  bool isOutOfTime() const { return this->timeLimit_ > 0.0 && this->seconds() > this->timeLimit_; }
+  bool isOutOfTime() const { return this->control_->isOutOfTime(); }
   bool hasStopped() const { return this->isAborted() || this->isOutOfTime(); }
   /// Since the construction of the clock.
   double seconds() const
@@ -67,8 +67,8 @@ public:
   };
 
 private:
+  const Control* control_;
   Progress progress_;
-  double timeLimit_;
   double first_ = 0.0, last_ = 1.0; // the current part
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

@@ -385,11 +385,11 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
   return false;
 }
 
-/// By how much three or more tetrahedra with a worst S of c or more exceed the angle theta, at
-/// least: if it is above 0, there is no such filling. `slack`, `width`: as for edgeCap().
-double excess(
-  double c, double theta, const EdgeView& first, const EdgeView& last, double slack, double width)
+/// By how much three or more tetrahedra with a worst S of c or more exceed the angle of the wedge,
+/// at least: if it is above 0, there is no such filling. `width`: as for edgeCap().
+double excess(double c, const FacetWedge& wedge, double width)
 {
+  const auto& [theta, first, last, spanned, slack] = wedge;
   // On the safe side: the views of the facets have this error.
   c *= 1.0 - ViewErrors * slack;
   const double l1 = first.lowest(c, width), l2 = last.lowest(c, width);
@@ -415,9 +415,9 @@ double excess(
 /// First what one or two tetrahedra reach: mostly three or more cannot reach that, and it is the
 /// cap. Else false position between it and the level that is forbidden (Illinois). Only a forbidden
 /// level is returned, so that the result is certified.
-double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double tolerance, double slack, double width)
+double edgeCap(double above, const FacetWedge& wedge, double tolerance, double width)
 {
+  const auto& [theta, first, last, spanned, slack] = wedge;
   constexpr double nothing = 1.0;
   if (!first.usable || !last.usable || !std::isfinite(theta) || above <= 0.0 || spanned >= above)
   {
@@ -432,7 +432,7 @@ double edgeCap(double above, double theta, const EdgeView& first, const EdgeView
   {
     return nothing;
   }
-  const auto by = [&](double c) { return excess(c, theta, first, last, slack, width); };
+  const auto by = [&](double c) { return excess(c, wedge, width); };
   double atLow = low > 0.0 ? by(low) : -theta;
   if (atLow > 0.0)
   {

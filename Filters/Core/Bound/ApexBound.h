@@ -67,18 +67,24 @@ private:
   double limit(double c, double end, double width) const;
 };
 
-/// How good the worst S can be at a kept edge, where the angle theta between its two kept facets is
-/// filled by tetrahedra: a certified bound if that is below `above`, else 1 (nothing is forbidden).
-/// It is rounded upwards by at most the relative tolerance; so near `above` it may be 1, too.
+/// A kept edge with its two kept facets; the angle between them is filled by tetrahedra.
+struct FacetWedge
+{
+  double theta;         ///< the angle, known up to `slack`
+  EdgeView first, last; ///< the facets, known up to the same relative error
+  double spanned;       ///< S of the tetrahedron that both span, about 0 or less if theta >= pi
+  double slack = 0.0;
+};
+
+/// How good the worst S can be in a wedge: a certified bound if that is below `above`, else 1
+/// (nothing is forbidden). It is rounded upwards by at most the relative tolerance; so near `above`
+/// it may be 1, too.
 ///
 /// The angle is filled by k >= 1 tetrahedra; the first and the last have a given facet. k = 1: the
-/// tetrahedron that both facets span, with quality `spanned` (about 0 or less if theta >= pi). k =
-/// 2: both have a node in common, see pairCap(). k > 2: only the angles are used. `above` must not
-/// exceed what both facets allow. theta is known up to `slack`, and values computed from the facets
-/// up to that relative error. A greater `width` (of the levels) is faster, but more edges then seem
-/// to forbid nothing.
-double edgeCap(double above, double theta, const EdgeView& first, const EdgeView& last,
-  double spanned, double tolerance = 1e-7, double slack = 0.0, double width = 1e-9);
+/// tetrahedron that both facets span. k = 2: both have a node in common, see pairCap(). k > 2: only
+/// the angles are used. `above` must not exceed what both facets allow. A greater `width` (of the
+/// levels) is faster, but more edges then seem to forbid nothing.
+double edgeCap(double above, const FacetWedge& wedge, double tolerance = 1e-7, double width = 1e-9);
 }
 
 #endif

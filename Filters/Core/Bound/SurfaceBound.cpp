@@ -405,16 +405,15 @@ double BoundBuilder<3>::wedgeCap(
   const Vec<3>&c = this->points_[this->tip(from)], &d = this->points_[this->tip(to)];
   const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + SpannedError
                                             : 0.0;
-  const EdgeView first(a, b, c, this->apexes_[from.side]);
-  const EdgeView last(a, b, d, this->apexes_[to.side]);
+  const FacetWedge wedge{ theta, { a, b, c, this->apexes_[from.side] },
+    { a, b, d, this->apexes_[to.side] }, spanned, slack };
   // Exact only for edges that set the bound: all others are for look-up.
   const bool exact = below <= this->result_.bound;
   const double width = exact ? ExactAngle : RoughAngle * std::min(1.0, theta);
-  const double cap = edgeCap(
-    below, theta, first, last, spanned, exact ? ExactCap : RoughCap, slack, width);
+  const double cap = edgeCap(below, wedge, exact ? ExactCap : RoughCap, width);
   // A coarse cap near the bound could hide that this edge sets it.
   return !exact && NearBound * cap < this->result_.bound
-    ? std::min(cap, edgeCap(this->result_.bound, theta, first, last, spanned, ExactCap, slack))
+    ? std::min(cap, edgeCap(this->result_.bound, wedge, ExactCap))
     : cap;
 }
 }

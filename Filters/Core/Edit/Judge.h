@@ -4,9 +4,9 @@
 /// stays as it was.
 ///
 /// It checks, in this order:
-///  - quality: the new cells are better than Proposal::least. Operations of the fast engine set
-///    this to the worst quality of the cavity plus gain(). The sorted vector of all qualities then
-///    rises lexicographically, so that no cycle is possible;
+///  - quality: the new cells are better than Proposal::least. For operations of the fast engine,
+///    demand() sets this to the worst quality of the cavity plus gain(). The sorted vector of all
+///    qualities then rises lexicographically, so that no cycle is possible;
 ///  - topology, only if cells may overlap, since geometry then says nothing: the new cells fill the
 ///    cavity and meet the rest of the mesh in its boundary only (CavityFit.h). Kept edges stay;
 ///  - surface: where it takes part in space, it stays as near to what it was as it must, and no
@@ -78,6 +78,24 @@ public:
   }
   /// The quality that a change must exceed if the worst is q.
   double required(double q) const { return q + this->gain(q); }
+  /// Sets what a change must bring to gain. What has been found (newWorst) must exceed required()
+  /// of the worst before. Nodes that move are held to that by newWorst; their cells then need only
+  /// be better than before, since in a metric the search took that of the old places. `worst`: of
+  /// the cells of the cavity that count.
+  void demand(Proposal<D>& p, double worst) const
+  {
+    const bool moves = !p.moves.empty();
+    p.least = moves ? worst : this->required(worst);
+    p.leastFound = moves ? this->required(worst) : Proposal<D>::Never;
+  }
+  void demand(Proposal<D>& p) const { this->demand(p, p.oldWorst); }
+  /// What a search for better places of nodes is to reach from the worst quality q. It may stop
+  /// where anything above is not worth its cost, and ends where a step promises half of the least
+  /// gain.
+  SearchGoal goal(double q, int steps = StarSteps) const
+  {
+    return { this->enough(q), 0.5 * this->gain(q), steps };
+  }
   /// A search for better places of nodes may stop at this quality: anything above is not worth its
   /// cost.
   double enough(double q) const
@@ -85,7 +103,17 @@ public:
     constexpr double margin = 0.02; // above the target
     return std::max(this->target_ + margin, q + 2 * this->gain(q));
   }
+  /// Before work for a change that would add so many cells: whether the budget has room. If not,
+  /// this is noted for the report.
+  bool mayAddCells(long cells) { return this->growth.allows(cells); }
   bool mayRemoveNodes() const { return this->switches_->removeNodes && this->growth.mayShrink(); }
+  /// Before an insertion is made, by the worst quality of the cavity and the qualities that the
+  /// search for the place of the node has found. Insertions are always guarded.
+  bool mayInsert(double oldWorst, double newWorst, const std::vector<double>& qualities,
+    const std::vector<Index>& cavity) const
+  {
+    return newWorst > this->required(oldWorst) && this->badBalance(qualities, cavity) <= 0;
+  }
 
   /// The quality that the pass works towards.
   void setTarget(double quality) { this->target_ = quality; }
@@ -140,6 +168,18 @@ public:
     std::array<long, NumberOfOperations> done;
   };
   Mark begin() { return { this->editor_->begin(), this->growth.left, this->bad_, this->done }; }
+  /// Ends a transaction: keeps all if it is `good`, or undoes it. Returns `good`.
+  bool end(const Mark& mark, bool good)
+  {
+    good ? this->commit(mark) : this->rollback(mark);
+    return good;
+  }
+  /// The same for changes that each alone may add bad cells: all are kept only if, beside that,
+  /// together they keep the guard. Returns whether they are kept.
+  bool endGuarded(const Mark& mark, bool good)
+  {
+    return this->end(mark, good && this->keepsGuard(mark));
+  }
   void commit(const Mark& mark) { this->editor_->commit(mark.journal); }
   void rollback(const Mark& mark)
   {
@@ -198,11 +238,26 @@ public:
   std::array<long, 2> surfaceChanges{};
 
   /// Whether a try that failed at time `failed` would fail again, because nothing has changed since
-  /// `stamp`. Do not remember failures within a transaction: after a rollback the star is another
-  /// one.
+  /// `stamp`. Failures within a transaction are not remembered: after a rollback the star is not
+  /// what it was then.
   bool failsAgain(std::uint32_t failed, std::uint32_t stamp) const
   {
     return failed >= stamp && failed > this->failuresSince_;
+  }
+  /// Remembers that node v could not be moved, or removed; not within a transaction.
+  void noteMoveFailed(Index v)
+  {
+    if (!this->editor_->inTransaction())
+    {
+      this->editor_->setMoveFailed(v, this->editor_->clock());
+    }
+  }
+  void noteRemovalFailed(Index v)
+  {
+    if (!this->editor_->inTransaction())
+    {
+      this->editor_->setRemoveFailed(v, this->editor_->clock());
+    }
   }
 
 private:
@@ -230,9 +285,8 @@ private:
     const Mark mark = this->begin();
     const bool good = this->change(p, qualities) &&
       this->changes_.allowsAngles(*this->surface_, this->mesh(), this->editor_->created());
-    good ? this->commit(mark) : this->rollback(mark);
     this->surfaceChanges[1] += good;
-    return good;
+    return this->end(mark, good);
   }
   bool replace(const Proposal<D>& p);
   template <class Also>
@@ -337,6 +391,10 @@ template <int D, class Shape>
 template <class Also>
 bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
 {
+  if (!(p.newWorst > p.leastFound))
+  {
+    return false;
+  }
   // The nodes move first: `also` may look at the new surface, and the model reads points from the
   // mesh.
   const Mark mark = this->begin();

@@ -37,6 +37,7 @@ struct Proposal
   double oldWorst = 0.0;      ///< least quality in the cavity
   double newWorst = 0.0;      ///< of the new cells; a search may give it with rounding errors
   double least = Never;       ///< the new cells must be better than this
+  double leastFound = Never;  ///< with moves: newWorst must be better than this
   bool keepsPositive = false; ///< with moves: no cell with positive quality may lose it
 
   void clear()
@@ -48,7 +49,7 @@ struct Proposal
     this->kept.clear();
     this->changesKept = this->keepsPositive = false;
     this->oldWorst = this->newWorst = 0.0;
-    this->least = Never;
+    this->least = this->leastFound = Never;
   }
   const KeptChange<D>* keptChange() const { return this->changesKept ? &this->kept : nullptr; }
   /// Net number of cells that it adds.

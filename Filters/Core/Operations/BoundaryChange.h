@@ -87,9 +87,10 @@ private:
     place.parameter = goldenSection(s + FarthestSlide * (range->low - s),
       s + FarthestSlide * (range->high - s), SearchSteps, quality, now);
     this->proposal_.moves.push_back({ v, judge.surface()->at(place.part, place.parameter), place });
-    this->proposal_.oldWorst = this->proposal_.least = old;
+    this->proposal_.oldWorst = old;
     this->proposal_.newWorst = now;
-    const bool done = now > judge.required(old) && judge.accept(this->proposal_);
+    judge.demand(this->proposal_);
+    const bool done = judge.accept(this->proposal_);
     judge.count(Operation::NodeMotion, done);
     return done;
   }
@@ -168,7 +169,7 @@ private:
     const auto& local = Local<D>::edgeFirst[e];
     const Index a = mesh.nodes(t)[local[0]], b = mesh.nodes(t)[local[1]];
     const auto span = mesh.isEdgeKept(t, e) ? judge.surface()->span(mesh, a, b) : std::nullopt;
-    if (!span || !judge.growth.allows(comes))
+    if (!span || !judge.mayAddCells(comes))
     {
       return false;
     }
@@ -183,12 +184,11 @@ private:
       // To where it is: the attached metric takes its values there, beginning its search at a.
       judge.editor().movePoint(p, x, a);
       judge.editor().setPlace(p, { Freedom::Curve, span->part, s });
-      done = proposeSplit(judge.editor(), judge.surface(), t, a, b, p, this->proposal_) &&
+      done = proposeSplit(judge.editor(), judge.surface(), { t, a, b, p }, this->proposal_) &&
         this->offer(judge);
     }
     judge.count(Operation::NodeInsertion, done);
-    done ? judge.commit(mark) : judge.rollback(mark);
-    return done;
+    return judge.end(mark, done);
   }
 
   /// The parameter on the span for which the worse of the two halves of cell t is best.
@@ -215,7 +215,7 @@ private:
   /// Makes the change if its worst cell is better than the worst cell before.
   bool offer(Judge<D, Shape>& judge)
   {
-    this->proposal_.least = judge.required(this->proposal_.oldWorst);
+    judge.demand(this->proposal_);
     return judge.measure(this->proposal_) && judge.accept(this->proposal_);
   }
 

@@ -47,6 +47,13 @@ public:
     std::vector<Index> patches;                   ///< of the facets there
     bool isNarrow = false; ///< no other facets are opened: the surface stays as it is
   };
+  /// The node that the cavity is for; no cell need use its point.
+  struct Node
+  {
+    Index point;
+    Vec<D> x;
+    const Opening* opening = nullptr; ///< of a node on the surface; null: the node is inside
+  };
   /// A facet of the surface that vanishes with the cavity.
   struct Opened
   {
@@ -55,11 +62,10 @@ public:
     std::size_t since; ///< number of cells of the cavity when it was opened
   };
 
-  /// Grows the cavity of cell `seed` for a node with id p at x (no cell need use p). Returns the
-  /// worst quality of the new elements; -infinity if there is no cavity. `opening`: of a node on
-  /// the surface; null: the node is inside.
-  double grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index seed, Index p,
-    const Vec<D>& x, const Limits& limits, const Opening* opening = nullptr);
+  /// Grows the cavity of cell `seed` for a node. Returns the worst quality of the new elements;
+  /// -infinity if there is no cavity.
+  double grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index seed,
+    const Node& node, const Limits& limits);
 
   /// The cells of the best prefix.
   const std::vector<Index>& cells() const { return this->cells_; }
@@ -300,18 +306,18 @@ bool Cavity<D, Shape>::take(
 
 template <int D, class Shape>
 double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model,
-  Index seed, Index p, const Vec<D>& x, const Limits& limits, const Opening* opening)
+  Index seed, const Node& node, const Limits& limits)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
-  this->opening_ = opening;
+  this->opening_ = node.opening;
   this->opened_.clear();
   this->numbers_.clear();
   this->points_.clear();
   this->heap_.clear();
   this->cells_.clear();
   this->mark_ = editor.newMark();
-  this->p_ = p;
-  this->x_ = x;
+  this->p_ = node.point;
+  this->x_ = node.x;
   this->swallowed_ = 0;
   double best = -std::numeric_limits<double>::infinity();
   std::size_t bestSize = 0;

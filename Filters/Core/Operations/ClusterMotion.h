@@ -51,8 +51,8 @@ private:
     {
       return false; // tried already
     }
-    const double now = this->problem_.maximize(this->cluster_, judge.model().quality,
-      this->metrics_, judge.enough(old), 0.5 * judge.gain(old));
+    const double now = this->problem_.maximize(
+      this->cluster_, judge.model().quality, this->metrics_, judge.goal(old, ClusterSteps));
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
     // the nodes must also lie among their neighbours.
     const bool mayGain = now > judge.required(old) && (now > 0.0 || this->cluster_.isAmidPoints());
@@ -63,9 +63,13 @@ private:
     {
       this->propose(judge, leaves, part);
       this->proposal_.oldWorst = old;
-      // Nodes that slide were moved to the surface at last: that may have cost all of the gain.
-      this->proposal_.least = slides ? judge.required(old) : old;
       this->proposal_.newWorst = now;
+      judge.demand(this->proposal_);
+      if (slides)
+      {
+        // Nodes that slide were moved to the surface at last: that may have cost all of the gain.
+        this->proposal_.least = this->proposal_.leastFound;
+      }
       better = judge.accept(this->proposal_);
     }
     judge.count(Operation::NodeMotion, better);

@@ -90,9 +90,10 @@ void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<
 }
 
 template <int D>
-bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index t, Index a, Index b,
-  Index m, Proposal<D>& proposal)
+bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface,
+  const EdgeDivision& division, Proposal<D>& proposal)
 {
+  const auto& [t, a, b, m] = division;
   const SimplexMesh<D>& mesh = editor.mesh();
   proposal.clear();
   bool isKept = false;
@@ -117,7 +118,7 @@ bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index 
 }
 
 template bool proposeSplit<2>(
-  const MeshEditor<2>&, const Surface<2>*, Index, Index, Index, Index, Proposal<2>&);
+  const MeshEditor<2>&, const Surface<2>*, const EdgeDivision&, Proposal<2>&);
 template bool proposeSplit<3>(
-  const MeshEditor<3>&, const Surface<3>*, Index, Index, Index, Index, Proposal<3>&);
+  const MeshEditor<3>&, const Surface<3>*, const EdgeDivision&, Proposal<3>&);
 }

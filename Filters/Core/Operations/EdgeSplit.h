@@ -9,18 +9,26 @@
 
 namespace meshopt
 {
-/// Proposes that all cells around edge (a, b) of cell t are divided by the new point m. Topology
-/// only: the judge decides whether the result is good. False if the edge must stay: if it is kept
-/// and `surface` does not let it be divided (null: never), or if the editor does not own one of the
+/// An edge of a cell, and the new point that divides it.
+struct EdgeDivision
+{
+  Index cell;
+  Index first, second; ///< ends of the edge
+  Index middle;
+};
+
+/// Proposes that all cells around an edge are divided by a new point on it. Topology only: the
+/// judge decides whether the result is good. False if the edge must stay: if it is kept and
+/// `surface` does not let it be divided (null: never), or if the editor does not own one of the
 /// cells. The cost is proportional to the number of cells around the edge.
 template <int D>
-bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface, Index t, Index a, Index b,
-  Index m, Proposal<D>& proposal);
+bool proposeSplit(const MeshEditor<D>& editor, const Surface<D>* surface,
+  const EdgeDivision& division, Proposal<D>& proposal);
 
 extern template bool proposeSplit<2>(
-  const MeshEditor<2>&, const Surface<2>*, Index, Index, Index, Index, Proposal<2>&);
+  const MeshEditor<2>&, const Surface<2>*, const EdgeDivision&, Proposal<2>&);
 extern template bool proposeSplit<3>(
-  const MeshEditor<3>&, const Surface<3>*, Index, Index, Index, Index, Proposal<3>&);
+  const MeshEditor<3>&, const Surface<3>*, const EdgeDivision&, Proposal<3>&);
 }
 
 #endif

@@ -74,13 +74,21 @@ private:
   {
     const auto mark = judge.begin();
     judge.start();
-    if (first() && this->finish(judge, mark, old, isLong))
+    std::vector<Index> affected;
+    bool done = first();
+    if (done)
     {
-      return true;
+      affected = judge.changed(); // a copy: operations overwrite changed()
+      done = this->settle(judge, affected, judge.required(old), isLong);
     }
-    judge.rollback(mark);
+    // The guard is asked only here: in between, single changes may make cells bad.
+    done = judge.endGuarded(mark, done);
     judge.start();
-    return false;
+    if (done)
+    {
+      judge.changed() = affected;
+    }
+    return done;
   }
 
   bool tryFrom(Judge<D, Shape>& judge, Index t, Seed& seed, double old, bool isLong)
@@ -126,21 +134,6 @@ private:
           });
     }
     return done;
-  }
-
-  /// Improves what the first change affected. Keeps all if that reaches the goal.
-  bool finish(
-    Judge<D, Shape>& judge, const typename Judge<D, Shape>::Mark& mark, double old, bool isLong)
-  {
-    std::vector<Index> affected = judge.changed(); // a copy: operations overwrite changed()
-    // keepsGuard() asks only here: in between, single changes may make cells bad.
-    if (!this->settle(judge, affected, judge.required(old), isLong) || !judge.keepsGuard(mark))
-    {
-      return false;
-    }
-    judge.commit(mark);
-    judge.changed() = affected;
-    return true;
   }
 
   /// Improves the affected cells, worst first, until all are above the goal. False if one of them

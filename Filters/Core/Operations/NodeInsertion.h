@@ -54,11 +54,10 @@ public:
     }
     for (std::size_t k = 0; k < this->ranking_.size() && p != None && !done; ++k)
     {
-      done = this->tryGain(judge, t, p, this->seeds_[this->ranking_[k].second], mark);
+      done = this->tryGain(judge, t, p, this->seeds_[this->ranking_[k].second]);
     }
     judge.count(Operation::NodeInsertion, done);
-    done ? judge.commit(mark) : judge.rollback(mark);
-    return done;
+    return judge.end(mark, done);
   }
 
   /// Places where a new node of cell t may start: for each kept facet its best apex and the point
@@ -95,8 +94,7 @@ private:
     const std::vector<Index>& cells, bool narrow, std::vector<Seed>& seeds);
   double grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed);
   void rank(Judge<D, Shape>& judge, Index t, Index p);
-  bool tryGain(Judge<D, Shape>& judge, Index t, Index p, Seed& seed,
-    const typename Judge<D, Shape>::Mark& start);
+  bool tryGain(Judge<D, Shape>& judge, Index t, Index p, Seed& seed);
   double maximize(Judge<D, Shape>& judge, Seed& seed);
   void changeSurface(const SimplexMesh<D>& mesh, Index p, const Seed& seed);
   void loadCavity(const Judge<D, Shape>& judge, Index p);
@@ -148,7 +146,7 @@ double NodeInsertion<D, Shape>::maximize(Judge<D, Shape>& judge, Seed& seed)
   const double old = this->cavity_.oldWorst();
   if (!seed.isOnSurface())
   {
-    return this->problem_.maximize(seed.x, judge.enough(old), 0.5 * judge.gain(old));
+    return this->problem_.maximize(seed.x, judge.goal(old));
   }
   if (seed.opening.isNarrow)
   {
@@ -181,7 +179,7 @@ double NodeInsertion<D, Shape>::maximize(Judge<D, Shape>& judge, Seed& seed)
     }
   }
   this->problem_.restrict(directions);
-  this->problem_.maximize(seed.x, judge.enough(old), 0.5 * judge.gain(old));
+  this->problem_.maximize(seed.x, judge.goal(old));
   seed.place = judge.surface()->project(seed.place, seed.x, seed.x);
   return this->problem_.evaluate(seed.x);
 }
@@ -191,8 +189,8 @@ template <int D, class Shape>
 double NodeInsertion<D, Shape>::grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed)
 {
   judge.editor().movePoint(p, seed.x, judge.mesh().nodes(t)[0]);
-  return this->cavity_.grow(judge.editor(), judge.model(), t, p, seed.x, this->limits_,
-    seed.isOnSurface() ? &seed.opening : nullptr);
+  return this->cavity_.grow(judge.editor(), judge.model(), t,
+    { p, seed.x, seed.isOnSurface() ? &seed.opening : nullptr }, this->limits_);
 }
 
 /// Orders the seeds by their promise: the worst quality of the new cells, relative to the old one.
@@ -325,23 +323,27 @@ bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Seed& 
 
 /// Makes the insertion at one seed, if it gains.
 template <int D, class Shape>
-bool NodeInsertion<D, Shape>::tryGain(
-  Judge<D, Shape>& judge, Index t, Index p, Seed& seed, const typename Judge<D, Shape>::Mark& start)
+bool NodeInsertion<D, Shape>::tryGain(Judge<D, Shape>& judge, Index t, Index p, Seed& seed)
 {
   const double q = this->find(judge, t, p, seed, true);
-  const double required = judge.required(this->cavity_.oldWorst());
-  if (!(q > required) || judge.badBalance(this->problem_.values(), this->cavity_.cells()) > 0)
+  const double old = this->cavity_.oldWorst();
+  if (!judge.mayInsert(old, q, this->problem_.values(), this->cavity_.cells()))
   {
     return false;
   }
-  // The search used the metric of the node's first place, and ignored the floor of the weights. So
-  // the true qualities are checked after the change.
-  const bool isExact = judge.model().plain && !judge.model().weights;
   const auto mark = judge.begin();
-  const bool done = this->fill(judge, p, seed) &&
-    (isExact ||
-      (judge.mesh().worstQuality(judge.editor().created()) > required && judge.keepsGuard(start)));
-  done ? judge.commit(mark) : judge.rollback(mark);
+  bool done = this->fill(judge, p, seed);
+  if (judge.model().plain && !judge.model().weights)
+  {
+    done = judge.end(mark, done);
+  }
+  else
+  {
+    // The search used the metric of the node's first place, and ignored the floor of the weights.
+    // So the true qualities are checked after the change.
+    const auto worst = [&] { return judge.mesh().worstQuality(judge.editor().created()); };
+    done = judge.endGuarded(mark, done && worst() > judge.required(old));
+  }
   if (!done)
   {
     judge.start();

@@ -80,19 +80,19 @@ private:
       return this->slide(judge, v);
     }
     Vec<D> x = mesh.point(v);
-    const double now = this->problem_.maximize(
-      x, judge.enough(old), 0.5 * judge.gain(old), judge.steps());
+    const double now = this->problem_.maximize(x, judge.goal(old, judge.steps()));
     // Cells may be inverted before the motion: a quality that is not positive proves nothing, so
     // the node must also lie among its neighbours.
-    const bool better = now > judge.required(old) && (now > 0.0 || this->problem_.isAmidPoints(x));
+    const bool isProven = now > 0.0 || this->problem_.isAmidPoints(x);
     this->proposal_.moves.push_back({ v, x, {} });
-    this->proposal_.oldWorst = this->proposal_.least = old;
+    this->proposal_.oldWorst = old;
     this->proposal_.newWorst = now;
-    const bool done = better && judge.accept(this->proposal_);
+    judge.demand(this->proposal_);
+    const bool done = isProven && judge.accept(this->proposal_);
     judge.count(Operation::NodeMotion, done);
-    if (!done && !judge.editor().inTransaction()) // after a rollback the star is another one
+    if (!done)
     {
-      judge.editor().setMoveFailed(v, judge.editor().clock());
+      judge.noteMoveFailed(v);
     }
     return done;
   }
@@ -110,9 +110,9 @@ private:
       done = this->slideAlong(judge, v, directions);
     }
     judge.count(Operation::NodeMotion, done);
-    if (!done && !judge.editor().inTransaction())
+    if (!done)
     {
-      judge.editor().setMoveFailed(v, judge.editor().clock());
+      judge.noteMoveFailed(v);
     }
     return done;
   }
@@ -122,23 +122,22 @@ private:
   {
     constexpr int tries = 3;
     const double old = judge.mesh().worstQuality(this->proposal_.cavity);
-    const double required = judge.required(old);
     const Vec<D> from = judge.mesh().point(v);
     Vec<D> to = from;
     this->problem_.restrict(directions);
-    const bool mayGain = this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) >
-      required;
+    // No part of the way is worth a try if the whole of it would not be.
+    const bool mayGain = this->problem_.maximize(to, judge.goal(old)) > judge.required(old);
     double part = 1.0;
     bool done = false;
     for (int k = 0; k < tries && mayGain && !done; ++k, part *= 0.5)
     {
       Vec<D> x = from + part * (to - from);
       const Place place = judge.surface()->project(judge.mesh().place(v), x, x);
-      const double now = this->problem_.evaluate(x);
       this->proposal_.moves.assign(1, { v, x, place });
-      this->proposal_.oldWorst = this->proposal_.least = old;
-      this->proposal_.newWorst = now;
-      done = now > required && judge.accept(this->proposal_);
+      this->proposal_.oldWorst = old;
+      this->proposal_.newWorst = this->problem_.evaluate(x);
+      judge.demand(this->proposal_);
+      done = judge.accept(this->proposal_);
     }
     return done;
   }

@@ -41,17 +41,17 @@ private:
     this->collectLink(mesh, v);
     this->best_.oldWorst = mesh.worstQuality(this->best_.cavity);
     // Each neighbour has to be better than the best so far: most are refused at their first cells.
-    this->best_.least = this->best_.newWorst = judge.required(this->best_.oldWorst);
+    judge.demand(this->best_);
+    this->best_.newWorst = this->best_.least;
     for (Index u : this->neighbours_)
     {
       this->tryNeighbour(judge.model(), u);
     }
     const bool done = !this->best_.cells.empty() && judge.accept(this->best_);
     judge.count(Operation::EdgeContraction, done);
-    // Within a look-ahead the mesh is another one: what fails there may succeed outside.
-    if (!done && !judge.editor().inTransaction())
+    if (!done)
     {
-      judge.editor().setRemoveFailed(v, judge.editor().clock());
+      judge.noteRemovalFailed(v);
     }
     return done;
   }

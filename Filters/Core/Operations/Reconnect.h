@@ -32,6 +32,7 @@ public:
     {
       isFace = this->removeFaces(judge, t);
     }
+    judge.demand(this->best_);
     const bool done = !this->best_.cells.empty() && judge.accept(this->best_);
     judge.count(Operation::EdgeRemoval, done && !isFace);
     if (D == 3)
@@ -48,7 +49,7 @@ private:
     {
       const double q = this->edgeRemoval_.propose(
         judge.editor(), judge.model(), t, e, this->best_.newWorst, judge.surface());
-      if (this->isBest(q, judge.required(this->edgeRemoval_.ringWorst())))
+      if (this->isBest(judge, q, this->edgeRemoval_.ringWorst()))
       {
         this->edgeRemoval_.fill(this->best_, judge.mesh());
       }
@@ -63,7 +64,7 @@ private:
     {
       const double q = this->faceRemoval_.propose(
         judge.editor(), judge.model(), t, i, this->best_.newWorst);
-      if (this->isBest(q, judge.required(this->faceRemoval_.oldWorst())))
+      if (this->isBest(judge, q, this->faceRemoval_.oldWorst()))
       {
         this->best_.cells = this->faceRemoval_.cells();
         this->best_.cavity = this->faceRemoval_.cavity();
@@ -75,17 +76,13 @@ private:
     return found;
   }
 
-  /// Whether a refilling with the worst quality q is the best so far. If so, it is noted as the
-  /// best.
-  bool isBest(double q, double required)
+  /// Whether a refilling with the worst quality q is the best so far, and gains for its own cavity,
+  /// with the worst quality `old`. If so, its quality is noted as the best.
+  bool isBest(const Judge<D, Shape>& judge, double q, double old)
   {
-    if (!(q > this->best_.newWorst && q > required))
-    {
-      return false;
-    }
-    this->best_.newWorst = q;
-    this->best_.least = required;
-    return true;
+    const bool isBest = q > this->best_.newWorst && q > judge.required(old);
+    this->best_.newWorst = isBest ? q : this->best_.newWorst;
+    return isBest;
   }
 
   Proposal<D> best_;

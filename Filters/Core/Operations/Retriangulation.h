@@ -60,15 +60,13 @@ private:
       return false;
     }
     const auto mark = judge.begin();
-    const bool done = this->addPoints(judge, mesh.nodes(t)[0]) && this->offer(judge, q, above);
-    if (done)
+    const bool done = judge.end(
+      mark, this->addPoints(judge, mesh.nodes(t)[0]) && this->offer(judge, q, mesh.quality(t)));
+    if (!done)
     {
-      judge.commit(mark);
-      return true;
+      judge.start();
     }
-    judge.rollback(mark);
-    judge.start();
-    return false;
+    return done;
   }
 
   /// Adds the new points of the polyhedron to the mesh; false if no free slot is left.
@@ -90,15 +88,15 @@ private:
   }
 
   /// Offers the refilling to the judge. A cell that has all that its kept facet allows does not
-  /// count among the worst (see Limits), so `least` is what the search had to exceed.
-  bool offer(Judge<D, Shape>& judge, double q, double above)
+  /// count among the worst (see Limits): `old` is the quality of the cell that is to be improved.
+  bool offer(Judge<D, Shape>& judge, double q, double old)
   {
     this->proposal_.clear();
     this->proposal_.cavity = this->polyhedron_.cavity();
     this->proposal_.cells = this->polyhedron_.cells();
     this->proposal_.oldWorst = this->polyhedron_.oldWorst();
     this->proposal_.newWorst = q;
-    this->proposal_.least = above;
+    judge.demand(this->proposal_, old);
     return judge.accept(this->proposal_);
   }
 

@@ -43,12 +43,11 @@ private:
     {
       return false;
     }
-    const double old = mesh.worstQuality(star), required = judge.required(old);
+    const double old = mesh.worstQuality(star);
     loadStar(judge, star, v, this->problem_);
     const Vec<D> from = mesh.point(v);
     Vec<D> to = from;
-    const bool mayGain = this->problem_.maximize(to, judge.enough(old), 0.5 * judge.gain(old)) >
-      required;
+    const bool mayGain = this->problem_.maximize(to, judge.goal(old)) > judge.required(old);
     bool done = false;
     double part = 1.0;
     // Parts of the way that the tolerance allows: parts of a longer way could all end at the same
@@ -58,11 +57,11 @@ private:
     {
       Vec<D> x = from + part * (to - from);
       const Place place = judge.surface()->placeNear(mesh.place(v), x, x);
-      const double now = this->problem_.evaluate(x);
       this->proposal_.moves.assign(1, { v, x, place });
-      this->proposal_.oldWorst = this->proposal_.least = old;
-      this->proposal_.newWorst = now;
-      done = now > required && judge.accept(this->proposal_);
+      this->proposal_.oldWorst = old;
+      this->proposal_.newWorst = this->problem_.evaluate(x);
+      judge.demand(this->proposal_);
+      done = judge.accept(this->proposal_);
     }
     judge.count(Operation::NodeMotion, done);
     return done;

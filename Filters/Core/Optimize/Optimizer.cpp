@@ -427,7 +427,7 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   const Control& control, Surface<D>* surface)
 {
   Report report;
-  Clock clock(control, options.timeLimit);
+  Clock clock(control);
   MeshEditor<D> editor(mesh);
   if (surface)
   {

@@ -17,14 +17,13 @@ template <int D, class Shape>
 class GlobalAlgorithm
 {
 public:
-  GlobalAlgorithm(MeshEditor<D>& editor, NodalMetric<D>& metric, double beta,
-    const RepositionParameters& parameters)
-    : editor_(editor)
+  GlobalAlgorithm(const MeasuredMesh<D>& mesh, const RepositionParameters& parameters)
+    : editor_(mesh.editor)
     , parameters_(parameters)
-    , model_(editor.mesh(), metric, beta)
-    , judge_(editor, this->model_, this->switches_)
+    , model_(mesh.editor.mesh(), mesh.metric, mesh.beta)
+    , judge_(mesh.editor, this->model_, this->switches_)
     , solver_(this->judge_, parameters.local, parameters.leastGain)
-    , queue_(editor.mesh(), parameters.target)
+    , queue_(mesh.editor.mesh(), parameters.target)
   {
     // Nothing in this algorithm reads them.
     this->judge_.setStampsStars(false);
@@ -138,23 +137,22 @@ RepositionResult GlobalAlgorithm<D, Shape>::run(
 }
 
 template <int D>
-RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
-  double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,
-  std::vector<Index>* sequence)
+RepositionResult reposition(const MeasuredMesh<D>& mesh, const RepositionParameters& parameters,
+  const KeepGoing& keepGoing, std::vector<Index>* sequence)
 {
   // While it lives, the editor tells the metric where nodes go.
-  const FollowedMetric<D> follows(editor, metric);
-  return dispatchOptimizable<D>(measure,
+  const FollowedMetric<D> follows(mesh.editor, mesh.metric);
+  return dispatchOptimizable<D>(mesh.measure,
     [&](auto shape)
     {
       using Shape = decltype(shape);
-      GlobalAlgorithm<D, Shape> algorithm(editor, metric, beta, parameters);
+      GlobalAlgorithm<D, Shape> algorithm(mesh, parameters);
       return algorithm.run(keepGoing, sequence);
     });
 }
 
-template RepositionResult reposition<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
-  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
-template RepositionResult reposition<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
-  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+template RepositionResult reposition<2>(
+  const MeasuredMesh<2>&, const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+template RepositionResult reposition<3>(
+  const MeasuredMesh<3>&, const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
 }

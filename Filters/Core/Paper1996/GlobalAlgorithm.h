@@ -16,9 +16,8 @@
 #ifndef meshopt_Paper1996_GlobalAlgorithm_h
 #define meshopt_Paper1996_GlobalAlgorithm_h
 
-#include "Mesh/MeshEditor.h"
-#include "Metric/NodalMetric.h"
 #include "Paper1996/LocalAlgorithm.h"
+#include "Paper1996/MeasuredMesh.h"
 
 #include <functional>
 
@@ -47,14 +46,13 @@ using KeepGoing = std::function<bool(double worst)>;
 /// date. Appends each KWORST to `sequence` if given: tests compare it with the six steps, since an
 /// element that only loses its nodes in step 2 leaves no other trace.
 template <int D>
-RepositionResult reposition(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
-  double beta, const RepositionParameters& parameters, const KeepGoing& keepGoing,
-  std::vector<Index>* sequence = nullptr);
+RepositionResult reposition(const MeasuredMesh<D>& mesh, const RepositionParameters& parameters,
+  const KeepGoing& keepGoing, std::vector<Index>* sequence = nullptr);
 
-extern template RepositionResult reposition<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
-  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
-extern template RepositionResult reposition<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
-  const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+extern template RepositionResult reposition<2>(
+  const MeasuredMesh<2>&, const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
+extern template RepositionResult reposition<3>(
+  const MeasuredMesh<3>&, const RepositionParameters&, const KeepGoing&, std::vector<Index>*);
 }
 
 #endif

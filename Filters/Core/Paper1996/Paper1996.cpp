@@ -131,8 +131,8 @@ void Paper1996<D>::reconnectAll(int lookAhead)
   allow(Filling::Midpoint, o.insertNodes);
 
   const char* stage = lookAhead > 0 ? "look-ahead" : "reconnection";
-  const ReconnectionResult result = reconnect<D>(this->editor_, this->run_.metric, o.measure,
-    o.beta, parameters, this->memory_,
+  const ReconnectionResult result = reconnect<D>(
+    { this->editor_, this->run_.metric, o.measure, o.beta }, parameters, this->memory_,
     [this, stage](double worst) { return this->goesOn(stage, worst); });
   // What one reconnection has used up is missing for the next.
   this->run_.growth -= result.growth;
@@ -198,8 +198,9 @@ void Paper1996<D>::repositionAll()
   {
     before[p] = mesh.point(p);
   }
-  const RepositionResult result = reposition<D>(this->editor_, this->run_.metric, o.measure, o.beta,
-    parameters, [this](double worst) { return this->goesOn("repositioning", worst); });
+  const RepositionResult result = reposition<D>(
+    { this->editor_, this->run_.metric, o.measure, o.beta }, parameters,
+    [this](double worst) { return this->goesOn("repositioning", worst); });
   this->touchMoved(before);
   this->limitReached_ = this->limitReached_ || result.limitReached;
   Counts tried{}, done{};

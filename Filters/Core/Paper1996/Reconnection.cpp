@@ -21,17 +21,17 @@ template <int D, class Shape>
 class Reconnection
 {
 public:
-  Reconnection(MeshEditor<D>& editor, NodalMetric<D>& metric, double beta,
-    const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory)
-    : editor_(editor)
-    , mesh_(editor.mesh())
+  Reconnection(const MeasuredMesh<D>& mesh, const ReconnectionParameters& parameters,
+    ReconnectionMemory<D>& memory)
+    : editor_(mesh.editor)
+    , mesh_(mesh.editor.mesh())
     , parameters_(parameters)
     , memory_(memory)
-    , queue_(editor.mesh(), parameters.target)
-    , model_(editor.mesh(), metric, beta)
-    , pinched_(pinchedPoints<D>(editor.mesh()))
-    , judge_(editor, this->model_, this->switches_)
-    , aheadJudge_(editor, this->model_, this->switches_)
+    , queue_(this->mesh_, parameters.target)
+    , model_(this->mesh_, mesh.metric, mesh.beta)
+    , pinched_(pinchedPoints<D>(this->mesh_))
+    , judge_(mesh.editor, this->model_, this->switches_)
+    , aheadJudge_(mesh.editor, this->model_, this->switches_)
     , trial_(this->judge_)
     , ahead_(this->aheadJudge_, parameters.leastGain)
   {
@@ -305,23 +305,22 @@ ReconnectionResult Reconnection<D, Shape>::run(const std::function<bool(double)>
 }
 
 template <int D>
-ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
-  double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,
-  const std::function<bool(double)>& keepGoing)
+ReconnectionResult reconnect(const MeasuredMesh<D>& mesh, const ReconnectionParameters& parameters,
+  ReconnectionMemory<D>& memory, const std::function<bool(double)>& keepGoing)
 {
-  const FollowedMetric<D> follows(editor, metric);
+  const FollowedMetric<D> follows(mesh.editor, mesh.metric);
   // The measure is chosen here, once, and not in the loops.
-  return dispatchOptimizable<D>(measure,
+  return dispatchOptimizable<D>(mesh.measure,
     [&](auto shape)
     {
       using Shape = decltype(shape);
-      Reconnection<D, Shape> reconnection(editor, metric, beta, parameters, memory);
+      Reconnection<D, Shape> reconnection(mesh, parameters, memory);
       return reconnection.run(keepGoing);
     });
 }
 
-template ReconnectionResult reconnect<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
-  const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&);
-template ReconnectionResult reconnect<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
-  const ReconnectionParameters&, ReconnectionMemory<3>&, const std::function<bool(double)>&);
+template ReconnectionResult reconnect<2>(const MeasuredMesh<2>&, const ReconnectionParameters&,
+  ReconnectionMemory<2>&, const std::function<bool(double)>&);
+template ReconnectionResult reconnect<3>(const MeasuredMesh<3>&, const ReconnectionParameters&,
+  ReconnectionMemory<3>&, const std::function<bool(double)>&);
 }

@@ -39,9 +39,8 @@
 #define meshopt_Paper1996_Reconnection_h
 
 #include "Edit/Growth.h"
-#include "Mesh/MeshEditor.h"
-#include "Metric/NodalMetric.h"
 #include "Paper1996/Filling.h"
+#include "Paper1996/MeasuredMesh.h"
 #include "Quality/ElementQuality.h"
 
 #include <array>
@@ -79,17 +78,16 @@ struct ReconnectionResult
   }
 };
 
-/// Runs the iteration of section 2.3. The qualities of the cells must be up to date, and are kept
-/// up to date. `keepGoing` is called before every iteration with the quality of the worst element
-/// that is not set aside, and before every look-ahead with that of its element; false cancels.
+/// Runs the iteration of section 2.3. `keepGoing` is called before every iteration with the quality
+/// of the worst element that is not set aside, and before every look-ahead with that of its element;
+/// false cancels.
 template <int D>
-ReconnectionResult reconnect(MeshEditor<D>& editor, NodalMetric<D>& metric, Measure measure,
-  double beta, const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory,
-  const std::function<bool(double)>& keepGoing);
+ReconnectionResult reconnect(const MeasuredMesh<D>& mesh, const ReconnectionParameters& parameters,
+  ReconnectionMemory<D>& memory, const std::function<bool(double)>& keepGoing);
 
-extern template ReconnectionResult reconnect<2>(MeshEditor<2>&, NodalMetric<2>&, Measure, double,
+extern template ReconnectionResult reconnect<2>(const MeasuredMesh<2>&,
   const ReconnectionParameters&, ReconnectionMemory<2>&, const std::function<bool(double)>&);
-extern template ReconnectionResult reconnect<3>(MeshEditor<3>&, NodalMetric<3>&, Measure, double,
+extern template ReconnectionResult reconnect<3>(const MeasuredMesh<3>&,
   const ReconnectionParameters&, ReconnectionMemory<3>&, const std::function<bool(double)>&);
 }
 

@@ -32,18 +32,15 @@ public:
   void restrict(const std::vector<Directions<D>>& directions) { this->directions_ = directions; }
 
   /// Moves the moving nodes of the cluster to better places: changes cluster.x and cluster.quality.
-  /// Returns the worst quality, which never falls. Stops when that is at least `enough`, when a
-  /// step promises less than `gain`, or after maximumSteps steps. `metrics`: one per cell, or one
-  /// for all.
+  /// Returns the worst quality, which never falls. `metrics`: one per cell, or one for all.
   double maximize(Cluster<D>& cluster, const ElementQuality<D, Shape>& quality,
-    const std::vector<ElementMetric<D>>& metrics, double enough, double gain, int maximumSteps = 40)
+    const std::vector<ElementMetric<D>>& metrics, const SearchGoal& goal)
   {
     const double worst = *std::min_element(cluster.quality.begin(), cluster.quality.end());
     // L of (2.5), as in the paper a typical length: it makes the first step independent of units.
     const double length = cluster.meanEdge();
     Ascent ascent{ *this, cluster, quality, metrics };
-    return ascend(
-      ascent, worst, TrustRegion::FirstShare * length * length, enough, gain, maximumSteps);
+    return ascend(ascent, worst, TrustRegion::FirstShare * length * length, goal);
   }
 
 private:

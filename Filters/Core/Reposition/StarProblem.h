@@ -124,13 +124,11 @@ public:
   /// Qualities of the last evaluate(), in the order of the facets.
   const std::vector<double>& values() const { return this->values_; }
 
-  /// Moves x to a better place; returns the worst quality there. Stops when that is at least
-  /// `enough`, or when a step promises less than `gain`. Afterwards values() belong to x.
-  double maximize(Vec<D>& x, double enough, double gain, int maximumSteps = StarSteps)
+  /// Moves x to a better place; returns the worst quality there. Afterwards values() belong to x.
+  double maximize(Vec<D>& x, const SearchGoal& goal)
   {
     Ascent ascent{ *this, x };
-    const double worst = ascend(
-      ascent, this->evaluate(x), this->firstTau(x), enough, gain, maximumSteps);
+    const double worst = ascend(ascent, this->evaluate(x), this->firstTau(x), goal);
     // The last step may have been refused: values() are then those of its place.
     return ascent.isAtX ? worst : this->evaluate(x);
   }

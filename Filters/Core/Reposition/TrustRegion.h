@@ -22,28 +22,34 @@ struct TrustRegion
 };
 
 /// The most steps of a search for one node, where nothing else is said: it converges long before.
-inline constexpr int StarSteps = 20;
+/// And of one for several.
+inline constexpr int StarSteps = 20, ClusterSteps = 40;
 
-/// Raises `worst` in at most `maximumSteps` steps; returns what is reached. Stops when that is at
-/// least `enough`, or when no step promises to gain more than `gain`. The problem has
+/// When a search for better places ends.
+struct SearchGoal
+{
+  double enough; ///< the worst quality is at least this
+  double gain;   ///< no step promises more than this
+  int steps;     ///< so many have been made
+};
+
+/// Raises `worst` until the goal is reached; returns what is reached. The problem has
 ///  - linearize(worst): at the place where it is;
 ///  - predict(tau): finds the step, returns the linearized minimum after it;
 ///  - tryStep(required): returns the worst after the step; if that is at most `required`, any such
 ///    value may be returned;
 ///  - accept(): goes there.
 template <class Problem>
-double ascend(
-  Problem& problem, double worst, double tau, double enough, double gain, int maximumSteps)
+double ascend(Problem& problem, double worst, double tau, const SearchGoal& goal)
 {
-  for (int step = 0; step < maximumSteps && worst < enough;)
+  for (int step = 0; step < goal.steps && worst < goal.enough;)
   {
     problem.linearize(worst);
     bool moved = false;
-    for (int trial = 0; trial < TrustRegion::Trials && step < maximumSteps && !moved;
-         ++trial, ++step)
+    for (int trial = 0; trial < TrustRegion::Trials && step < goal.steps && !moved; ++trial, ++step)
     {
       const double predicted = problem.predict(tau) - worst;
-      if (!(predicted > gain))
+      if (!(predicted > goal.gain))
       {
         return worst;
       }

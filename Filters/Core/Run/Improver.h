@@ -60,10 +60,9 @@ private:
     {
       return false;
     }
-    if (Operation::addsCells && this->judge_.growth.left <= 0)
+    // Noted for the report: the run may end because of the budget, not because nothing helps.
+    if (Operation::addsCells && !this->judge_.mayAddCells(1))
     {
-      // Noted for the report: the run may end because of the budget, not because nothing helps.
-      this->judge_.growth.isShort = true;
       return false;
     }
     return operation.improve(this->judge_, t, level);

@@ -85,10 +85,6 @@ std::string checkEngine(const Options& o)
   {
     return "The growth budget must be a number >= 0.";
   }
-  if (!(o.timeLimit >= 0.0) || !std::isfinite(o.timeLimit))
-  {
-    return "The time limit must be a number of seconds >= 0 (0: none).";
-  }
   return {};
 }
 }

@@ -53,7 +53,6 @@ struct Options : Switches
   /// If not negative: how far the best effort may go past the target, in place of the certified
   /// bound of this mesh. For a part of a mesh: its own surface includes borders to other parts.
   double mostQuality = -1.0;
-  double timeLimit = 0.0; ///< seconds, 0: none. Results are then not reproducible.
 
   /// One sentence about the first unusable option and the reason; empty if all options are fine.
   std::string check(bool hasSizes) const;

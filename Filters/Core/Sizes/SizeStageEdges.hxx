@@ -199,7 +199,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
     this->editor_.setPlace(p, { Freedom::Curve, span->part, parameter });
   }
   Proposal<D>& proposal = this->proposal_;
-  bool done = proposeSplit(this->editor_, this->run_.surface, edge.cell, a, b, p, proposal) &&
+  bool done = proposeSplit(this->editor_, this->run_.surface, { edge.cell, a, b, p }, proposal) &&
     this->isAboutLongest(proposal.cavity, edge.length);
   if (done)
   {

@@ -208,7 +208,7 @@ bool LongEdges::divideAt(Index c, const Edge& edge, const Vec<3>& x, const Place
     {
       editor.setPlace(p, place);
     }
-    done = proposeSplit(editor, this->run_.surface, c, edge.a, edge.b, p, this->proposal_);
+    done = proposeSplit(editor, this->run_.surface, { c, edge.a, edge.b, p }, this->proposal_);
   }
   if (done)
   {

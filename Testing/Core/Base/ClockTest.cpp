@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 using namespace meshopt;
@@ -30,15 +32,7 @@ struct Caller
 
 std::string words() { return "words"; }
 
-/// So that a limit of next to nothing is over.
-void waitForTheNextTick(const Clock& clock)
-{
-  while (!(clock.seconds() > 0.0))
-  {
-  }
-}
-constexpr double Over = std::numeric_limits<double>::denorm_min(); // seconds
-constexpr double Never = 1e9;
+constexpr double Long = 1e8; // seconds
 }
 
 TEST(Progress, TheFirstReportIsToldAtOnce)
@@ -131,8 +125,8 @@ TEST(Clock, APartHasItsShareOfTheWhole)
 TEST(Clock, StopsWhenTheTimeIsOver)
 {
   Caller caller;
-  Clock clock(caller.control, Over);
-  waitForTheNextTick(clock);
+  caller.control.deadline = std::chrono::steady_clock::now();
+  Clock clock(caller.control);
   EXPECT_TRUE(clock.isOutOfTime());
   EXPECT_TRUE(clock.hasStopped());
   EXPECT_FALSE(clock.goesOn(0.5, words));
@@ -140,13 +134,42 @@ TEST(Clock, StopsWhenTheTimeIsOver)
   EXPECT_FALSE(clock.isAborted());
 }
 
+TEST(Clock, OneDeadlineForAllThatHaveTheControl)
+{
+  Control control;
+  const Clock before(control);
+  control.deadline = std::chrono::steady_clock::now();
+  const Clock after(control);
+  EXPECT_TRUE(control.isOutOfTime());
+  EXPECT_TRUE(before.isOutOfTime());
+  EXPECT_TRUE(after.isOutOfTime());
+}
+
+TEST(Deadline, CountsFromNow)
+{
+  const Deadline begin = std::chrono::steady_clock::now();
+  const Deadline deadline = deadlineIn(2.5);
+  const Deadline end = std::chrono::steady_clock::now();
+  EXPECT_GE(deadline - begin, std::chrono::milliseconds(2500));
+  EXPECT_LE(deadline - end, std::chrono::milliseconds(2500));
+}
+
+TEST(Deadline, IsNoneForWhatNoClockCounts)
+{
+  for (double seconds : { 0.0, -1.0, std::nan(""), 1e300, std::numeric_limits<double>::infinity() })
+  {
+    EXPECT_EQ(deadlineIn(seconds), NoDeadline) << seconds;
+  }
+  EXPECT_NE(deadlineIn(Long), NoDeadline);
+}
+
 TEST(Clock, WithoutLimitTimeIsNeverOver)
 {
-  const Control silent;
-  for (double limit : { 0.0, Never })
+  for (double limit : { 0.0, Long })
   {
-    Clock clock(silent, limit);
-    waitForTheNextTick(clock);
+    Control silent;
+    silent.deadline = deadlineIn(limit);
+    Clock clock(silent);
     EXPECT_FALSE(clock.isOutOfTime()) << limit;
     EXPECT_FALSE(clock.hasStopped());
     EXPECT_TRUE(clock.goesOn(0.5, words));
@@ -156,7 +179,8 @@ TEST(Clock, WithoutLimitTimeIsNeverOver)
 TEST(Clock, StopsWhenTheCallerAsks)
 {
   Caller caller(1);
-  Clock clock(caller.control, Never);
+  caller.control.deadline = deadlineIn(Long);
+  Clock clock(caller.control);
   EXPECT_FALSE(clock.hasStopped());
   EXPECT_FALSE(clock.goesOn(0.0, words));
   EXPECT_TRUE(clock.isAborted());

@@ -109,10 +109,10 @@ TEST(Caps, FacetsWithoutAreaHaveNoEndlessGains)
   for (double gap : { 0.0, 1e-15 })
   {
     SimplexMesh<3> mesh = buildMesh(withNeedles(4, gap));
-    Options options;
-    options.timeLimit = 30.0;
+    Control control;
+    control.deadline = deadlineIn(30.0);
     NodalMetric<3> metric;
-    const Report report = optimize<3>(mesh, metric, options, {});
+    const Report report = optimize<3>(mesh, metric, Options(), control);
     EXPECT_NE(report.stopReason, StopReason::TimeLimit);
     EXPECT_TRUE(mesh.audit(false).empty());
   }

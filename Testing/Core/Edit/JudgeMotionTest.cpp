@@ -43,6 +43,19 @@ TEST(JudgeMotion, TakesAMoveByWhichAllCellsAreBetterThanLeast)
   EXPECT_EQ(b.judge.changed(), twice);
 }
 
+TEST(JudgeMotion, WhatASearchHasFoundMustGain)
+{
+  Bench<2> b(hexagon());
+  Proposal<2> p = moveTo(b, Centre);
+  b.judge.demand(p);
+  EXPECT_EQ(p.least, p.oldWorst); // of the cells themselves
+  EXPECT_EQ(p.leastFound, b.judge.required(p.oldWorst));
+  p.newWorst = p.leastFound;
+  expectRefused(b, [&] { return b.judge.accept(p); });
+  p.newWorst = std::nextafter(p.leastFound, 1.0);
+  EXPECT_TRUE(b.judge.accept(p));
+}
+
 TEST(JudgeMotion, OneCellThatIsNoBetterIsEnoughToRefuse)
 {
   Bench<2> b(hexagon());

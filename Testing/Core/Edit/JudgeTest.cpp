@@ -97,6 +97,51 @@ TEST(Judge, EnoughIsTheTargetOrTwoGains)
   EXPECT_EQ(b.judge.enough(0.7), 0.7 + 2.0 * b.judge.gain(0.7));
 }
 
+TEST(Judge, ASearchIsToReachEnoughByStepsOfHalfAGain)
+{
+  Bench<2> b(diamond());
+  b.judge.setTarget(0.6);
+  const SearchGoal goal = b.judge.goal(0.2, 7);
+  EXPECT_EQ(goal.enough, b.judge.enough(0.2));
+  EXPECT_EQ(goal.gain, 0.5 * b.judge.gain(0.2));
+  EXPECT_EQ(goal.steps, 7);
+}
+
+TEST(Judge, DemandsThatWhatComesGains)
+{
+  Bench<2> b(diamond());
+  Proposal<2> p = swap(b);
+  b.judge.demand(p);
+  EXPECT_EQ(p.least, b.judge.required(p.oldWorst));
+  b.judge.demand(p, 0.7); // another cell counts
+  EXPECT_EQ(p.least, b.judge.required(0.7));
+}
+
+TEST(Judge, CellsMayComeIfGrowthHasRoom)
+{
+  Bench<2> b(diamond());
+  b.judge.growth.left = 2;
+  EXPECT_TRUE(b.judge.mayAddCells(2));
+  EXPECT_FALSE(b.judge.growth.isShort);
+  EXPECT_FALSE(b.judge.mayAddCells(3));
+  EXPECT_TRUE(b.judge.growth.isShort); // noted for the report
+}
+
+TEST(Judge, AnInsertionGainsAndKeepsTheGuard)
+{
+  Bench<2> b(diamond());
+  b.editor.setQuality(0, 0.12);
+  b.editor.setQuality(1, 0.9);
+  const double required = b.judge.required(0.12);
+  const std::vector<Index> cavity{ 0, 1 };
+  const double enough = std::nextafter(required, 1.0);
+  EXPECT_FALSE(b.judge.mayInsert(0.12, required, { required, 0.15 }, cavity));
+  EXPECT_TRUE(b.judge.mayInsert(0.12, enough, { enough, 0.15 }, cavity));
+  b.judge.setGuard(0.17); // of insertions, even where nothing else is guarded
+  EXPECT_FALSE(b.judge.mayInsert(0.12, enough, { enough, 0.15 }, cavity));
+  EXPECT_TRUE(b.judge.mayInsert(0.12, enough, { enough, 0.17 }, cavity));
+}
+
 TEST(Judge, NodesMayGoIfTheSwitchAndGrowthSaySo)
 {
   Bench<2> b(diamond());
@@ -369,6 +414,47 @@ TEST(Judge, WithinATransactionTheGuardIsAskedAtItsEnd)
   ASSERT_TRUE(b.judge.accept(good));
   EXPECT_TRUE(b.judge.keepsGuard(mark));
   b.judge.commit(mark);
+}
+
+TEST(Judge, EndsATransactionByTheGuardOfAllItsChanges)
+{
+  Bench<2> b(diamond());
+  const Proposal<2> p = swap(b, { 0.12, 0.9 }, { 0.15, 0.15 });
+  b.judge.setGuard(0.17, true);
+  expectRefused(b,
+    [&]
+    {
+      const auto mark = b.judge.begin();
+      const bool done = b.judge.accept(p);
+      EXPECT_TRUE(done);
+      return b.judge.endGuarded(mark, done);
+    });
+  const Proposal<2> good = swap(b, { 0.12, 0.9 }, { 0.2, 0.2 });
+  for (bool isGood : { false, true })
+  {
+    const auto mark = b.judge.begin();
+    ASSERT_TRUE(b.judge.accept(good));
+    EXPECT_EQ(b.judge.endGuarded(mark, isGood), isGood);
+    EXPECT_FALSE(b.editor.inTransaction());
+    EXPECT_EQ(b.worst(), isGood ? 0.2 : 0.12);
+  }
+}
+
+TEST(Judge, RemembersFailuresOutsideOfTransactionsOnly)
+{
+  Bench<2> b(diamond());
+  b.editor.setClock(5);
+  const auto mark = b.judge.begin();
+  b.judge.noteMoveFailed(2);
+  b.judge.noteRemovalFailed(2);
+  b.judge.commit(mark);
+  EXPECT_EQ(b.mesh.pointData(2).moveFailed, 0u);
+  EXPECT_EQ(b.mesh.pointData(2).removeFailed, 0u);
+  b.judge.noteMoveFailed(2);
+  EXPECT_EQ(b.mesh.pointData(2).moveFailed, b.editor.clock());
+  EXPECT_EQ(b.mesh.pointData(2).removeFailed, 0u);
+  b.judge.noteRemovalFailed(2);
+  EXPECT_EQ(b.mesh.pointData(2).removeFailed, b.editor.clock());
 }
 
 /// The history counts what remains. What an operation is worth is another question.

@@ -52,7 +52,8 @@ TEST(SurfaceChanges3D, HalvesOfCurvesHaveSpans)
   {
     const auto mark = box.editor.begin();
     const Index m = box.editor.addPoint(0.5 * (box.mesh.point(edge[0]) + box.mesh.point(edge[1])));
-    ASSERT_TRUE(proposeSplit<3>(box.editor, &box.surface, cell, edge[0], edge[1], m, box.proposal));
+    ASSERT_TRUE(
+      proposeSplit<3>(box.editor, &box.surface, { cell, edge[0], edge[1], m }, box.proposal));
     box.check();
     const auto spans = edgesOf(box.surface.changes[0].spans);
     std::set<std::array<Index, 2>> halves;

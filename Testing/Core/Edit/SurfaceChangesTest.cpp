@@ -22,7 +22,8 @@ TYPED_TEST(SurfaceChangesIn, EdgesThatAreDivided)
     SCOPED_TRACE("edge " + std::to_string(edge[0]) + " " + std::to_string(edge[1]));
     const auto mark = box.editor.begin();
     const Index m = box.editor.addPoint(0.5 * (box.mesh.point(edge[0]) + box.mesh.point(edge[1])));
-    ASSERT_TRUE(proposeSplit<D>(box.editor, &box.surface, cell, edge[0], edge[1], m, box.proposal));
+    ASSERT_TRUE(
+      proposeSplit<D>(box.editor, &box.surface, { cell, edge[0], edge[1], m }, box.proposal));
     box.check();
     for (const SurfacePiece<D>& piece : box.surface.changes[0].come)
     {

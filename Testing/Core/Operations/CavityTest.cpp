@@ -69,7 +69,7 @@ struct Bench
   double grow(Index seed, const Vec<D>& x, int swallowed, int cells = 80)
   {
     this->editor.movePoint(this->p, x);
-    return this->cavity.grow(this->editor, this->model, seed, this->p, x, { cells, swallowed });
+    return this->cavity.grow(this->editor, this->model, seed, { this->p, x }, { cells, swallowed });
   }
 
   /// Worst new element for the cavity of these cells (bits).

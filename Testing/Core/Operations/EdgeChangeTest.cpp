@@ -41,7 +41,7 @@ struct Plane
     const std::size_t start = this->editor.begin();
     const Index p = this->editor.addPoint(x);
     Proposal<2> change;
-    if (!proposeSplit(this->editor, &this->curves, t, f[0], f[1], p, change))
+    if (!proposeSplit(this->editor, &this->curves, { t, f[0], f[1], p }, change))
     {
       this->editor.rollback(start);
       return false;
@@ -286,7 +286,7 @@ TEST(EdgeChange, EarsAndCornersAreRefused)
   // nothing of the boundary without curves
   EXPECT_FALSE(proposeContraction<2>(square.editor, nullptr, 2, 1, change));
   const Index p = square.editor.addPoint({ 0.1, 0.0 });
-  EXPECT_FALSE(proposeSplit<2>(square.editor, nullptr, 0, 0, 1, p, change));
+  EXPECT_FALSE(proposeSplit<2>(square.editor, nullptr, { 0, 0, 1, p }, change));
   // not around a ring to less than what can be told apart
   Plane triangle(ring(3, 0.3, 1.0), true);
   for (Index v : slidingPoints(triangle.mesh))
@@ -328,7 +328,7 @@ TEST(EdgeChange, InSpaceTheSurfaceStays)
       const Snapshot<3> before(editor);
       const std::size_t start = editor.begin();
       const Index p = editor.addPoint(Vec<3>(0.5 * (mesh.point(a) + mesh.point(b))));
-      if (proposeSplit<3>(editor, nullptr, t, a, b, p, change))
+      if (proposeSplit<3>(editor, nullptr, { t, a, b, p }, change))
       {
         editor.replace(change.cavity, change.cells, std::vector<double>(change.cells.size(), 0.5),
           change.keptChange());

@@ -33,7 +33,7 @@ bool split(Bench<D>& b, const Vec<D>& x)
   const auto mark = b.judge.begin();
   const Index m = b.editor.addPoint(x);
   Proposal<D> p;
-  const bool done = m != None && proposeSplit<D>(b.editor, nullptr, 0, 0, 1, m, p) &&
+  const bool done = m != None && proposeSplit<D>(b.editor, nullptr, { 0, 0, 1, m }, p) &&
     b.judge.measure(p) && b.judge.accept(p);
   done ? b.judge.commit(mark) : b.judge.rollback(mark);
   return done;
@@ -143,7 +143,7 @@ TYPED_TEST(SplittingEdge, TheJudgeLooksAtTheQuality)
   Proposal<D> p;
   const auto mark = b.judge.begin();
   const Index m = b.editor.addPoint(outside);
-  ASSERT_TRUE(proposeSplit<D>(b.editor, nullptr, 0, 0, 1, m, p)); // topology only
+  ASSERT_TRUE(proposeSplit<D>(b.editor, nullptr, { 0, 0, 1, m }, p)); // topology only
   p.least = 0.0;
   EXPECT_FALSE(b.judge.measure(p));
   b.judge.rollback(mark);

@@ -303,7 +303,7 @@ TEST_F(SurfacePatch, AnEdgeIsDivided)
         const Index m = this->editor.addPoint(x);
         this->editor.setPlace(m, { Freedom::Patch, 7, 0.0 });
         Proposal<3> p;
-        ASSERT_TRUE(proposeSplit<3>(this->editor, &this->floor, c, a, b, m, p));
+        ASSERT_TRUE(proposeSplit<3>(this->editor, &this->floor, { c, a, b, m }, p));
         p.least = 0.0;
         ASSERT_TRUE(this->judge.measure(p) && this->judge.accept(p));
         this->check();

@@ -34,7 +34,7 @@ struct Scene
   RepositionResult run(std::vector<Index>* sequence = nullptr, const KeepGoing& keepGoing = {})
   {
     return reposition<D>(
-      this->editor, this->metric, Measure::Shape, 0.0, this->parameters, keepGoing, sequence);
+      { this->editor, this->metric, Measure::Shape }, this->parameters, keepGoing, sequence);
   }
 
   /// Section 2.2, step by step, with a look at all elements each time.

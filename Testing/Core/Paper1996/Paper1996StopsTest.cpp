@@ -130,13 +130,13 @@ TYPED_TEST(PaperStops, AfterSoManyAlternations)
 TYPED_TEST(PaperStops, WhenTimeIsOver)
 {
   constexpr int D = TypeParam::dimension;
-  for (const Options& all : { target(0.6), motionTo(0.6) })
+  for (const Options& options : { target(0.6), motionTo(0.6) })
   {
-    Options options = all;
-    options.timeLimit = std::numeric_limits<double>::denorm_min();
+    Control control;
+    control.deadline = std::chrono::steady_clock::now();
     SimplexMesh<D> mesh = buildMesh(testMesh<D>());
     const MeshBits<D> before = bitsOf(mesh);
-    EXPECT_EQ(run<D>(mesh, options).stopReason, StopReason::TimeLimit);
+    EXPECT_EQ(run<D>(mesh, options, control).stopReason, StopReason::TimeLimit);
     EXPECT_EQ(bitsOf(mesh), before);
   }
 }

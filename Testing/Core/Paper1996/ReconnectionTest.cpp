@@ -26,7 +26,7 @@ ReconnectionResult run(SimplexMesh<D>& mesh, std::vector<Filling> kinds, int loo
     }
   }
   ReconnectionMemory<D> memory;
-  return reconnect<D>(editor, metric, Measure::Shape, 0.0, parameters, memory, keepGoing);
+  return reconnect<D>({ editor, metric, Measure::Shape }, parameters, memory, keepGoing);
 }
 
 template <int D>
@@ -268,7 +268,7 @@ void takesTheWorst(int lookAhead)
     ReconnectionParameters parameters;
     parameters.target = target;
     parameters.lookAhead = lookAhead;
-    const ReconnectionResult result = reconnect<D>(editor, metric, Measure::Shape, 0.0, parameters,
+    const ReconnectionResult result = reconnect<D>({ editor, metric, Measure::Shape }, parameters,
       memory,
       [&](double worst)
       {

@@ -41,7 +41,7 @@ TEST(Evaluations, APlaceOfANodeCostsItsFacets)
   EXPECT_EQ(count.get(), 4);
   // A step computes gradients, too.
   Vec<3> x{ 0.1, 0.2, 0.2 };
-  star.maximize(x, 1.0, 1e-3);
+  star.maximize(x, { 1.0, 1e-3, StarSteps });
   EXPECT_GT(count.get(), 4 + 3 * 4);
 }
 

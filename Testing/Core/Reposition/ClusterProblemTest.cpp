@@ -16,7 +16,8 @@ double maximize(Cluster<D>& cluster, double gain = 1e-6)
 {
   Problem<D> problem;
   const double before = *std::min_element(cluster.quality.begin(), cluster.quality.end());
-  const double worst = problem.maximize(cluster, { 0.0 }, { ElementMetric<D>{} }, 1.0, gain, 200);
+  const double worst = problem.maximize(
+    cluster, { 0.0 }, { ElementMetric<D>{} }, { 1.0, gain, 200 });
   EXPECT_GE(worst, before);
   const ElementQuality<D, MeanEdgeShape<D>> quality{ 0.0 };
   for (std::size_t k = 0; k < cluster.cells.size(); ++k)
@@ -172,14 +173,14 @@ TEST(ClusterProblem, MetricsAndEnough)
   const double before = *std::min_element(cluster.quality.begin(), cluster.quality.end());
   Cluster<2> half = cluster;
   Problem<2> problem;
-  const double worst = problem.maximize(cluster, quality, metrics, 1.0, 1e-6, 200);
+  const double worst = problem.maximize(cluster, quality, metrics, { 1.0, 1e-6, 200 });
   EXPECT_GT(worst, before + 0.05);
   for (std::size_t k = 0; k < metrics.size(); ++k)
   {
     EXPECT_EQ(cluster.quality[k], quality.value(cluster.corners(static_cast<int>(k)), metrics[k]));
   }
   const double enough = 0.5 * (before + worst);
-  const double reached = problem.maximize(half, quality, metrics, enough, 1e-6, 200);
+  const double reached = problem.maximize(half, quality, metrics, { enough, 1e-6, 200 });
   EXPECT_GE(reached, enough);
   EXPECT_LE(reached, worst + 1e-3);
 }

@@ -159,7 +159,7 @@ void findsTheOptimum()
           continue;
         }
         ++starts;
-        const double after = problem.maximize(x, 2.0, 1e-7, 200);
+        const double after = problem.maximize(x, { 2.0, 1e-7, 200 });
         EXPECT_NEAR(after, best, 1e-3) << "seed " << seed << " start " << start;
         EXPECT_NEAR(after, star.template worst<Shape>(x), 1e-13);
         EXPECT_GE(after, before);
@@ -182,7 +182,7 @@ void nothingBetterOnAGrid()
   StarProblem<D, Shape> problem;
   star.load(problem, true);
   Vec<D> x = Vec<D>::Zero();
-  const double best = problem.maximize(x, 2.0, 1e-7, 200);
+  const double best = problem.maximize(x, { 2.0, 1e-7, 200 });
   const int n = D == 3 ? 30 : 100;
   for (int k = 0; k < (D == 3 ? n * n * n : n * n); ++k)
   {
@@ -219,8 +219,8 @@ void fastPathEqualsGeneric()
       }
       // one step with the same model of the star goes to the same place: gradients are equal
       Vec<D> a = x, b = x;
-      fast.maximize(a, 2.0, 1e-9, 1);
-      generic.maximize(b, 2.0, 1e-9, 1);
+      fast.maximize(a, { 2.0, 1e-9, 1 });
+      generic.maximize(b, { 2.0, 1e-9, 1 });
       EXPECT_LT((a - b).norm(), 1e-9 * (1.0 + (a - x).norm()));
     }
   }
@@ -378,11 +378,11 @@ TEST(StarProblem, StopsWhereItIsEnough)
   const Vec<3> start(0.3, 0.3, 0.2);
   Vec<3> x = start;
   const double before = problem.evaluate(x);
-  EXPECT_EQ(problem.maximize(x, 0.5 * before, 1e-7), before);
+  EXPECT_EQ(problem.maximize(x, { 0.5 * before, 1e-7, StarSteps }), before);
   EXPECT_EQ(x, start);
-  EXPECT_GT(problem.maximize(x, before + 0.01, 1e-7), before + 0.01);
+  EXPECT_GT(problem.maximize(x, { before + 0.01, 1e-7, StarSteps }), before + 0.01);
   x = start;
-  EXPECT_EQ(problem.maximize(x, 2.0, 1e9), before); // no step promises so much
+  EXPECT_EQ(problem.maximize(x, { 2.0, 1e9, StarSteps }), before); // no step promises so much
   EXPECT_EQ(x, start);
 }
 

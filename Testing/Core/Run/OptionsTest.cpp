@@ -40,7 +40,6 @@ TEST(Options, NumbersWithinTheirRangesOnly)
     { &Options::epsilon, "epsilon", { Least, 1.0 }, { 0.0, BelowZero, AboveOne } },
     { &Options::armijo, "Armijo", { Least, BelowOne }, { 0.0, 1.0, Infinity } },
     { &Options::growthBudget, "growth", { 0.0, 1e300 }, { BelowZero, Infinity } },
-    { &Options::timeLimit, "time", { 0.0, 1e300 }, { BelowZero, Infinity } },
   };
   for (const Range& range : ranges)
   {
@@ -124,7 +123,7 @@ TEST(Options, AreCheckedWhateverTheAlgorithm)
 TEST(Options, TheFirstOfTwoFaultsIsNamed)
 {
   Options one, both;
-  one.beta = both.beta = both.timeLimit = -1.0;
+  one.beta = both.beta = both.growthBudget = -1.0;
   EXPECT_EQ(both.check(false), one.check(false));
 }
 

@@ -383,9 +383,9 @@ TEST(SizeStage, AbortLeavesASoundMesh)
     EXPECT_TRUE(n < calls || run.report.stopReason == StopReason::Aborted);
     EXPECT_LE(n, calls);
   }
-  Options o = options();
-  o.timeLimit = 1e-6;
-  const Result<2> run = optimized<2>(disc(16), NodalMetric<2>(0.008), o, true);
+  Control late;
+  late.deadline = deadlineIn(1e-6);
+  const Result<2> run = optimized<2>(disc(16), NodalMetric<2>(0.008), options(), true, late);
   EXPECT_EQ(run.report.stopReason, StopReason::TimeLimit);
 }
 

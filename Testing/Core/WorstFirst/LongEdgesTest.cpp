@@ -56,7 +56,7 @@ SurfaceOptions tolerance(double length)
 struct Division
 {
   Division(Sliding& sliding, double below, long growth, const Surface<3>* surface)
-    : clock(this->control, 0.0)
+    : clock(this->control)
   {
     computeQualities<3>(sliding.editor, metric, Measure::Shape, 0.0);
     this->before = sortedQualities(sliding.mesh);
@@ -182,8 +182,9 @@ TEST(LongEdges, ARunThatIsStoppedIsNoWorse)
   {
     Sliding sliding(gear(16, 2.0), tolerance(1e-3));
     NodalMetric<3> metric;
-    options.timeLimit = part * whole;
-    const Report report = optimize<3>(sliding.mesh, metric, options, {}, &sliding.surface);
+    Control control;
+    control.deadline = deadlineIn(part * whole);
+    const Report report = optimize<3>(sliding.mesh, metric, options, control, &sliding.surface);
     expectSound(sliding.mesh);
     double reached = report.worstBefore;
     bool isDivided = false;

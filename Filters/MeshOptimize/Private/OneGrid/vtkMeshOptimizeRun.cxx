@@ -78,8 +78,8 @@ void Optimize(
   const double areaBefore = D == 2 ? model.Mesh.volume() : 0.0;
   AddVolumes<D>(request, model, 0, outcome);
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
-  outcome.Report = meshopt::optimize(model.Mesh, model.Metric, request.OptionsNow(),
-    request.Control, request.Slide ? &surface : nullptr);
+  outcome.Report = meshopt::optimize(
+    model.Mesh, model.Metric, request.Options, request.Control, request.Slide ? &surface : nullptr);
   // Two bounds, both certified: the lesser holds.
   outcome.Report.bound = request.Slide
     ? std::min(outcome.Report.bound, BoundOf(surface, request.Options.measure))

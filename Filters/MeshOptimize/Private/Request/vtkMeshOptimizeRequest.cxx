@@ -3,7 +3,6 @@
 #include "Request/vtkMeshOptimizeRequest.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -49,20 +48,6 @@ double Mean(double a, vtkIdType countA, double b, vtkIdType countB)
 }
 
 } // namespace
-
-//------------------------------------------------------------------------------
-meshopt::Options Request::OptionsNow() const
-{
-  meshopt::Options options = this->Options;
-  if (options.timeLimit > 0.0)
-  {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - this->Start;
-    // 0 would mean: no limit
-    options.timeLimit = std::max(
-      options.timeLimit - spent.count(), std::numeric_limits<double>::min());
-  }
-  return options;
-}
 
 //------------------------------------------------------------------------------
 void Outcome::Add(const Outcome& other)

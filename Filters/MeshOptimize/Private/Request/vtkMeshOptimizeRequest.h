@@ -17,7 +17,6 @@
 #include "vtkType.h"
 
 #include <array>
-#include <chrono>
 #include <map>
 #include <string>
 
@@ -35,9 +34,8 @@ struct Request
   vtkAlgorithm* Filter = nullptr; ///< knows the names of the input arrays
   meshopt::Options Options;
   meshopt::Control Control;
-  int NumberOfThreads = 0; ///< 0: all cores; on many ranks a share of them
-  /// The time limit counts from here: it includes reading the grid, and all grids of the input.
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+  int NumberOfThreads = 0;    ///< 0: all cores; on many ranks a share of them
+  double TimeLimit = 0.0;     ///< in seconds, 0: none; what holds is the deadline of Control
   double OptimizeBelow = 0.0; ///< only cells under it, and layers around them, may change; 0: all
   int NumberOfLayers = 0;
   bool Slide = false;               ///< the boundary may be remeshed along its curves
@@ -59,9 +57,6 @@ struct Request
 
   /// Whether sizes are used: in the quality, or because the boundary follows them.
   bool UsesSizes() const { return this->Options.beta > 0.0 || this->Slide; }
-
-  /// The options for a run that begins now: the time limit is what remains of it.
-  meshopt::Options OptionsNow() const;
 };
 
 /**

@@ -19,7 +19,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -239,15 +238,11 @@ bool Rounds::MustStop(const Outcome& run)
 {
   const auto has = [&](StopReason reason)
   { return this->All.IsAny(run.Report.stopReason == reason); };
-  const double limit = this->Wanted.Options.timeLimit;
-  // OptionsNow() leaves the least positive number when the time is over.
-  const bool isLate = limit > 0.0 &&
-    this->Wanted.OptionsNow().timeLimit <= std::numeric_limits<double>::min();
   if (has(StopReason::Aborted))
   {
     this->Stopped = StopReason::Aborted;
   }
-  else if (has(StopReason::TimeLimit) || this->All.IsAny(isLate))
+  else if (has(StopReason::TimeLimit) || this->All.IsAny(this->Wanted.Control.isOutOfTime()))
   {
     this->Stopped = StopReason::TimeLimit;
   }

@@ -81,7 +81,7 @@ void Rounds::Optimize(Part& part, double weight, double share, Outcome& outcome)
   request.Options.mostShrink = Portion(std::max(0L, this->Shrink - std::max(0L, -gained)), weight);
   request.Options.mostQuality = this->IsBest() ? this->Most : -1.0;
   request.Control = vtkMeshBridge::MakeControl(
-    request.Filter, request.NumberOfThreads, this->First, this->Last);
+    request.Filter, request.NumberOfThreads, this->First, this->Last, request.Control.deadline);
   std::string error;
   std::vector<Part> parts(1); // the zone, and what is outside of it, if there is one
   if (this->HasZone)

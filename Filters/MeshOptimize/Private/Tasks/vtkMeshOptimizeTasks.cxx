@@ -106,6 +106,10 @@ std::string CheckRequest(const Request& request, std::vector<Task>& tasks)
     hasSizes |= task.Arrays.Size != nullptr;
   }
   // Written so that what is not a number is refused, too.
+  if (!(request.TimeLimit >= 0.0))
+  {
+    return "The time limit must be a number of seconds >= 0 (0: none).";
+  }
   if (!(request.OptimizeBelow >= 0.0))
   {
     return "OptimizeBelow, the quality under which cells may change, must be a number.";
@@ -331,7 +335,7 @@ std::string OptimizeAll(const Ports& ports, Request request, Outcome& outcome)
     const double first = static_cast<double>(i) / static_cast<double>(tasks.size());
     const double last = static_cast<double>(i + 1) / static_cast<double>(tasks.size());
     request.Control = vtkMeshBridge::MakeControl(
-      request.Filter, request.NumberOfThreads, first, last);
+      request.Filter, request.NumberOfThreads, first, last, request.Control.deadline);
     request.Surface.locked = locked[i];
     request.IsPieceOfVolume = volumes[i] != 0;
     const Task& task = tasks[i];

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file Workpiece.h
+/// What the fast engine works on: the mesh, the quality of its cells, and the caps that bound it.
+#ifndef meshopt_WorstFirst_Workpiece_h
+#define meshopt_WorstFirst_Workpiece_h
+
+#include "Bound/Caps.h"
+#include "Edit/QualityModel.h"
+#include "Run/Run.h"
+#include "WorstFirst/Constants.h"
+#include "WorstFirst/Task.h"
+#include "WorstFirst/Weights.h"
+
+namespace meshopt
+{
+namespace worstfirst
+{
+template <int D, class Shape>
+class Workpiece
+{
+public:
+  /// Certifies the caps. The run must outlive this object.
+  explicit Workpiece(Run<D>& run)
+    : run_(run)
+    , model_(run.mesh(), run.metric, run.options.beta)
+    , weights_(run.editor, this->model_, this->caps_)
+    , worst_(run.report.history.back().worst)
+  {
+    const Options& options = run.options;
+    // Caps are needed up to the highest target of any stage: a cell above that is never tried.
+    const double highest = options.effort == Effort::Best
+      ? std::max(*(std::end(Stages) - 1), options.targetQuality)
+      : options.targetQuality;
+    // No cap is certified if the metric varies or if the surface itself can change.
+    this->caps_.build(run.mesh(), options.measure, highest, run.metric.isTrivial() && !run.surface);
+    this->caps_.setFull(options.targetQuality / TinyReached);
+    run.report.bound = this->caps_.bound();
+    this->findWorstOfPart();
+  }
+  Workpiece(const Workpiece&) = delete; // its parts know each other
+  Workpiece& operator=(const Workpiece&) = delete;
+
+  Run<D>& run() const { return this->run_; }
+  const SimplexMesh<D>& mesh() const { return this->run_.mesh(); }
+  const Options& options() const { return this->run_.options; }
+  const QualityModel<D, Shape>& model() const { return this->model_; }
+  Caps<D>& caps() { return this->caps_; }
+  const Caps<D>& caps() const { return this->caps_; }
+  Weights<D, Shape>& weights() { return this->weights_; }
+
+  // --- targets and bounds
+  bool isPast(double target) const { return target > this->options().targetQuality + SameTarget; }
+  /// What no cell can exceed, or need not.
+  double bound() const
+  {
+    const double most = this->options().mostQuality;
+    return most >= 0.0 ? most : this->caps_.bound();
+  }
+  /// The worst quality when the last row of the history was written. Of all cells; in a part of a
+  /// mesh of those that are not left to other runs.
+  double worst() const { return this->worst_; }
+  /// False where no bound is known, unless the surface takes part: then hardly anything is bound.
+  bool isFarBelowBound() const
+  {
+    return (this->bound() < 1.0 || this->slides()) && this->worst_ < NearBound * this->bound();
+  }
+  /// Whether cells at facets with tiny caps count. At the border of a part they do not.
+  bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
+
+  // --- the mesh
+  /// Whether the surface takes part.
+  bool slides() const { return this->run_.surface && this->run_.surface->judgesChanges(); }
+  /// The least gain of a change, in general.
+  double usualGain() const { return this->model_.plain ? Gain : CoarseGain; }
+  /// How many cells count as few: see FewCells.
+  long fewCells() const
+  {
+    const long cells = this->mesh().numberOfCellSlots();
+    return std::max({ FewestCells, std::min(FewCells, cells / FewCellsPart), cells / FewOfMany });
+  }
+  /// Whether the cell is at the border of a part, and better off in another run.
+  bool isLeft(Index c) const
+  {
+    const Simplex<D>& nodes = this->mesh().nodes(c);
+    return this->mesh().hasBorder() &&
+      std::any_of(nodes.begin(), nodes.end(), [&](Index p) { return this->mesh().isAtBorder(p); });
+  }
+  /// A failed cell is tried again only with more effort, or after something has changed around it.
+  bool isWorthTrying(Index c, Phase phase, int level) const
+  {
+    const auto& data = this->mesh().cellData(c);
+    const auto& nodes = this->mesh().nodes(c);
+    return data.stamp == 0 || data.level < rankOf(phase, level) ||
+      std::any_of(nodes.begin(), nodes.end(),
+        [&](Index p) { return this->mesh().pointData(p).stamp > data.stamp; });
+  }
+
+  /// The true qualities, not the weighted ones, as a row of the history. worst() is theirs from now
+  /// on.
+  PassRecord summary(long& inverted)
+  {
+    const bool weighed = this->weights_.areOn();
+    this->weights_.switchOff();
+    const PassRecord row = summarize(this->mesh(), this->options().targetQuality, &inverted);
+    this->worst_ = row.worst;
+    this->findWorstOfPart();
+    if (weighed)
+    {
+      this->weights_.switchOn();
+    }
+    return row;
+  }
+
+private:
+  /// In a part of a mesh: the worst quality of the cells that are not left to other runs; 1 if
+  /// there are none.
+  void findWorstOfPart()
+  {
+    if (!this->mesh().hasBorder())
+    {
+      return;
+    }
+    this->worst_ = 1.0;
+    for (Index c = 0; c < this->mesh().numberOfCellSlots(); ++c)
+    {
+      // The quality first: hardly any cell is worse than all before.
+      const double q = this->mesh().quality(c);
+      this->worst_ = q < this->worst_ && this->mesh().isAlive(c) && !this->isLeft(c) ? q
+                                                                                     : this->worst_;
+    }
+  }
+
+  Run<D>& run_;
+  QualityModel<D, Shape> model_;
+  Caps<D> caps_;
+  Weights<D, Shape> weights_;
+  double worst_;
+};
+}
+}
+
+#endif

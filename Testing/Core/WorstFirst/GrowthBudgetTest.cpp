@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The growth of a run: shares of chunks, what comes back, the reserve, and when it is used up.
+#include "WorstFirst/GrowthBudget.h"
+
+#include <gtest/gtest.h>
+
+namespace meshopt
+{
+namespace
+{
+using worstfirst::GrowthBudget;
+using worstfirst::Phase;
+
+constexpr long Allowed = 1000, Reserve = Allowed / worstfirst::ReservedPart, Cells = 500;
+
+GrowthBudget budget(long mostShrink = -1, bool followsSizes = false)
+{
+  Options options;
+  options.mostShrink = mostShrink;
+  return { options, Allowed, Cells, followsSizes };
+}
+}
+
+TEST(GrowthBudget, SharesAllButTheReserveWhenLifting)
+{
+  const Growth share = budget(100).share(Phase::Lifting, 4);
+  EXPECT_EQ(share.left, (Allowed - Reserve) / 4);
+  EXPECT_EQ(share.most, (Allowed + 100 - Reserve) / 4);
+  EXPECT_FALSE(share.isShort);
+}
+
+TEST(GrowthBudget, GivesAllToPolishing)
+{
+  const Growth share = budget(100).share(Phase::Polishing, 4);
+  EXPECT_EQ(share.left, Allowed / 4);
+  EXPECT_EQ(share.most, std::numeric_limits<long>::max());
+}
+
+TEST(GrowthBudget, LimitsHowManyCellsVanish)
+{
+  const long shrink = static_cast<long>(worstfirst::ShrinkBudget * Cells);
+  EXPECT_EQ(budget().share(Phase::Lifting, 1).most, Allowed + shrink - Reserve);
+  EXPECT_GT(budget(-1, true).share(Phase::Lifting, 1).most, 1000 * Allowed);
+}
+
+TEST(GrowthBudget, TakesBackWhatIsLeft)
+{
+  GrowthBudget b = budget();
+  b.takeBack(Phase::Lifting, 300, false);
+  EXPECT_EQ(b.share(Phase::Lifting, 1).left, 300);
+  EXPECT_EQ(b.share(Phase::Polishing, 1).left, 300 + Reserve);
+  b.takeBack(Phase::Polishing, 50, false);
+  EXPECT_EQ(b.share(Phase::Polishing, 1).left, 50);
+  EXPECT_LT(b.share(Phase::Lifting, 1).left, 0); // it lives on the reserve
+  b.openReserve();
+  EXPECT_EQ(b.share(Phase::Lifting, 1).left, 50);
+}
+
+TEST(GrowthBudget, IsUsedUpOnlyIfAChangeWasLeftOut)
+{
+  const long rest = static_cast<long>(worstfirst::UsedUp * Allowed) + worstfirst::OneNode;
+  GrowthBudget b = budget();
+  EXPECT_FALSE(b.isUsedUp());
+  b.takeBack(Phase::Polishing, rest, false);
+  EXPECT_FALSE(b.isUsedUp());
+  b.takeBack(Phase::Polishing, rest + 1, true);
+  EXPECT_FALSE(b.isUsedUp());
+  b.takeBack(Phase::Polishing, rest, false); // what was left out stays left out
+  EXPECT_TRUE(b.isUsedUp());
+}
+
+TEST(GrowthBudget, LetsFewerNodesVanishWhenManyAreGone)
+{
+  GrowthBudget b = budget(100);
+  EXPECT_EQ(b.mostSwallowed(), worstfirst::MostSwallowed);
+  b.takeBack(Phase::Polishing, Allowed + worstfirst::WideShrink * 100 - 1, false);
+  EXPECT_EQ(b.mostSwallowed(), worstfirst::MostSwallowed);
+  b.takeBack(Phase::Polishing, Allowed + worstfirst::WideShrink * 100, false);
+  EXPECT_EQ(b.mostSwallowed(), worstfirst::FewestSwallowed);
+}
+}
