@@ -42,9 +42,8 @@ struct RepositionResult
 /// Called before every iteration with the quality of the worst element; false cancels.
 using KeepGoing = std::function<bool(double worst)>;
 
-/// Runs the global algorithm. The qualities of the cells must be up to date, and are kept up to
-/// date. Appends each KWORST to `sequence` if given: tests compare it with the six steps, since an
-/// element that only loses its nodes in step 2 leaves no other trace.
+/// Runs the global algorithm. Appends each KWORST to `sequence` if given: tests compare it with the
+/// six steps, since an element that only loses its nodes in step 2 leaves no other trace.
 template <int D>
 RepositionResult reposition(const MeasuredMesh<D>& mesh, const RepositionParameters& parameters,
   const KeepGoing& keepGoing, std::vector<Index>* sequence = nullptr);

@@ -10,8 +10,8 @@
 
 namespace meshopt
 {
-/// A mesh, and how the quality of its cells is measured (2.2). The qualities must be up to date, and
-/// are kept up to date.
+/// A mesh, and how the quality of its cells is measured (2.2). The qualities must be up to date;
+/// they are kept so.
 template <int D>
 struct MeasuredMesh
 {

@@ -79,8 +79,8 @@ struct ReconnectionResult
 };
 
 /// Runs the iteration of section 2.3. `keepGoing` is called before every iteration with the quality
-/// of the worst element that is not set aside, and before every look-ahead with that of its element;
-/// false cancels.
+/// of the worst element that is not set aside, and before every look-ahead with that of its
+/// element; false cancels.
 template <int D>
 ReconnectionResult reconnect(const MeasuredMesh<D>& mesh, const ReconnectionParameters& parameters,
   ReconnectionMemory<D>& memory, const std::function<bool(double)>& keepGoing);
