@@ -11,6 +11,8 @@
 
 #include <unsupported/Eigen/BVH>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>

@@ -9,6 +9,8 @@
 #include "WorstFirst/Constants.h"
 #include "WorstFirst/Task.h"
 
+#include <limits>
+
 namespace meshopt
 {
 namespace worstfirst
