@@ -104,7 +104,7 @@ def picture(path, before, after, surface, tolerance):
             GetColorTransferFunction(array[1]).RescaleTransferFunction(0, tolerance)
             bar.AddRangeLabels, bar.UseCustomLabels, bar.CustomLabels = 0, 1, [0, tolerance / 2, tolerance]
         view.OrientationAxesVisibility = 0
-        view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp = [0, 0, 0.85], [1.7, 5.0, 2.8], [0, 0, 1]
+        view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp = [0, 0, 0.77], [1.7, 5.0, 2.72], [0, 0, 1]
     layout.SetSize(1500, 700)
     SaveScreenshot(path, layout, OverrideColorPalette="WhiteBackground")
 

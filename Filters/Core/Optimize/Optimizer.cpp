@@ -173,10 +173,10 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
   const StopReason reason = run.report.stopReason;
   this->limitGrowth();
   run.growth = static_cast<long>(PartForDivisions * static_cast<double>(run.growth));
-  if constexpr (D == 3)
+  if constexpr (D == 3) // only surfaces in space judge changes
   {
-    const double below = std::min(run.options.targetQuality, AboveWorst * worst);
-    if (divideLongEdges(run, below, partsBelow) == 0)
+    const double bad = std::min(run.options.targetQuality, AboveWorst * worst);
+    if (divideLongEdges(run, bad, partsBelow) == 0)
     {
       return false;
     }

@@ -47,9 +47,8 @@ bool FillingTrial<D, Shape>::make(const ElementCluster<D>& around, Apex<D> apex,
   const bool isNew = apex.id == None;
   apex.id = isNew ? editor.addPoint(apex.x) : apex.id;
   editor.movePoint(apex.id, apex.x, isNew ? around.core[0] : None);
-  const bool done = this->propose(around, apex, required) && this->judge_.accept(this->proposal_);
-  done ? this->judge_.commit(mark) : this->judge_.rollback(mark);
-  return done;
+  return this->judge_.end(
+    mark, this->propose(around, apex, required) && this->judge_.accept(this->proposal_));
 }
 
 template <int D, class Shape>

@@ -208,7 +208,7 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
     this->judge().start();
     done = this->judge().measure(proposal) && this->judge().accept(proposal);
   }
-  done ? this->judge().commit(mark) : this->judge().rollback(mark);
+  this->judge().end(mark, done);
   this->judge().count(Operation::NodeInsertion, done);
   return done;
 }

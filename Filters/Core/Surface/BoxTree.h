@@ -3,7 +3,7 @@
 /// Finds numbered things in space by their bounding boxes.
 ///
 /// The tree is Eigen's. Its searches are not used: they take memory at each call, and the engine
-/// asks some hundred thousand times a second.
+/// asks for every change of a surface.
 #ifndef meshopt_Surface_BoxTree_h
 #define meshopt_Surface_BoxTree_h
 
@@ -24,7 +24,7 @@ class BoxTree
 public:
   using Box = Eigen::AlignedBox<double, 3>;
 
-  /// A thing, and all of its space.
+  /// A thing: its number, any that the caller likes, and its bounding box.
   struct Item
   {
     int number;
@@ -43,12 +43,14 @@ public:
     }
     return box;
   }
+  /// The box, larger by a length on all sides.
   static Box widened(const Box& box, double margin)
   {
     const Eigen::Vector3d m = Eigen::Vector3d::Constant(margin);
     return Box(box.min() - m, box.max() + m);
   }
 
+  /// Replaces all things. The cost is n log n.
   void build(const std::vector<Item>& items)
   {
     this->isEmpty_ = items.empty();

@@ -72,7 +72,7 @@ void ReferenceSurface::finish(double tolerance, double least)
   {
     this->patches_[k].build(ofPatch[k]);
   }
-  // The trees come first: room() searches it.
+  // The trees come first: room() searches one.
   std::vector<int> near;
   for (Facet& f : this->facets_)
   {

@@ -42,9 +42,10 @@ class ReferenceSurface
 public:
   using Piece = SurfacePiece<3>;
 
-  /// Adds a facet: corners in order, seen from outside counter-clockwise. `isSigned` is false if
-  /// outside cannot be told from inside, as with a facet within one region; `isOuter` is true if
-  /// there is nothing outside; `isThin` if it bounds a region whose volume could change by much.
+  /// Adds a facet: corners in order, seen from outside counter-clockwise. `patch`: a number >= 0.
+  /// `isSigned` is false if outside cannot be told from inside, as with a facet within one region;
+  /// `isOuter` is true if there is nothing outside; `isThin` if it bounds a region whose volume
+  /// could change by much.
   void add(
     const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, bool isThin = false);
   /// To be called once, after the last facet. `tolerance`: a length; `least`: that of rounding. No

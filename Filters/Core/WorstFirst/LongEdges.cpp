@@ -216,7 +216,7 @@ bool LongEdges::divideAt(Index c, const Edge& edge, const Vec<3>& x, const Place
     this->judge_.start();
     done = this->judge_.measure(this->proposal_) && this->judge_.accept(this->proposal_);
   }
-  done ? this->judge_.commit(mark) : this->judge_.rollback(mark);
+  this->judge_.end(mark, done);
   this->judge_.count(Operation::NodeInsertion, done);
   return done;
 }

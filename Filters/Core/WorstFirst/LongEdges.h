@@ -22,7 +22,7 @@ namespace meshopt
 /// until no such cell is left, the run's growth is used up, or the clock stops. What is kept stays;
 /// an edge of the surface is divided where the surface allows it. No cell is inverted by that, but
 /// qualities may fall. Adds a row to the history. Returns the number of divisions. Precondition: no
-/// cell is inverted. The cost goes with the number of divisions.
+/// cell is inverted. The cost: a few looks at all cells, beside the divisions.
 long divideLongEdges(Run<3>& run, double below, double partsBelow);
 }
 

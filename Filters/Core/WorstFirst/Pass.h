@@ -5,7 +5,7 @@
 #ifndef meshopt_WorstFirst_Pass_h
 #define meshopt_WorstFirst_Pass_h
 
-#include "WorstFirst/Report.h"
+#include "WorstFirst/Reporter.h"
 #include "WorstFirst/Tangle.h"
 #include "WorstFirst/Worker.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file Report.h
+/// @file Reporter.h
 /// What the fast engine says of its run: the rows of the history, progress, and why it ends.
-#ifndef meshopt_WorstFirst_Report_h
-#define meshopt_WorstFirst_Report_h
+#ifndef meshopt_WorstFirst_Reporter_h
+#define meshopt_WorstFirst_Reporter_h
 
 #include "WorstFirst/GrowthBudget.h"
 #include "WorstFirst/Workpiece.h"
