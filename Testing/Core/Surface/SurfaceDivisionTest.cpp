@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Patches, curves and corners of bodies that are known.
+#include "Surface/SurfaceDivision.h"
 #include "SlidingBoxes.h"
 
 using namespace meshopt;
