@@ -82,6 +82,9 @@ public:
   /// A new point at x that no cell uses yet; None if the editor's pool has no slot. Attachments get
   /// a value for it when movePoint() places it.
   Index addPoint(const Vec<D>& x);
+  /// The same, with values at once: `near` is a point near x, where attachments begin to look.
+  /// `place`: on the surface, if the point slides; see setPlace().
+  Index addPoint(const Vec<D>& x, Index near, const Place& place = {});
 
   /// Moves a point, and stamps it unless it is there already. Attachments follow. `near`: a point
   /// near x, for a new point without values; None: the point itself. The caller must set the

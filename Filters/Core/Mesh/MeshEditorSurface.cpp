@@ -26,6 +26,22 @@ void MeshEditor<D>::setPlace(Index p, const Place& place)
 }
 
 template <int D>
+Index MeshEditor<D>::addPoint(const Vec<D>& x, Index near, const Place& place)
+{
+  const Index p = this->addPoint(x);
+  if (p != None)
+  {
+    // To where it is: this tells attachments.
+    this->movePoint(p, x, near);
+    if (place.mayMove())
+    {
+      this->setPlace(p, place);
+    }
+  }
+  return p;
+}
+
+template <int D>
 void MeshEditor<D>::setPatch(Index c, int i, Index patch)
 {
   if (this->mesh_->patches_.empty())
@@ -81,6 +97,8 @@ void MeshEditor<D>::giveUpEdge(Index c, int e)
 
 template void MeshEditor<2>::makeRoomForPlaces();
 template void MeshEditor<3>::makeRoomForPlaces();
+template Index MeshEditor<2>::addPoint(const Vec<2>&, Index, const Place&);
+template Index MeshEditor<3>::addPoint(const Vec<3>&, Index, const Place&);
 template void MeshEditor<2>::setPlace(Index, const Place&);
 template void MeshEditor<3>::setPlace(Index, const Place&);
 template void MeshEditor<2>::setPatch(Index, int, Index);

@@ -177,16 +177,10 @@ private:
     // The curve decides where the node is, not the chord: the boundary stays on the curve.
     const Vec<D> x = judge.surface()->at(span->part, s);
     const auto mark = judge.begin();
-    const Index p = judge.editor().addPoint(x);
-    bool done = p != None;
-    if (done)
-    {
-      // To where it is: the attached metric takes its values there, beginning its search at a.
-      judge.editor().movePoint(p, x, a);
-      judge.editor().setPlace(p, { Freedom::Curve, span->part, s });
-      done = proposeSplit(judge.editor(), judge.surface(), { t, a, b, p }, this->proposal_) &&
-        this->offer(judge);
-    }
+    const Index p = judge.editor().addPoint(x, a, { Freedom::Curve, span->part, s });
+    const bool done = p != None &&
+      proposeSplit(judge.editor(), judge.surface(), { t, a, b, p }, this->proposal_) &&
+      this->offer(judge);
     judge.count(Operation::NodeInsertion, done);
     return judge.end(mark, done);
   }

@@ -187,19 +187,19 @@ bool SizeStage<D>::splitEdge(const Edge& edge)
   {
     return false;
   }
-  const double parameter = span ? span->from + t * (span->to - span->from) : 0.0;
-  const Vec<D> x = span ? this->run_.surface->at(span->part, parameter)
-                        : Vec<D>(this->mesh().point(a) + t * e);
-  // The new node must be there before cells with it can be measured: a refusal takes it back.
-  const auto mark = this->judge().begin();
-  const Index p = this->editor_.addPoint(x);
-  this->editor_.movePoint(p, x, a);
+  Vec<D> x = this->mesh().point(a) + t * e;
+  Place place;
   if (span)
   {
-    this->editor_.setPlace(p, { Freedom::Curve, span->part, parameter });
+    place = { Freedom::Curve, span->part, span->from + t * (span->to - span->from) };
+    x = this->run_.surface->at(span->part, place.parameter);
   }
+  // The new node must be there before cells with it can be measured: a refusal takes it back.
+  const auto mark = this->judge().begin();
+  const Index p = this->editor_.addPoint(x, a, place);
   Proposal<D>& proposal = this->proposal_;
-  bool done = proposeSplit(this->editor_, this->run_.surface, { edge.cell, a, b, p }, proposal) &&
+  bool done = p != None &&
+    proposeSplit(this->editor_, this->run_.surface, { edge.cell, a, b, p }, proposal) &&
     this->isAboutLongest(proposal.cavity, edge.length);
   if (done)
   {

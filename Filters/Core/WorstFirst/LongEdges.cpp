@@ -199,17 +199,9 @@ bool LongEdges::divideAt(Index c, const Edge& edge, const Vec<3>& x, const Place
 {
   MeshEditor<3>& editor = this->run_.editor;
   const auto mark = this->judge_.begin();
-  const Index p = editor.addPoint(x);
-  bool done = p != None;
-  if (done)
-  {
-    editor.movePoint(p, x, edge.a); // tells what is attached to points where to look
-    if (place.mayMove())
-    {
-      editor.setPlace(p, place);
-    }
-    done = proposeSplit(editor, this->run_.surface, { c, edge.a, edge.b, p }, this->proposal_);
-  }
+  const Index p = editor.addPoint(x, edge.a, place);
+  bool done = p != None &&
+    proposeSplit(editor, this->run_.surface, { c, edge.a, edge.b, p }, this->proposal_);
   if (done)
   {
     this->proposal_.least = WorstDivision * this->proposal_.oldWorst;

@@ -97,6 +97,23 @@ TYPED_TEST(AttachmentOf, IsToldOfEachPlace)
 
 /// Random moves and new points in transactions within transactions. Each is undone or kept; a copy
 /// made at its beginning says what must be there after it is undone.
+TYPED_TEST(AttachmentOf, IsToldOfANewPointAtOnce)
+{
+  constexpr int D = TypeParam::dimension;
+  Attached<D> a;
+  const Index p = a.freePoint();
+  const Vec<D> x = a.mesh.point(p) + Vec<D>::Constant(0.01);
+  const Index q = a.editor.addPoint(x, p);
+  EXPECT_EQ(a.mesh.point(q), x);
+  EXPECT_TRUE((a.attachment.values[q] == typename LastPlace<D>::Value{ x, p, 1 }));
+  EXPECT_FALSE(a.mesh.place(q).mayMove());
+  const Index slides = a.editor.addPoint(x, p, { Freedom::Curve, 3, 0.25 });
+  EXPECT_TRUE((a.attachment.values[slides] == typename LastPlace<D>::Value{ x, p, 1 }));
+  EXPECT_EQ(a.mesh.place(slides).freedom, Freedom::Curve);
+  EXPECT_EQ(a.mesh.place(slides).part, 3);
+  EXPECT_EQ(a.mesh.place(slides).parameter, 0.25);
+}
+
 TYPED_TEST(AttachmentOf, IsUndoneWithThePoints)
 {
   constexpr int D = TypeParam::dimension;
