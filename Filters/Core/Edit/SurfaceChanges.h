@@ -33,8 +33,7 @@ public:
       {
         if (mesh.isKept(c, i) && find(p.kept.gone, sortedIds(mesh.facet(c, i))) >= 0)
         {
-          this->add(
-            surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), this->change_.gone);
+          this->addFacet(surface, mesh, c, i, this->change_.gone);
         }
       }
     }
@@ -44,11 +43,12 @@ public:
     {
       for (int i = 0; i <= D; ++i)
       {
-        const int k = find(p.kept.come, sortedIds(facetOf(p.cells[n], i)));
-        if (k >= 0)
+        const Facet<D> f = facetOf(p.cells[n], i);
+        const int k = find(p.kept.come, sortedIds(f));
+        if (k >= 0 && this->isNew(f))
         {
-          this->add(
-            surface, mesh, p.cells[n], i, p.kept.patches[k], p.kept.regions[n], this->change_.come);
+          this->change_.come.push_back(
+            pieceOf(surface, mesh, f, p.kept.patches[k], p.kept.regions[n]));
         }
       }
     }
@@ -199,25 +199,39 @@ private:
       [&](const auto& m) { return m.point == q && m.place.mayMove(); });
   }
 
-  /// Adds a facet, but only once: an interface has cells on both sides.
-  void add(const Surface<D>& surface, const SimplexMesh<D>& mesh, const Simplex<D>& nodes, int i,
-    Index patch, Index region, std::vector<SurfacePiece<D>>& pieces)
+  /// Whether the facet comes for the first time: an interface has cells on both sides.
+  bool isNew(const Facet<D>& f)
   {
-    const Facet<D> f = facetOf(nodes, i);
-    if (find(this->seen_, sortedIds(f)) < 0)
+    const bool is = find(this->seen_, sortedIds(f)) < 0;
+    if (is)
     {
       this->seen_.push_back(f);
-      SurfacePiece<D> piece;
-      std::transform(f.begin(), f.end(), piece.x.begin(), [&](Index q) { return mesh.point(q); });
-      piece.patch = patch;
-      piece.region = region;
-      // In a set as a whole, if all its nodes are.
-      piece.sets = surface.sets(mesh, f[0]);
-      for (int k = 1; k < D && piece.sets != 0; ++k)
-      {
-        piece.sets &= surface.sets(mesh, f[k]);
-      }
-      pieces.push_back(piece);
+    }
+    return is;
+  }
+  static SurfacePiece<D> pieceOf(const Surface<D>& surface, const SimplexMesh<D>& mesh,
+    const Facet<D>& f, Index patch, Index region)
+  {
+    SurfacePiece<D> piece;
+    std::transform(f.begin(), f.end(), piece.x.begin(), [&](Index q) { return mesh.point(q); });
+    piece.patch = patch;
+    piece.region = region;
+    // In a set as a whole, if all its nodes are.
+    piece.sets = surface.sets(mesh, f[0]);
+    for (int k = 1; k < D && piece.sets != 0; ++k)
+    {
+      piece.sets &= surface.sets(mesh, f[k]);
+    }
+    return piece;
+  }
+  /// Facet i of cell c, as it is.
+  void addFacet(const Surface<D>& surface, const SimplexMesh<D>& mesh, Index c, int i,
+    std::vector<SurfacePiece<D>>& pieces)
+  {
+    const Facet<D> f = mesh.facet(c, i);
+    if (this->isNew(f))
+    {
+      pieces.push_back(pieceOf(surface, mesh, f, mesh.patch(c, i), mesh.region(c)));
     }
   }
 
@@ -234,7 +248,7 @@ private:
         if (mesh.isKept(c, i) &&
           std::any_of(f.begin(), f.end(), [&](Index q) { return slides(p, q); }))
         {
-          this->add(surface, mesh, mesh.nodes(c), i, mesh.patch(c, i), mesh.region(c), pieces);
+          this->addFacet(surface, mesh, c, i, pieces);
         }
       }
     }
