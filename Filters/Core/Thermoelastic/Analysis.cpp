@@ -133,7 +133,7 @@ private:
     this->solution_.assemblySeconds = watch.lap();
     Eigen::VectorXd x;
     this->solution_.solver = solve(
-      system, this->options_.solver, this->control_, AfterAssembly, AfterSolve, x);
+      system, this->options_.solver, this->control_, { AfterAssembly, AfterSolve }, x);
     this->solution_.solveSeconds = watch.lap();
     std::vector<Vec<D>>& u = this->solution_.displacement;
     // Slots that no cell uses stay at rest.

@@ -57,11 +57,10 @@ double fractionDone(double residual, double tolerance)
   return std::isfinite(f) ? std::min(1.0, std::max(0.0, f)) : 0.0;
 }
 
-/// `first` and `last`: progress at the begin and at the end. The residual comes from the
-/// recurrence, as in Eigen; it is not computed again.
+/// The residual comes from the recurrence, as in Eigen; it is not computed again.
 template <class Preconditioner>
 SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& options,
-  const Control& control, double first, double last, VectorXd& x)
+  const Control& control, const ProgressSection& section, VectorXd& x)
 {
   SolverReport report;
   const VectorXd& b = system.right;
@@ -109,7 +108,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
     p = z + rz / before * p;
     const double done = fractionDone(report.history.back(), options.tolerance);
     // Between assembly and recovery, whose shares of the bar are fixed.
-    const bool goOn = progress.report(first + (last - first) * done,
+    const bool goOn = progress.report(section.first + (section.last - section.first) * done,
       [&] { return "Solving, step " + std::to_string(report.iterations); });
     report.status = goOn ? report.status : SolverStatus::Cancelled;
   }
@@ -163,7 +162,7 @@ const char* toString(SolverStatus status)
 }
 
 SolverReport solve(const LinearSystem& system, const SolverOptions& options, const Control& control,
-  double first, double last, VectorXd& x)
+  const ProgressSection& section, VectorXd& x)
 {
   x = VectorXd::Zero(system.right.size());
   if (system.right.size() == 0 || system.right.squaredNorm() == 0.0)
@@ -177,12 +176,12 @@ SolverReport solve(const LinearSystem& system, const SolverOptions& options, con
   switch (options.solver)
   {
     case Solver::IncompleteCholesky:
-      return conjugateGradient<CholeskyPreconditioner>(system, options, control, first, last, x);
+      return conjugateGradient<CholeskyPreconditioner>(system, options, control, section, x);
     case Solver::Direct:
       return factorize(system, options, x);
     case Solver::ConjugateGradient:
       break;
   }
-  return conjugateGradient<DiagonalPreconditioner>(system, options, control, first, last, x);
+  return conjugateGradient<DiagonalPreconditioner>(system, options, control, section, x);
 }
 }

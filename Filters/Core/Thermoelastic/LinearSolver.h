@@ -58,10 +58,16 @@ struct SolverReport
   std::vector<double> history;
 };
 
+/// The section of the caller's progress that a solution takes.
+struct ProgressSection
+{
+  double first = 0.0, last = 1.0;
+};
+
 /// Solves from x = 0. For ConjugateGradient the matrix may be semidefinite if the right-hand side
-/// is in its range. `control.progress` gets fractions of [first, last], and may cancel.
+/// is in its range. `control.progress` gets fractions of the section, and may cancel.
 SolverReport solve(const LinearSystem& system, const SolverOptions& options, const Control& control,
-  double first, double last, Eigen::VectorXd& x);
+  const ProgressSection& section, Eigen::VectorXd& x);
 }
 
 #endif

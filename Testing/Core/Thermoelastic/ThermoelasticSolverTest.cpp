@@ -106,7 +106,7 @@ TYPED_TEST(ThermoelasticSolver, SameStepsAsEigen)
     SolverOptions options;
     options.tolerance = tolerance;
     Eigen::VectorXd x;
-    const SolverReport report = fem::solve(system, options, {}, 0.0, 1.0, x);
+    const SolverReport report = fem::solve(system, options, {}, {}, x);
     Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> eigen(system.matrix);
     eigen.setTolerance(tolerance);
     const Eigen::VectorXd y = eigen.solve(system.right);
