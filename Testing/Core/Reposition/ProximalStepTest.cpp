@@ -143,11 +143,16 @@ TEST(ProximalStep, TwoFunctionsMeetOnTheirRidge)
 {
   // With 0 at the start and the gradients (a, 1) and (-1, 1): the first coordinate stays where both
   // are equal, d_0 = 0, and along the ridge both rise by one a length, d_1 = tau.
+  ProximalStep<2> solver;
   for (double a : { 0.5, 1.0, 3.0 })
   {
-    ProximalStep<2> solver;
+    std::vector<ProximalStep<2>::Function> f;
+    for (double slope : { a, -1.0 })
+    {
+      f.push_back({ 0.0, { slope, 1.0 } });
+    }
     Vec<2> d;
-    EXPECT_NEAR(solver.solve({ { 0.0, { a, 1.0 } }, { 0.0, { -1.0, 1.0 } } }, 0.2, d), 0.2, 1e-8);
+    EXPECT_NEAR(solver.solve(f, 0.2, d), 0.2, 1e-8);
     EXPECT_LT((d - Vec<2>(0.0, 0.2)).norm(), 1e-8);
   }
 }
