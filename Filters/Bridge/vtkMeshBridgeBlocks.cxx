@@ -36,7 +36,8 @@ void MakeOutputLikeInput(vtkInformationVector** inputVector, vtkInformationVecto
   }
 }
 
-std::vector<Block> ListBlocks(vtkAlgorithm* filter, vtkDataObject* input, vtkDataObject* output)
+std::vector<Block> ListBlocks(
+  vtkAlgorithm* filter, vtkDataObject* input, vtkDataObject* output, OtherLeaves others)
 {
   std::vector<Block> blocks;
   if (auto grid = vtkUnstructuredGrid::SafeDownCast(input))
@@ -57,15 +58,23 @@ std::vector<Block> ListBlocks(vtkAlgorithm* filter, vtkDataObject* input, vtkDat
   {
     vtkDataObject* object = leaf->GetCurrentDataObject();
     auto grid = vtkUnstructuredGrid::SafeDownCast(object);
-    if (!grid)
+    if (!grid && others == OtherLeaves::Skip)
     {
       vtkWarningWithObjectMacro(filter, << "A block of type " << object->GetClassName()
                                         << " was skipped: it is not a vtkUnstructuredGrid.");
       continue;
     }
-    auto fresh = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    auto fresh = vtkSmartPointer<vtkDataObject>::Take(object->NewInstance());
     copy->SetDataSet(leaf, fresh);
-    blocks.push_back({ grid, fresh, static_cast<int>(leaf->GetCurrentFlatIndex()) });
+    if (grid)
+    {
+      blocks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(fresh),
+        static_cast<int>(leaf->GetCurrentFlatIndex()) });
+    }
+    else
+    {
+      fresh->ShallowCopy(object);
+    }
   }
   return blocks;
 }

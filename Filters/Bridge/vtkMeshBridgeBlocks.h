@@ -40,10 +40,20 @@ void AcceptBlocks(vtkInformation* info);
 void MakeOutputLikeInput(vtkInformationVector** input, vtkInformationVector* output);
 
 /**
- * The grids of `input` with new outputs, which are already leaves of `output`. Leaves of other
- * kinds are left out, with a warning of the filter each.
+ * What becomes of leaves that are no grids: they are left out, with a warning of the filter each,
+ * or passed on unchanged.
  */
-std::vector<Block> ListBlocks(vtkAlgorithm* filter, vtkDataObject* input, vtkDataObject* output);
+enum class OtherLeaves
+{
+  Skip,
+  Pass
+};
+
+/**
+ * The grids of `input` with new outputs, which are already leaves of `output`.
+ */
+std::vector<Block> ListBlocks(vtkAlgorithm* filter, vtkDataObject* input, vtkDataObject* output,
+  OtherLeaves others = OtherLeaves::Skip);
 
 /**
  * The leaves of a tree that are grids or nothing yet, by flat index.

@@ -12,10 +12,8 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkCellType.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
-#include "vtkFieldData.h"
 #include "vtkGenericCell.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
@@ -45,34 +43,13 @@ struct Task
 /**
  * The grids in `input`, with an output for each. Other leaves of a tree are passed on unchanged.
  */
-std::vector<Task> ListTasks(vtkDataObject* input, vtkDataObject* output)
+std::vector<Task> ListTasks(vtkAlgorithm* filter, vtkDataObject* input, vtkDataObject* output)
 {
   std::vector<Task> tasks;
-  if (auto grid = vtkUnstructuredGrid::SafeDownCast(input))
+  for (const vtkMeshBridge::Block& block :
+    vtkMeshBridge::ListBlocks(filter, input, output, vtkMeshBridge::OtherLeaves::Pass))
   {
-    tasks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(output), 0, {} });
-    return tasks;
-  }
-  auto tree = vtkDataObjectTree::SafeDownCast(input);
-  auto copy = vtkDataObjectTree::SafeDownCast(output);
-  // The same tree with leaves of its own: those of the input must not change.
-  copy->CopyStructure(tree);
-  copy->GetFieldData()->DeepCopy(tree->GetFieldData());
-  auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(tree->NewIterator());
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    vtkDataObject* object = leaf->GetCurrentDataObject();
-    auto fresh = vtkSmartPointer<vtkDataObject>::Take(object->NewInstance());
-    copy->SetDataSet(leaf, fresh);
-    if (auto grid = vtkUnstructuredGrid::SafeDownCast(object))
-    {
-      tasks.push_back({ grid, vtkUnstructuredGrid::SafeDownCast(fresh),
-        static_cast<int>(leaf->GetCurrentFlatIndex()), {} });
-    }
-    else
-    {
-      fresh->ShallowCopy(object);
-    }
+    tasks.push_back({ block.Input, block.Output, block.Index, {} }); // the tree holds the output
   }
   return tasks;
 }
@@ -297,7 +274,7 @@ std::string OptimizeAll(const Ports& ports, Request request, Outcome& outcome)
   {
     return unfit;
   }
-  std::vector<Task> tasks = ListTasks(ports.Input, ports.Output);
+  std::vector<Task> tasks = ListTasks(request.Filter, ports.Input, ports.Output);
   const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
   if (HasRanks(ports))
   {
