@@ -16,4 +16,4 @@ if readelf -d "$plugin" "$build"/lib/libvtk*.so | grep -i 'NEEDED.*Qt'; then
   echo "FAILED: Qt is linked"
   exit 1
 fi
-ctest --test-dir "$build" --output-on-failure -R 'TestProxies|TestRanksExample|TestOptimizeRanks|TestClientServerRanks'
+ctest --test-dir "$build" --output-on-failure -R 'TestProxies|RanksExample|RanksInputs|OptimizeRanks|ClientServerRanks'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What each option means where borders take part: the rows of the table in Filters/RANKS.md that TestOptimizeRanks has not."""
+"""What each option means where borders take part: rows of the table in Filters/RANKS.md that no other test has."""
 import os
 import sys
 
