@@ -20,7 +20,7 @@ public:
   {
   }
 
-  /// Reports progress. `fraction`, in [0, 1], is that of the current part; `text` is a callable
+  /// Reports progress. `fraction`, in [0, 1], is that of the current section; `text` is a callable
   /// that makes a sentence about it. Returns false once the caller has asked to stop or the time is
   /// over.
   template <class Text>
@@ -39,12 +39,12 @@ public:
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->begin_).count();
   }
 
-  /// While it exists, fractions refer to a part of the work: from `first` to `last` of the
-  /// enclosing part.
-  class Part
+  /// While it exists, fractions refer to a section of the work: from `first` to `last` of the
+  /// enclosing section.
+  class Section
   {
   public:
-    Part(Clock& clock, double first, double last)
+    Section(Clock& clock, double first, double last)
       : clock_(clock)
       , first_(clock.first_)
       , last_(clock.last_)
@@ -53,9 +53,9 @@ public:
       clock.last_ = this->first_ + last * (this->last_ - this->first_);
       clock.progress_.expectNews();
     }
-    Part(const Part&) = delete;
-    Part& operator=(const Part&) = delete;
-    ~Part()
+    Section(const Section&) = delete;
+    Section& operator=(const Section&) = delete;
+    ~Section()
     {
       this->clock_.first_ = this->first_;
       this->clock_.last_ = this->last_;
@@ -69,7 +69,7 @@ public:
 private:
   const Control* control_;
   Progress progress_;
-  double first_ = 0.0, last_ = 1.0; // the current part
+  double first_ = 0.0, last_ = 1.0; // the current section
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 }

@@ -27,19 +27,20 @@
 
 namespace meshopt
 {
+/// How far a Cavity may grow.
+struct CavityLimits
+{
+  int cells = 80;    ///< greatest number of cells taken in
+  int swallowed = 1; ///< most free points that may vanish; others never may
+  /// Growth ends after a detour: that many cells, and as many as the best prefix has, without a
+  /// better one.
+  int detour = 12;
+};
+
 template <int D, class Shape>
 class Cavity
 {
 public:
-  struct Limits
-  {
-    int cells = 80;    ///< greatest number of cells taken in
-    int swallowed = 1; ///< most free points that may vanish; others never may
-    /// Growth ends after a detour: that many cells, and as many as the best prefix has, without a
-    /// better one.
-    int detour = 12;
-  };
-
   /// The facet or edge of the surface in which a new node lies (D = 3).
   struct Opening
   {
@@ -65,7 +66,7 @@ public:
   /// Grows the cavity of cell `seed` for a node. Returns the worst quality of the new elements;
   /// -infinity if there is no cavity.
   double grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index seed,
-    const Node& node, const Limits& limits);
+    const Node& node, const CavityLimits& limits);
 
   /// The cells of the best prefix.
   const std::vector<Index>& cells() const { return this->cells_; }
@@ -306,7 +307,7 @@ bool Cavity<D, Shape>::take(
 
 template <int D, class Shape>
 double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model,
-  Index seed, const Node& node, const Limits& limits)
+  Index seed, const Node& node, const CavityLimits& limits)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
   this->opening_ = node.opening;

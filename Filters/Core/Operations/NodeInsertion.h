@@ -40,8 +40,8 @@ public:
   }
 
   /// The same from given seeds, with given limits of the cavity.
-  bool improve(Judge<D, Shape>& judge, Index t, const std::vector<Seed>& seeds,
-    const typename Cavity<D, Shape>::Limits& limits)
+  bool improve(
+    Judge<D, Shape>& judge, Index t, const std::vector<Seed>& seeds, const CavityLimits& limits)
   {
     this->seeds_ = seeds;
     this->limits_ = limits;
@@ -83,9 +83,9 @@ public:
 
 private:
   /// If no nodes may be removed, none may vanish inside the cavity either.
-  static typename Cavity<D, Shape>::Limits usualLimits(const Judge<D, Shape>& judge)
+  static CavityLimits usualLimits(const Judge<D, Shape>& judge)
   {
-    typename Cavity<D, Shape>::Limits limits;
+    CavityLimits limits;
     limits.swallowed = judge.mayRemoveNodes() ? limits.swallowed : 0;
     return limits;
   }
@@ -109,7 +109,7 @@ private:
 
   Proposal<D> proposal_;
   Cavity<D, Shape> cavity_;
-  typename Cavity<D, Shape>::Limits limits_;
+  CavityLimits limits_;
   StarProblem<D, Shape> problem_;
   std::vector<Seed> seeds_;
   std::vector<std::pair<double, std::size_t>> ranking_; ///< of the seeds: (-promise, number)
@@ -321,7 +321,8 @@ bool NodeInsertion<D, Shape>::fill(Judge<D, Shape>& judge, Index p, const Seed& 
   return judge.accept(this->proposal_);
 }
 
-/// Makes the insertion at one seed, if it gains.
+/// Makes the insertion at one seed, if it gains. fill() asks the judge for no gain, since
+/// look-ahead needs none: it is asked for here, before the change.
 template <int D, class Shape>
 bool NodeInsertion<D, Shape>::tryGain(Judge<D, Shape>& judge, Index t, Index p, Seed& seed)
 {

@@ -27,7 +27,7 @@ public:
       if (!judge.hasInverted())
       {
         // First with the given points, which is cheaper and keeps their number.
-        Limits limits;
+        PolyhedronLimits limits;
         done = this->refill(judge, t, limits);
         limits.newPoints = NewPoints;
         for (double height : Heights)
@@ -43,12 +43,11 @@ public:
   }
 
 private:
-  using Limits = typename SmallPolyhedron<Shape>::Limits;
   static constexpr int NewPoints = 4;               ///< most places offered for new nodes
-  static constexpr double Heights[] = { 0.5, 1.0 }; ///< Limits::height, in this order
+  static constexpr double Heights[] = { 0.5, 1.0 }; ///< PolyhedronLimits::height, in this order
 
   /// Searches for a better filling around cell t. New points go again if the judge refuses it.
-  bool refill(Judge<D, Shape>& judge, Index t, Limits limits)
+  bool refill(Judge<D, Shape>& judge, Index t, PolyhedronLimits limits)
   {
     limits.mayDropPoints = judge.mayRemoveNodes();
     const SimplexMesh<3>& mesh = judge.mesh();
@@ -75,20 +74,19 @@ private:
     std::vector<Index> ids;
     for (const Vec<3>& x : this->polyhedron_.newPoints())
     {
-      ids.push_back(judge.editor().addPoint(x));
+      ids.push_back(judge.editor().addPoint(x, near));
       if (ids.back() == None)
       {
         return false;
       }
-      // To where it is: the attached metric takes its values there.
-      judge.editor().movePoint(ids.back(), x, near);
     }
     this->polyhedron_.nameNewPoints(ids);
     return true;
   }
 
   /// Offers the refilling to the judge. A cell that has all that its kept facet allows does not
-  /// count among the worst (see Limits): `old` is the quality of the cell that is to be improved.
+  /// count among the worst (see SmallPolyhedron::propose()): `old` is the quality of the cell that
+  /// is to be improved.
   bool offer(Judge<D, Shape>& judge, double q, double old)
   {
     this->proposal_.clear();

@@ -25,23 +25,24 @@
 
 namespace meshopt
 {
+/// How far a SmallPolyhedron may grow, and how long its fillings are looked for.
+struct PolyhedronLimits
+{
+  int points = 20;   ///< most nodes of the polyhedron, in [5, 32]
+  int cells = 60;    ///< most cells removed
+  int newPoints = 0; ///< most places offered for new nodes; 0 in a varying metric
+  /// Where these places are: between a facet that has no good tetrahedron (0) and its best apex
+  /// (1), and also half way to this height. In ]0, 1]. Another value may help where one did not.
+  double height = 0.5;
+  bool mayDropPoints = true; ///< free nodes inside may vanish
+  int searches = 30;         ///< most searches of one propose(); the polyhedron grows in between
+  long steps = 2000;         ///< most steps of one search; typically some tens are needed
+};
+
 template <class Shape>
 class SmallPolyhedron
 {
 public:
-  struct Limits
-  {
-    int points = 20;   ///< most nodes of the polyhedron, in [5, 32]
-    int cells = 60;    ///< most cells removed
-    int newPoints = 0; ///< most places offered for new nodes; 0 in a varying metric
-    /// Where these places are: between a facet that has no good tetrahedron (0) and its best apex
-    /// (1), and also half way to this height. In ]0, 1]. Another value may help where one did not.
-    double height = 0.5;
-    bool mayDropPoints = true; ///< free nodes inside may vanish
-    int searches = 30;         ///< most searches of one propose(); the polyhedron grows in between
-    long steps = 2000;         ///< most steps of one search; typically some tens are needed
-  };
-
   /// cells() contains FirstNew - k in place of an id for newPoints()[k].
   static constexpr Index FirstNew = -2;
 
@@ -61,10 +62,10 @@ public:
   /// step.
   template <class Enough>
   double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t,
-    double above, const Limits& limits, Enough&& enough);
+    double above, const PolyhedronLimits& limits, Enough&& enough);
   /// The same without `enough`.
   double propose(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, Index t,
-    double above, const Limits& limits = {});
+    double above, const PolyhedronLimits& limits = {});
 
   /// Of the last successful propose(): the removed cells, their worst quality, and the new cells.
   const std::vector<Index>& cavity() const { return this->cavity_; }
@@ -97,8 +98,8 @@ private:
     bool offered;  // new points were offered for it
   };
 
-  void start(
-    const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, const Limits& limits);
+  void start(const MeshEditor<3>& editor, const QualityModel<3, Shape>& model,
+    const PolyhedronLimits& limits);
   int addPoint(const Vec<3>& x, Index id, bool stay);
   int numberOf(Index p);
   double quality(const PolyhedronSearch::Tetrahedron& t) const;
@@ -119,7 +120,7 @@ private:
 
   const MeshEditor<3>* editor_ = nullptr;
   const QualityModel<3, Shape>* model_ = nullptr;
-  Limits limits_;
+  PolyhedronLimits limits_;
   PolyhedronSearch search_;
   int searches_ = 0;
   long steps_ = 0;

@@ -7,7 +7,7 @@ namespace meshopt
 /// All lists keep their memory: propose() is called for thousands of cells.
 template <class Shape>
 void SmallPolyhedron<Shape>::start(
-  const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, const Limits& limits)
+  const MeshEditor<3>& editor, const QualityModel<3, Shape>& model, const PolyhedronLimits& limits)
 {
   this->editor_ = &editor;
   this->model_ = &model;
@@ -392,7 +392,8 @@ void SmallPolyhedron<Shape>::nameNewPoints(const std::vector<Index>& ids)
 template <class Shape>
 template <class Enough>
 double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
-  const QualityModel<3, Shape>& model, Index t, double above, const Limits& limits, Enough&& enough)
+  const QualityModel<3, Shape>& model, Index t, double above, const PolyhedronLimits& limits,
+  Enough&& enough)
 {
   this->start(editor, model, limits);
   Index next = t;
@@ -429,7 +430,7 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
 
 template <class Shape>
 double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
-  const QualityModel<3, Shape>& model, Index t, double above, const Limits& limits)
+  const QualityModel<3, Shape>& model, Index t, double above, const PolyhedronLimits& limits)
 {
   return this->propose(editor, model, t, above, limits, [](Index, int) { return -1.0; });
 }

@@ -27,7 +27,7 @@ public:
     }
     this->findCells(judge.editor(), t);
     this->findSeeds(judge.mesh());
-    typename Cavity<D, Shape>::Limits limits;
+    CavityLimits limits;
     limits.cells = limits.detour = MostCells;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
     return !this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits);

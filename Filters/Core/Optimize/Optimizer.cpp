@@ -107,7 +107,7 @@ void Optimizer<D>::optimize()
     return;
   }
   this->limitGrowth();
-  const Clock::Part part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
+  const Clock::Section part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
   if (this->wantsSizes())
   {
     this->optimizeSizesToo();
@@ -209,13 +209,13 @@ void Optimizer<D>::optimizeSliding()
       worst < run.options.targetQuality;
   };
   {
-    const Clock::Part part(run.clock, 0.0, 0.5);
+    const Clock::Section part(run.clock, 0.0, 0.5);
     this->optimizeWith(effort, PartOfGrowth);
   }
   double left = 0.5;
   for (int round = 0; round < MostDivisions && goesOn(); ++round, left *= 0.5)
   {
-    const Clock::Part part(run.clock, 1.0 - left, 1.0 - 0.5 * left);
+    const Clock::Section part(run.clock, 1.0 - left, 1.0 - 0.5 * left);
     // A gentler division may help where this one made too much worse.
     if (!this->divideAndOptimize(effort, PartsBelow) &&
       !(goesOn() && this->divideAndOptimize(effort, 0.0)))
@@ -226,7 +226,7 @@ void Optimizer<D>::optimizeSliding()
   if (!run.clock.hasStopped() &&
     (run.options.effort == Effort::Best || run.report.stopReason == StopReason::GrowthLimit))
   {
-    const Clock::Part part(run.clock, 1.0 - left, 1.0);
+    const Clock::Section part(run.clock, 1.0 - left, 1.0);
     this->optimizeWith(run.options.effort, 1.0);
   }
 }
@@ -239,7 +239,7 @@ void Optimizer<D>::optimizeFromRidges()
 {
   const Run<D>& all = this->run_;
   {
-    const Clock::Part part(all.clock, 0.0, FromRidges);
+    const Clock::Section part(all.clock, 0.0, FromRidges);
     this->optimizeWith(Effort::Quick, 0.5);
   }
   const bool isDone = all.report.stopReason == StopReason::TargetReached &&
@@ -253,7 +253,7 @@ void Optimizer<D>::optimizeFromRidges()
   {
     this->run_.record("ridges given up");
   }
-  const Clock::Part part(all.clock, FromRidges, 1.0);
+  const Clock::Section part(all.clock, FromRidges, 1.0);
   this->optimizeSliding();
 }
 
@@ -267,7 +267,7 @@ bool Optimizer<D>::untangle()
   std::vector<PassRecord>& history = run.report.history;
   const std::size_t rows = history.size();
   {
-    const Clock::Part part(run.clock, 0.0, Untangled);
+    const Clock::Section part(run.clock, 0.0, Untangled);
     const double target = std::min(run.options.targetQuality, UntangledQuality);
     optimizePaper1996<D>(run, target, false);
   }
@@ -332,7 +332,7 @@ bool Optimizer<D>::repairForSizes()
   summarize(this->run_.mesh(), this->run_.options.targetQuality, &inverted);
   if (inverted > 0)
   {
-    const Clock::Part part(this->run_.clock, 0.0, Untangled);
+    const Clock::Section part(this->run_.clock, 0.0, Untangled);
     optimizeWorstFirst<D>(this->run_);
     this->limitGrowth();
     summarize(this->run_.mesh(), this->run_.options.targetQuality, &inverted);
@@ -351,7 +351,7 @@ void Optimizer<D>::followAndOptimize(NodalMetric<D>& followed, double growth)
   Run<D> run{ all.editor, followed, all.surface, all.options, all.control, all.clock, all.report };
   const auto sized = [&]
   {
-    const Clock::Part part(run.clock, Untangled, Sized);
+    const Clock::Section part(run.clock, Untangled, Sized);
     return followSizes<D>(run, run.report.sizes.predictedCells);
   };
   const bool more = sized();
@@ -366,7 +366,7 @@ void Optimizer<D>::followAndOptimize(NodalMetric<D>& followed, double growth)
   const double part = std::min(growth, std::max(GrowthAfterSizes, CellsOfTwoNodes<D> / cells));
   const long after = run.mesh().countCells();
   run.growth = std::min(std::lround(part * static_cast<double>(after)), roomToGrow(after));
-  const Clock::Part improving(run.clock, Sized, 1.0);
+  const Clock::Section improving(run.clock, Sized, 1.0);
   optimizeWorstFirst<D>(run);
 }
 
@@ -384,7 +384,7 @@ void Optimizer<D>::giveSizesUp(
   if (!run.clock.hasStopped())
   {
     // Progress was at its end before: it must not go back.
-    const Clock::Part part(run.clock, 1.0, 1.0);
+    const Clock::Section part(run.clock, 1.0, 1.0);
     optimizeWorstFirst<D>(this->run_);
   }
 }

@@ -55,7 +55,7 @@ std::string BoundaryCurves::buildAll(MeshEditor<2>& editor, const LineNetwork* g
     boundary.corners[p] |= corners[p];
   }
   WholeBoundary whole;
-  std::vector<WholeBoundary::Place> places;
+  std::vector<WholeBoundary::PlaceOnPiece> places;
   std::string error = whole.make(boundary, geometry, options, diagonal(editor.mesh()), places);
   this->curves_ = std::move(whole.curves);
   if (error.empty())
@@ -138,7 +138,7 @@ void BoundaryCurves::build(
   this->pieces_.join();
 }
 
-WholeBoundary::Place BoundaryCurves::inWhole(
+WholeBoundary::PlaceOnPiece BoundaryCurves::inWhole(
   const WholeBoundary& whole, const SimplexMesh<2>& mesh, Index point) const
 {
   if (mesh.freedom(point) != Freedom::Curve)

@@ -42,7 +42,7 @@ public:
   /// Puts the boundary of a part of a mesh on the curves of the whole.
   void build(MeshEditor<2>& editor, const WholeBoundary& whole, const PartOfBoundary& part);
   /// After that: where a point of this mesh is in the whole; no piece if it is fixed, or not on it.
-  WholeBoundary::Place inWhole(
+  WholeBoundary::PlaceOnPiece inWhole(
     const WholeBoundary& whole, const SimplexMesh<2>& mesh, Index point) const;
 
   std::size_t numberOfPieces() const { return this->pieces_.size(); }

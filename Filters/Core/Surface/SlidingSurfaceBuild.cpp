@@ -12,10 +12,10 @@ namespace meshopt
 {
 namespace
 {
-double areaOf(const SimplexMesh<3>& mesh, const SurfaceDivision::Part& part)
+double areaOf(const SimplexMesh<3>& mesh, const SurfaceDivision::KeptFacet& facet)
 {
-  const Vec<3>& a = mesh.point(part.nodes[0]);
-  return 0.5 * (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a).norm();
+  const Vec<3>& a = mesh.point(facet.nodes[0]);
+  return 0.5 * (mesh.point(facet.nodes[1]) - a).cross(mesh.point(facet.nodes[2]) - a).norm();
 }
 
 /// The regions whose volume would change by a quarter if their surface moved by a quarter of the
@@ -32,11 +32,11 @@ std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& d
       left[mesh.region(c)] += most * std::fabs(signedVolume(mesh.corners(c)));
     }
   }
-  for (const SurfaceDivision::Part& part : division.parts)
+  for (const SurfaceDivision::KeptFacet& facet : division.facets)
   {
-    const double area = areaOf(mesh, part);
+    const double area = areaOf(mesh, facet);
     // A facet between two regions takes from one and gives to the other: it counts for both.
-    for (Index region : { part.region, part.other })
+    for (Index region : { facet.region, facet.other })
     {
       if (region != None)
       {
@@ -135,24 +135,24 @@ void SlidingSurface::addPatches(
     patch.basis[0] = n.cross(Vec<3>(Vec<3>::Unit(axis))).normalized();
     patch.basis[1] = n.cross(patch.basis[0]);
   }
-  for (const SurfaceDivision::Part& part : division.parts)
+  for (const SurfaceDivision::KeptFacet& facet : division.facets)
   {
-    editor.setPatch(mesh.cellOf(part.handle), mesh.facetOf(part.handle), part.patch);
-    if (part.patch == None)
+    editor.setPatch(mesh.cellOf(facet.handle), mesh.facetOf(facet.handle), facet.patch);
+    if (facet.patch == None)
     {
       continue;
     }
-    Patch& patch = this->patches_[part.patch];
-    patch.region = part.region;
+    Patch& patch = this->patches_[facet.patch];
+    patch.region = facet.region;
     // With the same region on both sides, neither of them is the outer one.
-    patch.isSigned = part.region != part.other;
-    patch.label = part.label;
+    patch.isSigned = facet.region != facet.other;
+    patch.label = facet.label;
     this->reference_.add(
-      { mesh.point(part.nodes[0]), mesh.point(part.nodes[1]), mesh.point(part.nodes[2]) },
-      part.patch, patch.isSigned, part.other == None,
-      thin.count(part.region) + thin.count(part.other) > 0);
+      { mesh.point(facet.nodes[0]), mesh.point(facet.nodes[1]), mesh.point(facet.nodes[2]) },
+      facet.patch, patch.isSigned, facet.other == None,
+      thin.count(facet.region) + thin.count(facet.other) > 0);
     // For inputFacet(): the reference knows facets by the order in which they were added.
-    this->inputFacets_.push_back(sortedIds(part.nodes));
+    this->inputFacets_.push_back(sortedIds(facet.nodes));
   }
   this->reference_.finish(this->tolerance_, division.rounding);
 }
@@ -164,10 +164,10 @@ namespace
 bool meetOnlyAlong(const SurfaceDivision& division, Index a, Index b)
 {
   std::set<std::array<Index, 2>> atA, atB, along;
-  for (const SurfaceDivision::Part& part : division.parts)
+  for (const SurfaceDivision::KeptFacet& facet : division.facets)
   {
-    const std::array<Index, 2> regions{ part.region, part.other };
-    const bool hasA = hasId(part.nodes, a), hasB = hasId(part.nodes, b);
+    const std::array<Index, 2> regions{ facet.region, facet.other };
+    const bool hasA = hasId(facet.nodes, a), hasB = hasId(facet.nodes, b);
     if (hasA || hasB)
     {
       (hasA && hasB ? along : hasA ? atA : atB).insert(regions);
@@ -241,16 +241,16 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     return std::binary_search(
       division.curveEdges.begin(), division.curveEdges.end(), sortedIds(a, b));
   };
-  for (const SurfaceDivision::Part& part : division.parts)
+  for (const SurfaceDivision::KeptFacet& facet : division.facets)
   {
     // From each facet and from both its sides: not all cells at an edge need be reachable from one.
-    const Index handles[2] = { part.handle,
-      mesh.adjacent(mesh.cellOf(part.handle), mesh.facetOf(part.handle)) };
+    const Index handles[2] = { facet.handle,
+      mesh.adjacent(mesh.cellOf(facet.handle), mesh.facetOf(facet.handle)) };
     for (Index h : handles)
     {
       for (int i = 0; i < 3 && h != None; ++i)
       {
-        const Index a = part.nodes[i], b = part.nodes[(i + 1) % 3];
+        const Index a = facet.nodes[i], b = facet.nodes[(i + 1) % 3];
         if (isOnCurve(a, b))
         {
           editor.keepEdge(mesh.cellOf(h), a, b);
@@ -275,19 +275,19 @@ void SlidingSurface::addRooms(
   // Twice: the sizes of regions first, then what these leave to their curves.
   for (const bool isSummed : { false, true })
   {
-    for (const SurfaceDivision::Part& part : division.parts)
+    for (const SurfaceDivision::KeptFacet& facet : division.facets)
     {
-      for (Index region : { part.region, part.other })
+      for (Index region : { facet.region, facet.other })
       {
         if (thin.count(region) == 0)
         {
           continue;
         }
         Size& size = sizes[region];
-        size.area += isSummed ? 0.0 : areaOf(mesh, part);
+        size.area += isSummed ? 0.0 : areaOf(mesh, facet);
         for (int i = 0; i < 3; ++i)
         {
-          const Index a = part.nodes[i], b = part.nodes[(i + 1) % 3];
+          const Index a = facet.nodes[i], b = facet.nodes[(i + 1) % 3];
           const auto span = this->span(mesh, a, b);
           if (!span)
           {
@@ -314,24 +314,24 @@ void SlidingSurface::addSets(const MeshEditor<3>& editor, const SurfaceDivision&
     // Intersected below, facet by facet, starting with all.
     patch.sets = all;
   }
-  for (const SurfaceDivision::Part& part : division.parts)
+  for (const SurfaceDivision::KeptFacet& facet : division.facets)
   {
-    for (int i = 0; i < 3 && part.patch != None; ++i)
+    for (int i = 0; i < 3 && facet.patch != None; ++i)
     {
-      this->patches_[part.patch].sets &= sets[part.nodes[i]];
+      this->patches_[facet.patch].sets &= sets[facet.nodes[i]];
     }
   }
   // A curve is in the sets of the patches beside it.
   this->setsOfCurve_.assign(this->curves_.size(), 0);
-  for (const SurfaceDivision::Part& part : division.parts)
+  for (const SurfaceDivision::KeptFacet& facet : division.facets)
   {
-    for (int i = 0; i < 3 && part.patch != None; ++i)
+    for (int i = 0; i < 3 && facet.patch != None; ++i)
     {
       // Edges inside of a patch have none.
-      const auto span = this->span(mesh, part.nodes[i], part.nodes[(i + 1) % 3]);
+      const auto span = this->span(mesh, facet.nodes[i], facet.nodes[(i + 1) % 3]);
       if (span)
       {
-        this->setsOfCurve_[span->part] |= this->patches_[part.patch].sets;
+        this->setsOfCurve_[span->part] |= this->patches_[facet.patch].sets;
       }
     }
   }

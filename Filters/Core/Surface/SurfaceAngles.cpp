@@ -44,23 +44,23 @@ public:
   void run()
   {
     this->collectChains();
-    this->collectParts();
-    for (const SurfaceDivision::Part& part : this->division_.parts)
+    this->collectFacets();
+    for (const SurfaceDivision::KeptFacet& facet : this->division_.facets)
     {
       // A facet between regions has an angle on either side: both bodies have to fill theirs.
       for (Index h :
-        { part.handle, this->mesh_.adjacent(cellOf(part.handle), facetOf(part.handle)) })
+        { facet.handle, this->mesh_.adjacent(cellOf(facet.handle), facetOf(facet.handle)) })
       {
         for (int k = 0; k < 3 && h != None; ++k)
         {
           this->addDihedral(h, k);
         }
       }
-      for (int k = 0; k < 3 && part.patch != None; ++k)
+      for (int k = 0; k < 3 && facet.patch != None; ++k)
       {
         // Either edge at the node may be the one on a curve, where the angle begins.
-        this->addFacial(part, k, (k + 1) % 3);
-        this->addFacial(part, k, (k + 2) % 3);
+        this->addFacial(facet, k, (k + 1) % 3);
+        this->addFacial(facet, k, (k + 2) % 3);
       }
     }
     for (std::vector<double>* list : { &this->found_.dihedral, &this->found_.facial })
@@ -96,22 +96,22 @@ private:
     }
   }
 
-  void collectParts()
+  void collectFacets()
   {
     this->widths_.assign(this->division_.numberOfPatches, 0.0);
-    const std::vector<SurfaceDivision::Part>& parts = this->division_.parts;
-    for (std::size_t k = 0; k < parts.size(); ++k)
+    const std::vector<SurfaceDivision::KeptFacet>& facets = this->division_.facets;
+    for (std::size_t k = 0; k < facets.size(); ++k)
     {
-      const Facet<3>& f = parts[k].nodes;
-      this->partOf_[sortedIds(f)] = static_cast<Index>(k);
-      if (parts[k].patch != None)
+      const Facet<3>& f = facets[k].nodes;
+      this->numberOf_[sortedIds(f)] = static_cast<Index>(k);
+      if (facets[k].patch != None)
       {
-        double& width = this->widths_[parts[k].patch];
+        double& width = this->widths_[facets[k].patch];
         width = std::max(width, this->width(f));
       }
       for (int i = 0; i < 3; ++i)
       {
-        // Edges on curves are where a walk within a patch ends. The others have two parts: with
+        // Edges on curves are where a walk within a patch ends. The others have two facets: with
         // more or fewer an edge is a curve.
         const Edge key = sortedIds(f[i], f[(i + 1) % 3]);
         if (!this->along_.count(key))
@@ -137,12 +137,12 @@ private:
   /// False if the plane is not known well enough.
   bool across(const Facet<3>& f, const Edge& edge, const Vec<3>& t, Vec<3>& u) const
   {
-    const auto found = this->partOf_.find(sortedIds(f));
-    if (found == this->partOf_.end())
+    const auto found = this->numberOf_.find(sortedIds(f));
+    if (found == this->numberOf_.end())
     {
       return false;
     }
-    const Index patch = this->division_.parts[found->second].patch;
+    const Index patch = this->division_.facets[found->second].patch;
     const double width = patch == None ? this->width(f) : this->widths_[patch];
     const Vec<3> normal = patch == None
       ? Vec<3>((this->point(f[1]) - this->point(f[0])).cross(this->point(f[2]) - this->point(f[0])))
@@ -220,24 +220,24 @@ private:
     return false;
   }
 
-  /// The angle of a patch at node k of the part, from its edge to node l, if that is on a curve, to
-  /// the next curve.
-  void addFacial(const SurfaceDivision::Part& part, int k, int l)
+  /// The angle of a patch at node k of the facet, from its edge to node l, if that is on a curve,
+  /// to the next curve.
+  void addFacial(const SurfaceDivision::KeptFacet& facet, int k, int l)
   {
-    const Index p = part.nodes[k], first = part.nodes[l];
+    const Index p = facet.nodes[k], first = facet.nodes[l];
     Vec<3> u, v;
     // Inside of a straight curve the angle is 180 degrees, which asks nothing of a mesh.
     if (this->division_.freedom[p] == Freedom::Curve || !this->alongFrom(p, first, u) ||
-      !this->isLongEnough(this->widths_[part.patch]))
+      !this->isLongEnough(this->widths_[facet.patch]))
     {
       return;
     }
-    Index number = this->partOf_.at(sortedIds(part.nodes));
+    Index number = this->numberOf_.at(sortedIds(facet.nodes));
     Index from = first;
     double sum = 0.0;
     for (int steps = 0; steps < MostCells; ++steps)
     {
-      const Facet<3>& f = this->division_.parts[number].nodes;
+      const Facet<3>& f = this->division_.facets[number].nodes;
       const Index to = *std::find_if(
         f.begin(), f.end(), [&](Index q) { return q != p && q != from; });
       const Vec<3> a = this->point(from) - this->point(p), b = this->point(to) - this->point(p);
@@ -291,10 +291,10 @@ private:
   const SimplexMesh<3>& mesh_;
   const SurfaceDivision& division_;
   SurfaceAngles& found_;
-  std::unordered_map<Edge, Vec<3>, Hash<2>> along_;     // of curve edges, from the lower id
-  std::unordered_map<Facet<3>, Index, Hash<3>> partOf_; // by sorted ids
-  std::unordered_map<Edge, Edge, Hash<2>> sides_;       // the parts at the other edges
-  std::vector<double> widths_;                          // of patches
+  std::unordered_map<Edge, Vec<3>, Hash<2>> along_;       // of curve edges, from the lower id
+  std::unordered_map<Facet<3>, Index, Hash<3>> numberOf_; // by sorted ids
+  std::unordered_map<Edge, Edge, Hash<2>> sides_;         // the facets at the other edges
+  std::vector<double> widths_;                            // of patches
 };
 }
 

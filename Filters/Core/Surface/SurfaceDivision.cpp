@@ -53,7 +53,7 @@ SurfaceDivision::SurfaceDivision(const SimplexMesh<3>& mesh, const SurfaceOption
   // The order matters: each step reads what those before it have found.
   this->tolerance = options.tolerance;
   this->measure();
-  this->collectParts(options);
+  this->collectFacets(options);
   this->lockTwins();
   this->collectEdges();
   this->findCurves(options);
@@ -89,7 +89,7 @@ void SurfaceDivision::measure()
 }
 
 /// Each kept facet once: from the side with the lower region, or with the lower handle.
-void SurfaceDivision::collectParts(const SurfaceOptions& options)
+void SurfaceDivision::collectFacets(const SurfaceOptions& options)
 {
   for (Index c = 0; c < this->mesh_.numberOfCellSlots(); ++c)
   {
@@ -99,34 +99,34 @@ void SurfaceDivision::collectParts(const SurfaceOptions& options)
       {
         continue;
       }
-      Part part;
-      part.handle = this->mesh_.handle(c, i);
-      part.region = this->mesh_.region(c);
+      KeptFacet facet;
+      facet.handle = this->mesh_.handle(c, i);
+      facet.region = this->mesh_.region(c);
       const Index h = this->mesh_.adjacent(c, i);
       if (h != None)
       {
-        part.other = this->mesh_.region(this->mesh_.cellOf(h));
+        facet.other = this->mesh_.region(this->mesh_.cellOf(h));
         // Once for both sides.
-        if (part.other < part.region || (part.other == part.region && h < part.handle))
+        if (facet.other < facet.region || (facet.other == facet.region && h < facet.handle))
         {
           continue;
         }
       }
-      part.nodes = this->mesh_.facet(c, i);
-      std::swap(part.nodes[1], part.nodes[2]); // now as seen from outside
-      const Facet<3> key = sortedIds(part.nodes);
+      facet.nodes = this->mesh_.facet(c, i);
+      std::swap(facet.nodes[1], facet.nodes[2]); // now as seen from outside
+      const Facet<3> key = sortedIds(facet.nodes);
       // The list is sorted by the caller: see SurfaceOptions::labels.
       const auto label = std::lower_bound(options.labels.begin(), options.labels.end(), key,
         [](const auto& entry, const Facet<3>& f) { return entry.first < f; });
-      part.label = label != options.labels.end() && label->first == key ? label->second : None;
+      facet.label = label != options.labels.end() && label->first == key ? label->second : None;
       // A facet whose nodes may not move cannot move either.
       const bool isFixed = std::all_of(key.begin(), key.end(),
         [&](Index p)
         { return (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) != 0; });
       const bool isListed = contains(options.locked, key);
-      part.isLocked = isFixed || isListed;
+      facet.isLocked = isFixed || isListed;
       this->numberOfTwins += isListed;
-      this->parts.push_back(part);
+      this->facets.push_back(facet);
     }
   }
 }
@@ -137,12 +137,12 @@ void SurfaceDivision::lockTwins()
 {
   // By coordinates, bit for bit: the lips of a crack have different points.
   std::vector<std::pair<std::array<double, 9>, Index>> places;
-  for (std::size_t k = 0; k < this->parts.size(); ++k)
+  for (std::size_t k = 0; k < this->facets.size(); ++k)
   {
     std::array<std::array<double, 3>, 3> x;
     for (int i = 0; i < 3; ++i)
     {
-      const Vec<3>& p = this->mesh_.point(this->parts[k].nodes[i]);
+      const Vec<3>& p = this->mesh_.point(this->facets[k].nodes[i]);
       x[i] = { p[0], p[1], p[2] };
     }
     // Both lips have the same corners, but in another order.
@@ -161,73 +161,73 @@ void SurfaceDivision::lockTwins()
   {
     if (isSame(k, k + 1) || (k > 0 && isSame(k, k - 1)))
     {
-      Part& part = this->parts[places[k].second];
-      this->numberOfTwins += !part.isLocked; // those that the caller lists are counted
-      part.isLocked = true;
+      KeptFacet& facet = this->facets[places[k].second];
+      this->numberOfTwins += !facet.isLocked; // those that the caller lists are counted
+      facet.isLocked = true;
     }
   }
 }
 
-/// All edges of the parts, each once, with the parts at it.
+/// All edges of the facets, each once, with the facets at it.
 void SurfaceDivision::collectEdges()
 {
   struct Incidence
   {
     std::array<Index, 2> nodes;
-    Index part;
+    Index facet;
     int opposite;
   };
   std::vector<Incidence> all;
-  all.reserve(3 * this->parts.size());
-  for (std::size_t k = 0; k < this->parts.size(); ++k)
+  all.reserve(3 * this->facets.size());
+  for (std::size_t k = 0; k < this->facets.size(); ++k)
   {
-    const Facet<3>& f = this->parts[k].nodes;
+    const Facet<3>& f = this->facets[k].nodes;
     // Edge i is opposite to node i, as facets are in a cell.
     for (int i = 0; i < 3; ++i)
     {
       all.push_back({ sortedIds(f[(i + 1) % 3], f[(i + 2) % 3]), static_cast<Index>(k), i });
     }
   }
-  // Incidences of one edge stand together, in the order of their parts.
+  // Incidences of one edge stand together, in the order of their facets.
   std::sort(all.begin(), all.end(),
     [](const Incidence& a, const Incidence& b)
-    { return a.nodes != b.nodes ? a.nodes < b.nodes : a.part < b.part; });
-  this->edgesOf_.resize(this->parts.size());
+    { return a.nodes != b.nodes ? a.nodes < b.nodes : a.facet < b.facet; });
+  this->edgesOf_.resize(this->facets.size());
   for (const Incidence& i : all)
   {
     if (this->edges_.empty() || this->edges_.back().nodes != i.nodes)
     {
       this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false, None });
     }
-    this->edgesOf_[i.part][i.opposite] = static_cast<Index>(this->edges_.size()) - 1;
-    this->incidences_.push_back(i.part);
+    this->edgesOf_[i.facet][i.opposite] = static_cast<Index>(this->edges_.size()) - 1;
+    this->incidences_.push_back(i.facet);
     this->edges_.back().last = this->incidences_.size();
   }
 }
 
 /// Not of unit length: twice the area.
-Vec<3> SurfaceDivision::normal(const Part& part) const
+Vec<3> SurfaceDivision::normal(const KeptFacet& facet) const
 {
-  const Vec<3>& a = this->mesh_.point(part.nodes[0]);
-  return (this->mesh_.point(part.nodes[1]) - a).cross(this->mesh_.point(part.nodes[2]) - a);
+  const Vec<3>& a = this->mesh_.point(facet.nodes[0]);
+  return (this->mesh_.point(facet.nodes[1]) - a).cross(this->mesh_.point(facet.nodes[2]) - a);
 }
 
-/// Whether the two parts of the edge lie in one plane. The greater of them decides which: a needle
-/// has none. Its plane is uncertain by as many slabs as the other part reaches beyond it; whether
-/// all parts of a patch lie in one slab, fits() says.
+/// Whether the two facets of the edge lie in one plane. The greater of them decides which: a needle
+/// has none. Its plane is uncertain by as many slabs as the other facet reaches beyond it; whether
+/// all facets of a patch lie in one slab, fits() says.
 bool SurfaceDivision::isFlat(const Edge& edge) const
 {
-  const Part* parts[2] = { &this->parts[this->incidences_[edge.first]],
-    &this->parts[this->incidences_[edge.first + 1]] };
-  Vec<3> n[2] = { this->normal(*parts[0]), this->normal(*parts[1]) };
+  const KeptFacet* facets[2] = { &this->facets[this->incidences_[edge.first]],
+    &this->facets[this->incidences_[edge.first + 1]] };
+  Vec<3> n[2] = { this->normal(*facets[0]), this->normal(*facets[1]) };
   const auto [a, b] = edge.nodes;
-  const bool alike = runsForwards(parts[0]->nodes, a, b) != runsForwards(parts[1]->nodes, a, b);
+  const bool alike = runsForwards(facets[0]->nodes, a, b) != runsForwards(facets[1]->nodes, a, b);
   const int greater = n[1].squaredNorm() > n[0].squaredNorm() ? 1 : 0;
   const double area = n[greater].norm();
   const double length = (this->mesh_.point(b) - this->mesh_.point(a)).norm();
-  // The altitude of the greater part over the edge.
+  // The altitude of the greater facet over the edge.
   const double width = area / length;
-  const Vec<3> other = this->mesh_.point(thirdNode(parts[1 - greater]->nodes, edge.nodes)) -
+  const Vec<3> other = this->mesh_.point(thirdNode(facets[1 - greater]->nodes, edge.nodes)) -
     this->mesh_.point(a);
   const double reach = 1.0 + other.norm() / std::min(width, length);
   return width > this->tolerance && (alike ? 1.0 : -1.0) * n[0].dot(n[1]) >= 0.0 &&
@@ -241,8 +241,8 @@ bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) c
   {
     return true;
   }
-  const Part &f = this->parts[this->incidences_[edge.first]],
-             &g = this->parts[this->incidences_[edge.first + 1]];
+  const KeptFacet &f = this->facets[this->incidences_[edge.first]],
+                  &g = this->facets[this->incidences_[edge.first + 1]];
   // What differs across the edge belongs to different things: region, the caller's label, or a
   // lock.
   if (f.region != g.region || f.other != g.other || f.label != g.label || f.isLocked != g.isLocked)
@@ -259,20 +259,20 @@ bool SurfaceDivision::isCurve(const Edge& edge, const SurfaceOptions& options) c
 /// Whether the two facets of the edge turn by more than the angle.
 bool SurfaceDivision::isSharp(const Edge& edge, double featureAngle) const
 {
-  return this->isSharp(edge, this->parts[this->incidences_[edge.first]],
-    this->parts[this->incidences_[edge.first + 1]], featureAngle);
+  return this->isSharp(edge, this->facets[this->incidences_[edge.first]],
+    this->facets[this->incidences_[edge.first + 1]], featureAngle);
 }
 
 /// Whether the outer surface turns by more than the angle at the edge, or touches itself there.
 bool SurfaceDivision::isBentOutside(const Edge& edge, double angle) const
 {
-  std::vector<const Part*> outer;
+  std::vector<const KeptFacet*> outer;
   for (std::size_t i = edge.first; i < edge.last; ++i)
   {
-    const Part& part = this->parts[this->incidences_[i]];
-    if (part.other == None)
+    const KeptFacet& facet = this->facets[this->incidences_[i]];
+    if (facet.other == None)
     {
-      outer.push_back(&part);
+      outer.push_back(&facet);
     }
   }
   return outer.size() > 2 ||
@@ -280,7 +280,7 @@ bool SurfaceDivision::isBentOutside(const Edge& edge, double angle) const
 }
 
 bool SurfaceDivision::isSharp(
-  const Edge& edge, const Part& f, const Part& g, double featureAngle) const
+  const Edge& edge, const KeptFacet& f, const KeptFacet& g, double featureAngle) const
 {
   const Vec<3> n = this->normal(f), m = this->normal(g);
   const auto [a, b] = edge.nodes;
@@ -335,30 +335,30 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
   }
 }
 
-/// Collects in filled_ the parts that hang together with the seed and belong to no patch; if
+/// Collects in filled_ the facets that hang together with the seed and belong to no patch; if
 /// `plane` is given, only those that lie in it. Sides that could be either are chosen alike.
 void SurfaceDivision::fill(Index seed, const Plane* plane)
 {
-  const auto isIn = [&](const Part& part)
+  const auto isIn = [&](const KeptFacet& facet)
   {
     return !plane ||
-      std::all_of(part.nodes.begin(), part.nodes.end(),
+      std::all_of(facet.nodes.begin(), facet.nodes.end(),
         [&](Index p) {
           return std::fabs(plane->normal.dot(this->mesh_.point(p) - plane->origin)) <= this->slab();
         });
   };
-  // As a queue that is never emptied: afterwards it is the list of all parts.
+  // As a queue that is never emptied: afterwards it is the list of all facets.
   this->filled_.assign(1, seed);
-  this->parts[seed].patch = this->numberOfPatches;
+  this->facets[seed].patch = this->numberOfPatches;
   for (std::size_t k = 0; k < this->filled_.size(); ++k)
   {
-    const Part& f = this->parts[this->filled_[k]];
+    const KeptFacet& f = this->facets[this->filled_[k]];
     for (Index e : this->edgesOf_[this->filled_[k]])
     {
       const Edge& edge = this->edges_[e];
       for (std::size_t i = edge.first; i < edge.last && !edge.isCurve; ++i)
       {
-        Part& g = this->parts[this->incidences_[i]];
+        KeptFacet& g = this->facets[this->incidences_[i]];
         if (g.patch != None || g.isLocked || !isIn(g))
         {
           continue;
@@ -378,23 +378,23 @@ void SurfaceDivision::fill(Index seed, const Plane* plane)
   }
 }
 
-/// Finds the plane of these parts. False if not all of them lie in it.
+/// Finds the plane of these facets. False if not all of them lie in it.
 bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) const
 {
   Vec<3> normal = Vec<3>::Zero();
   // Relative to a point of the patch: far from the origin, products with coordinates would lose
   // digits.
-  const Vec<3> base = this->mesh_.point(this->parts[numbers[0]].nodes[0]);
+  const Vec<3> base = this->mesh_.point(this->facets[numbers[0]].nodes[0]);
   double sum = 0.0, count = 0.0;
   for (Index k : numbers)
   {
     // By area: needles, whose normals are uncertain, hardly count.
-    normal += this->normal(this->parts[k]);
+    normal += this->normal(this->facets[k]);
   }
   plane.normal = normal.normalized();
   for (Index k : numbers)
   {
-    for (Index p : this->parts[k].nodes)
+    for (Index p : this->facets[k].nodes)
     {
       sum += plane.normal.dot(this->mesh_.point(p) - base);
       count += 1.0;
@@ -405,32 +405,32 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
   return std::all_of(numbers.begin(), numbers.end(),
     [&](Index k)
     {
-      const Part& part = this->parts[k];
-      return this->normal(part).dot(plane.normal) >= 0.0 &&
-        std::all_of(part.nodes.begin(), part.nodes.end(),
+      const KeptFacet& facet = this->facets[k];
+      return this->normal(facet).dot(plane.normal) >= 0.0 &&
+        std::all_of(facet.nodes.begin(), facet.nodes.end(),
           [&](Index p) {
             return std::fabs(plane.normal.dot(this->mesh_.point(p) - plane.origin)) <= this->slab();
           });
     });
 }
 
-/// Parts that hang together with no curve between them; if exact, divided further by planes.
+/// Facets that hang together with no curve between them; if exact, divided further by planes.
 void SurfaceDivision::findPatches()
 {
-  // The largest parts first: their planes are the most reliable.
+  // The largest facets first: their planes are the most reliable.
   // A stable sort: of equal areas, the first in the order of handles.
-  std::vector<Index> order(this->parts.size());
+  std::vector<Index> order(this->facets.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<double> areas;
-  for (const Part& part : this->parts)
+  for (const KeptFacet& facet : this->facets)
   {
-    areas.push_back(this->normal(part).squaredNorm());
+    areas.push_back(this->normal(facet).squaredNorm());
   }
   std::stable_sort(
     order.begin(), order.end(), [&](Index a, Index b) { return areas[a] > areas[b]; });
   for (Index seed : order)
   {
-    if (this->parts[seed].patch != None || this->parts[seed].isLocked)
+    if (this->facets[seed].patch != None || this->facets[seed].isLocked)
     {
       continue;
     }
@@ -443,12 +443,12 @@ void SurfaceDivision::findPatches()
       {
         for (Index k : this->filled_)
         {
-          this->parts[k].patch = None;
+          this->facets[k].patch = None;
         }
       };
       release();
-      plane = { this->mesh_.point(this->parts[seed].nodes[0]),
-        this->normal(this->parts[seed]).normalized() };
+      plane = { this->mesh_.point(this->facets[seed].nodes[0]),
+        this->normal(this->facets[seed]).normalized() };
       const Plane ofSeed = plane;
       this->fill(seed, &ofSeed);
       if (!this->fits(this->filled_, plane))
@@ -456,7 +456,7 @@ void SurfaceDivision::findPatches()
         release();
         // Not even that: the seed alone, which lies in its own plane.
         this->filled_.assign(1, seed);
-        this->parts[seed].patch = this->numberOfPatches;
+        this->facets[seed].patch = this->numberOfPatches;
         this->fits(this->filled_, plane);
       }
     }
@@ -465,10 +465,11 @@ void SurfaceDivision::findPatches()
   }
   for (Edge& edge : this->edges_)
   {
-    // Where a bent part was divided by planes, patches also meet at edges that are no curves yet.
+    // Where a bent part of the surface was divided by planes, patches also meet at edges that are
+    // no curves yet.
     edge.isCurve = edge.isCurve ||
-      this->parts[this->incidences_[edge.first]].patch !=
-        this->parts[this->incidences_[edge.last - 1]].patch;
+      this->facets[this->incidences_[edge.first]].patch !=
+        this->facets[this->incidences_[edge.last - 1]].patch;
     if (edge.isCurve)
     {
       this->curveEdges.push_back(edge.nodes);

@@ -57,11 +57,10 @@ struct SurfaceDivision
 {
   SurfaceDivision(const SimplexMesh<3>& mesh, const SurfaceOptions& options);
 
-  /// A kept facet.
-  struct Part
+  struct KeptFacet
   {
-    Facet<3> nodes;      ///< ordered as seen from outside of `cell`, counter-clockwise
-    Index handle = None; ///< of the facet, from the side with the lower region
+    Facet<3> nodes;      ///< ordered counter-clockwise, as seen from outside of the cell
+    Index handle = None; ///< from the side with the lower region
     Index region = 0;    ///< of that cell
     Index other = None;  ///< region on the other side; None: outside
     Index label = None;
@@ -85,9 +84,9 @@ struct SurfaceDivision
 
   static double cosine(double degrees);
 
-  std::vector<Part> parts; ///< in the order of cells
+  std::vector<KeptFacet> facets; ///< in the order of cells
   Index numberOfPatches = 0;
-  /// Parts that are locked because the caller lists them, or because they lie on one another.
+  /// Facets that are locked because the caller lists them, or because they lie on one another.
   Index numberOfTwins = 0;
   std::vector<Plane> planes; ///< of each patch, only if exact
   std::vector<Chain> chains;
@@ -104,7 +103,7 @@ struct SurfaceDivision
   bool isExact = false;
 
 private:
-  /// An edge of the surface with the numbers of its parts: [first, last) of incidences_.
+  /// An edge of the surface with the numbers of its facets: [first, last) of incidences_.
   struct Edge
   {
     std::array<Index, 2> nodes;
@@ -116,22 +115,22 @@ private:
   /// Half the width of the slab in which lies what is flat.
   double slab() const { return 0.5 * this->tolerance; }
   void measure();
-  void collectParts(const SurfaceOptions& options);
+  void collectFacets(const SurfaceOptions& options);
   void lockTwins();
   void collectEdges();
   bool isCurve(const Edge& edge, const SurfaceOptions& options) const;
   bool isFlat(const Edge& edge) const;
   bool isSharp(const Edge& edge, double featureAngle) const;
-  bool isSharp(const Edge& edge, const Part& f, const Part& g, double featureAngle) const;
+  bool isSharp(const Edge& edge, const KeptFacet& f, const KeptFacet& g, double featureAngle) const;
   bool isBentOutside(const Edge& edge, double angle) const;
-  Vec<3> normal(const Part& part) const;
+  Vec<3> normal(const KeptFacet& facet) const;
   void findCurves(const SurfaceOptions& options);
   void findPatches();
   void fill(Index seed, const Plane* plane);
-  bool fits(const std::vector<Index>& parts, Plane& plane) const;
+  bool fits(const std::vector<Index>& facets, Plane& plane) const;
   void findCorners(const SurfaceOptions& options);
   bool isTouching(const Edge& edge) const;
-  bool isPinched(Index p, const std::vector<Index>& parts, const std::vector<Index>& edges) const;
+  bool isPinched(Index p, const std::vector<Index>& facets, const std::vector<Index>& edges) const;
   bool turns(Index p, const std::vector<Index>& curves, double angle) const;
   std::vector<Index> signature(Index edge) const;
   void findChains();
@@ -139,8 +138,8 @@ private:
 
   const SimplexMesh<3>& mesh_;
   std::vector<Edge> edges_;
-  std::vector<Index> incidences_;             // parts at the edges
-  std::vector<std::array<Index, 3>> edgesOf_; // of each part: opposite to its nodes
+  std::vector<Index> incidences_;             // facets at the edges
+  std::vector<std::array<Index, 3>> edgesOf_; // of each facet: opposite to its nodes
   std::vector<Index> filled_;                 // by fill()
   std::vector<std::uint8_t> isCorner_;        // of each point: a line leaves the surface there
 };

@@ -16,7 +16,7 @@ std::vector<Index> SurfaceDivision::signature(Index edge) const
   std::vector<Index> patches;
   for (std::size_t i = this->edges_[edge].first; i < this->edges_[edge].last; ++i)
   {
-    patches.push_back(this->parts[this->incidences_[i]].patch);
+    patches.push_back(this->facets[this->incidences_[i]].patch);
   }
   // Sorted, so that two edges of one curve compare equal.
   std::sort(patches.begin(), patches.end());
@@ -29,19 +29,19 @@ bool SurfaceDivision::isTouching(const Edge& edge) const
   int outer = 0;
   for (std::size_t i = edge.first; i < edge.last; ++i)
   {
-    outer += this->parts[this->incidences_[i]].other == None;
+    outer += this->facets[this->incidences_[i]].other == None;
   }
   // Where the outer surface does not touch itself, two of its facets share the edge.
   return outer > 2;
 }
 
-/// Whether the surface touches itself at point p. `around`: its parts; `curves`: its edges on
+/// Whether the surface touches itself at point p. `around`: its facets; `curves`: its edges on
 /// curves, none or two. There must be one fan of facets around a point of a patch, and one from
 /// curve to curve for each facet at a curve.
 bool SurfaceDivision::isPinched(
   Index p, const std::vector<Index>& around, const std::vector<Index>& curves) const
 {
-  // Parts are joined to fans over edges that are no curves, as in a flood.
+  // Facets are joined to fans over edges that are no curves, as in a flood.
   std::vector<char> seen(around.size(), 0);
   std::size_t fans = 0;
   for (std::size_t first = 0; first < around.size(); ++first)
@@ -56,9 +56,9 @@ bool SurfaceDivision::isPinched(
     seen[first] = 1;
     while (!front.empty())
     {
-      const Index part = around[front.back()];
+      const Index facet = around[front.back()];
       front.pop_back();
-      for (Index e : this->edgesOf_[part])
+      for (Index e : this->edgesOf_[facet])
       {
         const Edge& edge = this->edges_[e];
         if (!hasId(edge.nodes, p))
@@ -104,13 +104,13 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
   std::vector<std::uint8_t> touching = pinchedPoints<3>(this->mesh_);
   // Empty if no point is pinched.
   touching.resize(n, 0);
-  // Parts and curves at each point, as one list each, sorted by point.
-  std::vector<std::array<Index, 2>> partsAt, curvesAt;
-  for (std::size_t k = 0; k < this->parts.size(); ++k)
+  // Facets and curves at each point, as one list each, sorted by point.
+  std::vector<std::array<Index, 2>> facetsAt, curvesAt;
+  for (std::size_t k = 0; k < this->facets.size(); ++k)
   {
-    for (Index p : this->parts[k].nodes)
+    for (Index p : this->facets[k].nodes)
     {
-      partsAt.push_back({ p, static_cast<Index>(k) });
+      facetsAt.push_back({ p, static_cast<Index>(k) });
     }
   }
   for (std::size_t e = 0; e < this->edges_.size(); ++e)
@@ -124,19 +124,19 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
       }
     }
   }
-  std::sort(partsAt.begin(), partsAt.end());
+  std::sort(facetsAt.begin(), facetsAt.end());
   std::sort(curvesAt.begin(), curvesAt.end());
   // Both lists are sorted by point: one walk through them meets each point once.
   std::size_t i = 0, j = 0;
   std::vector<Index> around, curves;
-  while (i < partsAt.size())
+  while (i < facetsAt.size())
   {
-    const Index p = partsAt[i][0];
+    const Index p = facetsAt[i][0];
     around.clear();
     curves.clear();
-    for (; i < partsAt.size() && partsAt[i][0] == p; ++i)
+    for (; i < facetsAt.size() && facetsAt[i][0] == p; ++i)
     {
-      around.push_back(partsAt[i][1]);
+      around.push_back(facetsAt[i][1]);
     }
     for (; j < curvesAt.size() && curvesAt[j][0] == p; ++j)
     {
@@ -146,7 +146,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
       (this->mesh_.pointData(p).flags & SimplexMesh<3>::PointFixedByUser) ||
       (!options.corners.empty() && options.corners[p]);
     const bool isLocked = std::any_of(
-      around.begin(), around.end(), [&](Index k) { return this->parts[k].isLocked; });
+      around.begin(), around.end(), [&](Index k) { return this->facets[k].isLocked; });
     const bool isFixed = isMarked || isLocked || touching[p];
     // It stays, unless it proves below to be inside of a patch or of a curve.
     this->freedom[p] = isFixed || this->isExact ? Freedom::Fixed : Freedom::Corner;
@@ -159,7 +159,7 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
     if (curves.empty())
     {
       this->freedom[p] = Freedom::Patch;
-      this->patchOfPoint[p] = this->parts[around[0]].patch;
+      this->patchOfPoint[p] = this->facets[around[0]].patch;
     }
     else if (this->signature(curves[0]) == this->signature(curves[1]) &&
       this->edges_[curves[0]].isSharp == this->edges_[curves[1]].isSharp && // no end of a ridge

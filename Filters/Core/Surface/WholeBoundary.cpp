@@ -286,7 +286,7 @@ CurvePiece makePiece(const std::vector<PlaneCurve>& curves, const LineChain& cha
 }
 
 void WholeBoundary::add(const LineChain& chain, Index curve, const std::vector<double>& parameters,
-  std::vector<Place>& places)
+  std::vector<PlaceOnPiece>& places)
 {
   const auto number = static_cast<Index>(this->pieces.size());
   // The points between its ends, which are corners.
@@ -308,9 +308,9 @@ void WholeBoundary::add(const LineChain& chain, Index curve, const std::vector<d
 }
 
 std::string WholeBoundary::make(LineNetwork& boundary, const LineNetwork* given,
-  const CurveOptions& options, double size, std::vector<Place>& places)
+  const CurveOptions& options, double size, std::vector<PlaceOnPiece>& places)
 {
-  places.assign(boundary.points.size(), Place());
+  places.assign(boundary.points.size(), PlaceOnPiece());
   std::string error;
   if (!given)
   {
@@ -347,7 +347,7 @@ Index WholeBoundary::find(
   s.clear();
   for (Index p : chain.points)
   {
-    const Place& place = part.places[p];
+    const PlaceOnPiece& place = part.places[p];
     s.push_back(place.parameter);
     // Pieces end at corners, and so do chains.
     k = place.piece != None ? place.piece : k;

@@ -35,7 +35,7 @@ struct PartOfBoundary;
 struct WholeBoundary
 {
   /// Where a point is that is no corner.
-  struct Place
+  struct PlaceOnPiece
   {
     Index piece = None;
     double parameter = 0.0;
@@ -52,7 +52,7 @@ struct WholeBoundary
   /// the diagonal of the mesh. `places`: of each point. Returns a sentence if mesh and geometry do
   /// not match.
   std::string make(LineNetwork& boundary, const LineNetwork* geometry, const CurveOptions& options,
-    double size, std::vector<Place>& places);
+    double size, std::vector<PlaceOnPiece>& places);
 
   /// Finds the piece that a chain of a part is on, and the parameters of its points. None if it
   /// cannot be told from the part: the chain then has to stay.
@@ -60,14 +60,14 @@ struct WholeBoundary
 
 private:
   void add(const LineChain& chain, Index curve, const std::vector<double>& parameters,
-    std::vector<Place>& places);
+    std::vector<PlaceOnPiece>& places);
 };
 
 /// What a mesh has of a whole boundary; lists have a value for each point slot.
 struct PartOfBoundary
 {
-  std::vector<Index> corners;               ///< the number of the point, if it is a corner; or None
-  std::vector<WholeBoundary::Place> places; ///< of the others on the boundary
+  std::vector<Index> corners; ///< the number of the point, if it is a corner; or None
+  std::vector<WholeBoundary::PlaceOnPiece> places; ///< of the others on the boundary
   /// Points that cells outside of the mesh use, too. They must be fixed. Kept facets between two of
   /// them are on no piece, whether they are boundary or not.
   std::vector<std::uint8_t> hull;

@@ -50,12 +50,12 @@ public:
     this->hasInverted_ = cells > 0;
     if (this->mayOverlap_ && !this->hasInverted_)
     {
-      if (!this->overlaps_)
+      if (!this->found_)
       {
-        this->overlaps_ = this->mesh_.numberOfFoldedFacets() > 0 ||
+        this->found_ = this->mesh_.numberOfFoldedFacets() > 0 ||
           meshopt::mayOverlap<D>(this->mesh_, this->pinched_);
       }
-      this->mayOverlap_ = *this->overlaps_;
+      this->mayOverlap_ = *this->found_;
     }
   }
 
@@ -64,7 +64,7 @@ private:
   bool mayOverlap_;
   bool hasInverted_ = true;
   std::vector<std::uint8_t> pinched_; ///< see PinchedPoints.h
-  std::optional<bool> overlaps_;      ///< known once no cell is inverted
+  std::optional<bool> found_; ///< by the check, once no cell is inverted: may cells overlap?
 };
 }
 }

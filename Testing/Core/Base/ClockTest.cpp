@@ -108,16 +108,16 @@ TEST(Clock, APartHasItsShareOfTheWhole)
   Clock clock(caller.control);
   EXPECT_TRUE(clock.goesOn(0.125, words));
   {
-    const Clock::Part part(clock, 0.25, 0.75); // each part has news at once
+    const Clock::Section part(clock, 0.25, 0.75); // each part has news at once
     EXPECT_TRUE(clock.goesOn(0.5, words));
     {
-      const Clock::Part inner(clock, 0.5, 1.0); // of the part: 0.5 to 0.75 of the whole
+      const Clock::Section inner(clock, 0.5, 1.0); // of the part: 0.5 to 0.75 of the whole
       EXPECT_TRUE(clock.goesOn(0.5, words));
     }
-    const Clock::Part rest(clock, 1.0, 1.0);
+    const Clock::Section rest(clock, 1.0, 1.0);
     EXPECT_TRUE(clock.goesOn(0.3, words));
   }
-  const Clock::Part whole(clock, 0.0, 1.0);
+  const Clock::Section whole(clock, 0.0, 1.0);
   EXPECT_TRUE(clock.goesOn(0.875, words));
   EXPECT_EQ(caller.told, (std::vector<double>{ 0.125, 0.5, 0.625, 0.75, 0.875 }));
 }

@@ -98,7 +98,7 @@ double best(Reconnection& r, const Bench& b, Index t, const Rest&... rest)
 }
 
 /// All cells below `target` once, the worst first; returns how many were replaced.
-int improveAll(Bench& b, double target, const Reconnection::Limits& limits)
+int improveAll(Bench& b, double target, const PolyhedronLimits& limits)
 {
   Reconnection r;
   std::vector<std::pair<double, Index>> order;
@@ -171,7 +171,7 @@ TEST(SmallPolyhedron, APointInsideMayVanish)
   const auto improved = [](const MeshInput<3>& in, bool drop)
   {
     Bench b(in);
-    Reconnection::Limits limits;
+    PolyhedronLimits limits;
     limits.mayDropPoints = drop;
     const int done = improveAll(b, 1.0, limits);
     expectSound(b.mesh);
@@ -228,7 +228,7 @@ TEST(SmallPolyhedron, OffersNewPoints)
     without = std::max(without, r.propose(b.editor, b.model, c, Never));
   }
   EXPECT_LT(without, 0.5);
-  Reconnection::Limits limits;
+  PolyhedronLimits limits;
   limits.newPoints = 8;
   const double above = 0.6;
   const double q = r.propose(b.editor, b.model, 0, above, limits);
@@ -319,7 +319,7 @@ TEST(SmallPolyhedron, WholeMeshes)
       splitRegions<3>(in);
       in.keptEdges = { { 31, 62 } };
     }
-    Reconnection::Limits limits;
+    PolyhedronLimits limits;
     limits.newPoints = seed == 2 ? 6 : 0;
     std::unique_ptr<MeshBits<3>> bits;
     for (int run = 0; run < 2; ++run)

@@ -24,7 +24,7 @@ struct Whole
   SimplexMesh<2> mesh;
   LineNetwork network; ///< by points of the mesh
   WholeBoundary boundary;
-  std::vector<WholeBoundary::Place> places;
+  std::vector<WholeBoundary::PlaceOnPiece> places;
 
   explicit Whole(const MeshInput<2>& input, const CurveOptions& options = {})
     : in(input)
@@ -76,8 +76,8 @@ struct Whole
     int sliding = 0;
     for (Index p = 0; p < static_cast<Index>(part.names.size()); ++p)
     {
-      const WholeBoundary::Place here = curves.inWhole(this->boundary, part.mesh, p);
-      const WholeBoundary::Place there = this->places[part.names[p]];
+      const WholeBoundary::PlaceOnPiece here = curves.inWhole(this->boundary, part.mesh, p);
+      const WholeBoundary::PlaceOnPiece there = this->places[part.names[p]];
       const bool mayMove = there.piece != None && !part.boundary.hull[p];
       EXPECT_EQ(here.piece, mayMove ? there.piece : None) << p;
       EXPECT_NEAR(here.parameter, mayMove ? there.parameter : 0.0, 1e-14) << p;
@@ -214,7 +214,7 @@ TEST(WholeBoundary, MessagesHaveTheNamesOfPoints)
   }
   boundary.points[1] += Vec<2>(0.0, -0.3);
   WholeBoundary whole;
-  std::vector<WholeBoundary::Place> places;
+  std::vector<WholeBoundary::PlaceOnPiece> places;
   const std::string error = whole.make(boundary, &geometry, CurveOptions(), 1.0, places);
   EXPECT_NE(error.find("point 1001 "), std::string::npos) << error;
 }

@@ -274,8 +274,8 @@ void KeepPlaces(const Request& request, const Model<2>& model, const OutputMap& 
   {
     return;
   }
-  std::vector<meshopt::WholeBoundary::Place>& places = request.BoundaryOfPart->places;
-  std::vector<meshopt::WholeBoundary::Place> after;
+  std::vector<meshopt::WholeBoundary::PlaceOnPiece>& places = request.BoundaryOfPart->places;
+  std::vector<meshopt::WholeBoundary::PlaceOnPiece> after;
   after.reserve(map.PointToSlot.size());
   for (const Index p : map.PointToSlot)
   {

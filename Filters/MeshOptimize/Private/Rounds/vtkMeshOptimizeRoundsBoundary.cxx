@@ -186,7 +186,7 @@ void Rounds::GatherBoundary()
     box.AddPoint(x[0], x[1], 0.0);
   }
   const double size = box.IsValid() ? box.GetDiagonalLength() : 0.0;
-  std::vector<meshopt::WholeBoundary::Place> places;
+  std::vector<meshopt::WholeBoundary::PlaceOnPiece> places;
   LineNetwork geometry;
   const bool hasGeometry = this->All.IsAny(this->Wanted.Geometry != nullptr);
   if (hasGeometry)

@@ -72,7 +72,7 @@ SimplexMesh<3> roughBox()
 }
 }
 
-TEST(SurfaceDivisionParts, AnglesAreThoseOfTheFacets)
+TEST(SurfaceDivisionFacets, AnglesAreThoseOfTheFacets)
 {
   const SimplexMesh<3> mesh = roughBox();
   SurfaceOptions options;
@@ -89,7 +89,7 @@ TEST(SurfaceDivisionParts, AnglesAreThoseOfTheFacets)
   }
 }
 
-TEST(SurfaceDivisionParts, PartsAreTheKeptFacetsOnceAsSeenFromTheLowerRegion)
+TEST(SurfaceDivisionFacets, ItsFacetsAreTheKeptOnesOnceAsSeenFromTheLowerRegion)
 {
   MeshInput<3> in = jitteredGrid<3>(4, 0.1);
   splitRegions(in);
@@ -97,22 +97,22 @@ TEST(SurfaceDivisionParts, PartsAreTheKeptFacetsOnceAsSeenFromTheLowerRegion)
   const SurfaceDivision division(mesh, {});
   std::set<Facet<3>> seen;
   int between = 0;
-  for (const SurfaceDivision::Part& part : division.parts)
+  for (const SurfaceDivision::KeptFacet& facet : division.facets)
   {
-    EXPECT_TRUE(seen.insert(sortedIds(part.nodes)).second);
-    const Index c = mesh.cellOf(part.handle);
-    const int i = mesh.facetOf(part.handle);
-    EXPECT_EQ(sortedIds(part.nodes), sortedIds(mesh.facet(c, i)));
-    EXPECT_EQ(part.region, mesh.region(c));
+    EXPECT_TRUE(seen.insert(sortedIds(facet.nodes)).second);
+    const Index c = mesh.cellOf(facet.handle);
+    const int i = mesh.facetOf(facet.handle);
+    EXPECT_EQ(sortedIds(facet.nodes), sortedIds(mesh.facet(c, i)));
+    EXPECT_EQ(facet.region, mesh.region(c));
     const Index h = mesh.adjacent(c, i);
-    EXPECT_EQ(part.other, h == None ? None : mesh.region(mesh.cellOf(h)));
-    EXPECT_TRUE(part.other == None || part.region < part.other);
-    between += part.other != None;
-    const Vec<3>& a = mesh.point(part.nodes[0]);
-    const Vec<3> n = (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a);
+    EXPECT_EQ(facet.other, h == None ? None : mesh.region(mesh.cellOf(h)));
+    EXPECT_TRUE(facet.other == None || facet.region < facet.other);
+    between += facet.other != None;
+    const Vec<3>& a = mesh.point(facet.nodes[0]);
+    const Vec<3> n = (mesh.point(facet.nodes[1]) - a).cross(mesh.point(facet.nodes[2]) - a);
     EXPECT_LT(n.dot(mesh.point(mesh.nodes(c)[i]) - a), 0.0);
     // Without a tolerance each patch has its plane.
-    const SurfaceDivision::Plane& plane = division.planes.at(part.patch);
+    const SurfaceDivision::Plane& plane = division.planes.at(facet.patch);
     EXPECT_NEAR(plane.normal.dot(n), n.norm(), 1e-12);
     EXPECT_NEAR(plane.normal.dot(a - plane.origin), 0.0, 1e-12);
   }
@@ -120,7 +120,7 @@ TEST(SurfaceDivisionParts, PartsAreTheKeptFacetsOnceAsSeenFromTheLowerRegion)
   EXPECT_EQ(between, 2 * 4 * 4);
 }
 
-TEST(SurfaceDivisionParts, ChainsAreTheCurvesFromCornerToCorner)
+TEST(SurfaceDivisionFacets, ChainsAreTheCurvesFromCornerToCorner)
 {
   const SimplexMesh<3> mesh = roughBox();
   SurfaceOptions options;
@@ -150,7 +150,7 @@ TEST(SurfaceDivisionParts, ChainsAreTheCurvesFromCornerToCorner)
 
 /// Two cones of height 1 on a ring of n points at 1, which turns by 360 / n degrees at each. Their
 /// facets, at the distance a = cos(pi / n) below, have the normals (cos, sin, a) / sqrt(1 + a^2).
-TEST(SurfaceDivisionParts, ARingIsAClosedCurve)
+TEST(SurfaceDivisionFacets, ARingIsAClosedCurve)
 {
   for (int n : { 12, 24 })
   {
@@ -180,7 +180,7 @@ TEST(SurfaceDivisionParts, ARingIsAClosedCurve)
 }
 
 /// Inside of a region a kept facet has no outer side: its neighbours may be seen from either.
-TEST(SurfaceDivisionParts, KeptFacetsInsideAreSeenFromOneSide)
+TEST(SurfaceDivisionFacets, KeptFacetsInsideAreSeenFromOneSide)
 {
   MeshInput<3> in = jitteredGrid<3>(4, 0.0);
   // In another order: cells of lower numbers then stand on both sides.
@@ -208,13 +208,14 @@ TEST(SurfaceDivisionParts, KeptFacetsInsideAreSeenFromOneSide)
     EXPECT_EQ(division.numberOfPatches, 11);
     EXPECT_EQ(division.chains.size(), 20u);
     int toLow = 0, fromLow = 0, between = 0;
-    for (const SurfaceDivision::Part& part : division.parts)
+    for (const SurfaceDivision::KeptFacet& facet : division.facets)
     {
-      if (part.other != None)
+      if (facet.other != None)
       {
-        const Vec<3>& a = mesh.point(part.nodes[0]);
-        toLow += (mesh.point(part.nodes[1]) - a).cross(mesh.point(part.nodes[2]) - a)[0] < 0.0;
-        fromLow += part.handle < mesh.adjacent(mesh.cellOf(part.handle), mesh.facetOf(part.handle));
+        const Vec<3>& a = mesh.point(facet.nodes[0]);
+        toLow += (mesh.point(facet.nodes[1]) - a).cross(mesh.point(facet.nodes[2]) - a)[0] < 0.0;
+        fromLow += facet.handle <
+          mesh.adjacent(mesh.cellOf(facet.handle), mesh.facetOf(facet.handle));
         ++between;
       }
     }
@@ -224,7 +225,7 @@ TEST(SurfaceDivisionParts, KeptFacetsInsideAreSeenFromOneSide)
   }
 }
 
-TEST(SurfaceDivisionParts, ToleranceIsHeldBetweenRoundingAndATenth)
+TEST(SurfaceDivisionFacets, ToleranceIsHeldBetweenRoundingAndATenth)
 {
   const SimplexMesh<3> mesh = buildMesh(oneCell<3>());
   SurfaceOptions options;
