@@ -121,6 +121,9 @@ public:
   /// are bad, most of their tries are in vain.
   void setThorough(bool on) { this->isThorough_ = on; }
   bool isThorough() const { return this->isThorough_; }
+  /// Whether look-ahead is tried, if the level and the switches allow it.
+  void setLooksAhead(bool on) { this->looksAhead_ = on; }
+  bool looksAhead() const { return this->looksAhead_; }
   /// Switches wide insertions on (WideInsertion.h): the most nodes that may vanish in one. None:
   /// off.
   void setWide(int mostSwallowed) { this->wide_ = mostSwallowed; }
@@ -307,6 +310,7 @@ private:
   int steps_ = StarSteps;
   double guard_ = -1.0;
   bool guardsAll_ = false, stampsStars_ = true, isThorough_ = true;
+  bool looksAhead_ = true;
   int wide_ = None; ///< see setWide()
   std::uint32_t failuresSince_ = 0;
   long bad_ = 0; ///< badness() of all cells made, minus that of those removed

@@ -61,13 +61,15 @@ private:
   static constexpr int SearchSteps = 14;       ///< along a curve: to 1/1000 of the range
   static constexpr double FarthestSlide = 0.8; ///< fraction of the way to a neighbour
 
-  /// Moves v along its curve to the best place for its star.
+  /// Moves v along its curve to the best place for its star, unless nothing has changed since that
+  /// last failed.
   bool slide(Judge<D, Shape>& judge, Index v)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
+    const auto& data = mesh.pointData(v);
     this->proposal_.clear();
     std::vector<Index>& star = this->proposal_.cavity;
-    if (!judge.editor().star(v, star))
+    if (judge.failsAgain(data.moveFailed, data.stamp) || !judge.editor().star(v, star))
     {
       return false;
     }
@@ -92,14 +94,19 @@ private:
     judge.demand(this->proposal_);
     const bool done = judge.accept(this->proposal_);
     judge.count(Operation::NodeMotion, done);
+    if (!done)
+    {
+      judge.noteMoveFailed(v);
+    }
     return done;
   }
 
-  /// Joins v with the first neighbour for which that gains.
+  /// Joins v with the first neighbour for which that gains, unless nothing has changed since that
+  /// last failed.
   bool remove(Judge<D, Shape>& judge, Index v)
   {
-    const bool isThere = judge.editor().star(v, this->star_);
-    if (!isThere)
+    const auto& data = judge.mesh().pointData(v);
+    if (judge.failsAgain(data.removeFailed, data.stamp) || !judge.editor().star(v, this->star_))
     {
       return false;
     }
@@ -116,6 +123,10 @@ private:
         this->offer(judge);
     }
     judge.count(Operation::EdgeContraction, done);
+    if (!done)
+    {
+      judge.noteRemovalFailed(v);
+    }
     return done;
   }
 

@@ -31,6 +31,10 @@ public:
 
   bool improve(Judge<D, Shape>& judge, Index t, int level)
   {
+    if (!judge.looksAhead())
+    {
+      return false;
+    }
     const bool isLong = level > Level::LookAhead;
     std::vector<Seed> seeds;
     NodeInsertion<D, Shape>::findAllSeeds(judge, t, isLong, seeds);

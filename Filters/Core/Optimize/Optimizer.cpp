@@ -35,9 +35,10 @@ constexpr double FromRidges = 0.5;
 /// and what divisions may. Found on ten surfaces of CGAL, as the next two: with halves of the
 /// growth the worst qualities were a fifth to a third lower.
 constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
-/// Long edges are divided at cells up to this many times the worst quality, and at what comes of
-/// them up to so many times.
-constexpr double AboveWorst = 1.5, PartsBelow = 0.6;
+/// Long edges are divided at cells below AboveWorst times the worst quality, and then at what comes
+/// of them below so many times. If the first way does not help, a gentler one may, which makes less
+/// of the mesh worse; or one that goes on until the parts are good, where few needles are left.
+constexpr double AboveWorst = 1.5, PartsBelow[] = { 0.6, 0.0, 4.0 };
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double LeastGain = 1.02;
 constexpr int MostDivisions = 8;
@@ -216,9 +217,12 @@ void Optimizer<D>::optimizeSliding()
   for (int round = 0; round < MostDivisions && goesOn(); ++round, left *= 0.5)
   {
     const Clock::Section part(run.clock, 1.0 - left, 1.0 - 0.5 * left);
-    // A gentler division may help where this one made too much worse.
-    if (!this->divideAndOptimize(effort, PartsBelow) &&
-      !(goesOn() && this->divideAndOptimize(effort, 0.0)))
+    bool helps = false;
+    for (std::size_t k = 0; k < std::size(PartsBelow) && !helps && goesOn(); ++k)
+    {
+      helps = this->divideAndOptimize(effort, PartsBelow[k]);
+    }
+    if (!helps)
     {
       break;
     }

@@ -73,6 +73,8 @@ public:
   {
     return this->isThrifty(task) ? this->costs_.patience(kind, usual) : usual;
   }
+  /// The same for look-ahead where the surface takes part: with the memory in any case.
+  long patienceOfSliding(long usual) const { return this->costs_.patience(CostModel::Look, usual); }
   /// To be called after each drain of a pass that lifts.
   void noteTries(CostModel::Kind kind, long tries, bool helped)
   {

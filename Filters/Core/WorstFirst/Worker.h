@@ -68,6 +68,7 @@ private:
   bool hasNext();
   bool isSpent() const;
   int patientLevel(int level);
+  bool mayLookAhead();
   void watch();
   void noteSuccess(Index c);
 
@@ -139,6 +140,7 @@ void Worker<D, Shape>::work()
     const auto [q, c] = this->queue.top();
     this->queue.pop();
     level = this->patientLevel(level);
+    this->judge().setLooksAhead(this->mayLookAhead());
     // The queue is not updated when a quality changes: an entry with another quality is out of
     // date. Cells without hope are skipped before they count as a try.
     if (!mesh.isAlive(c) || mesh.quality(c) != q ||
@@ -245,6 +247,18 @@ int Worker<D, Shape>::patientLevel(int level)
   this->isPatient_ = this->isPatient_ && this->tally_.tries < this->orders_.tries &&
     looks < this->orders_.looks && (tries < patient || helped * Patience >= tries);
   return this->isPatient_ ? level : std::min<int>(level, Level::Removal);
+}
+
+/// Whether look-ahead is still tried. Where the surface takes part, other operations of its level
+/// help more often, so that it alone is given up.
+template <int D, class Shape>
+bool Worker<D, Shape>::mayLookAhead()
+{
+  const auto op = static_cast<int>(Operation::LookAhead);
+  const Judge<D, Shape>& judge = this->judge();
+  const bool isLifting = this->workpiece_.slides() && !this->task_->polishes();
+  return !isLifting || judge.tried[op] < this->allowance_.patienceOfSliding(PatientLooksOfSliding) ||
+    judge.gained[op] * Patience >= judge.tried[op];
 }
 
 /// Counts a try, and looks whether more of them pay. Polishing ends after MostPolishTries tries for
