@@ -283,7 +283,7 @@ public:
    * is 0, at least 30 tetrahedra or 10 triangles may be added. Range >= 0, default 0.15. A mesh
    * with hardly any interior nodes may need 1: if the budget stops it, the stop reason is
    * GrowthLimit. No more nodes are removed once 12 % of the cells are gone (unless sizes are
-   * followed), but around the few worst ones.
+   * followed), except around the few worst ones.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);
@@ -321,7 +321,7 @@ public:
   ///@{
   /**
    * The treatment of the boundary, including interfaces between regions and the sides of cracks.
-   * Slide needs WorstFirst, and tetrahedra in one piece. Default: Fixed.
+   * Slide needs WorstFirst; tetrahedra must be in one piece. Default: Fixed.
    *
    * Slide, triangles: nodes slide along the curves that the boundary follows, edges on them are
    * split and contracted, and new nodes lie on the curve. Corners stay. The curves come from the

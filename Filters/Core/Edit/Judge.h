@@ -64,10 +64,10 @@ public:
   const Caps<D>* caps() const { return this->caps_; }
 
   // --- requirements
-  /// The least gain over a worst quality q that makes a change worthwhile. It is smaller if all
-  /// qualities are tiny, where wide insertions are tried down to what rounding allows; and, down to
-  /// a tenth of it, where less reaches the target. Not in a metric: there each change costs more,
-  /// and the many small ones ended lower.
+  /// The least gain over a worst quality q that makes a change worthwhile. Smaller where all
+  /// qualities are tiny (with wide insertions down to 1e-8 of it: what rounding allows), and where
+  /// a smaller gain reaches the target (down to a tenth). In a metric the target does not count:
+  /// there each change costs more, and the many small ones ended lower.
   double gain(double q) const
   {
     constexpr double nearTarget = 0.1; // of the least gain
@@ -103,7 +103,7 @@ public:
     constexpr double margin = 0.02; // above the target
     return std::max(this->target_ + margin, q + 2 * this->gain(q));
   }
-  /// Before work for a change that would add so many cells: whether the budget has room. If not,
+  /// Before work for a change that would add `cells`: whether the budget has room. If not,
   /// this is noted for the report.
   bool mayAddCells(long cells) { return this->growth.allows(cells); }
   bool mayRemoveNodes() const { return this->switches_->removeNodes && this->growth.mayShrink(); }

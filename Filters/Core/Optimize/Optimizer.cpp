@@ -35,8 +35,8 @@ constexpr double FromRidges = 0.5;
 /// and what divisions may. Found on ten surfaces of CGAL, as the next two: with halves of the
 /// growth the worst qualities were a fifth to a third lower.
 constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
-/// Long edges are divided at cells up to this many times the worst quality, and at what comes of
-/// them up to so many times.
+/// Long edges are divided at cells below AboveWorst times the worst quality. Parts below PartsBelow
+/// times it are divided again.
 constexpr double AboveWorst = 1.5, PartsBelow = 0.6;
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double LeastGain = 1.02;

@@ -78,8 +78,8 @@ inline constexpr long PatientPart = 5;
 /// Stop removing nodes once this fraction of the cells is gone (unless sizes are followed).
 inline constexpr double ShrinkBudget = 0.12;
 /// The most nodes that may vanish in one wide insertion; and the same once WideShrink times as many
-/// cells are gone. With 8 in place of 30 the worst cells of lattices that are hardly thrown end at
-/// a tenth; without the second limit half of the cells of a thin slab vanish.
+/// cells are gone. With 8 in place of 30 the worst cells of lattices that are hardly perturbed end
+/// at a tenth; without the second limit half of the cells of a thin slab vanish.
 inline constexpr int MostSwallowed = 30, FewestSwallowed = 1;
 inline constexpr long WideShrink = 2;
 /// 1 in ReservedPart of the growth budget is reserved for polishing.

@@ -16,8 +16,8 @@ namespace
 {
 /// A division may lower the worst quality around it to this part: halves are worse at first.
 constexpr double WorstDivision = 0.2;
-/// What comes of a division is divided on so often at most: for tetrahedra it is not proved that
-/// longest edges end at good shapes.
+/// At most this many divisions follow each other at one place: for tetrahedra it is not proved that
+/// divisions of longest edges end at good shapes.
 constexpr int MostGenerations = 6;
 constexpr int DivisionsPerLook = 64; ///< between two looks at the clock
 

@@ -70,7 +70,7 @@ TEST(SizeStage, FineMeshesGetCoarse)
 // A layer that the kept surface does not fit: the same edges are split and contracted round by
 // round, which must not keep the number of elements from being corrected (1.46 to 1.58 times the
 // predicted one).
-TEST(SizeStage, EdgesThatGoToAndFroDoNotHoldUpTheCount)
+TEST(SizeStage, CountIsCorrectedWhileEdgesAreSplitAndContractedAgain)
 {
   for (unsigned seed : { 4, 23, 30 })
   {
