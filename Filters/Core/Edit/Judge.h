@@ -7,8 +7,8 @@
 ///  - quality: the new cells are better than Proposal::least. For operations of the fast engine,
 ///    demand() sets this to the worst quality of the cavity plus gain(). The sorted vector of all
 ///    qualities then rises lexicographically, so that no cycle is possible;
-///  - topology, only if cells may overlap, since geometry then says nothing: the new cells fill the
-///    cavity and meet the rest of the mesh in its boundary only (CavityFit.h). Kept edges stay;
+///  - topology: kept edges stay. And where cells may overlap, since geometry then says nothing, the
+///    new cells fill the cavity and meet the rest of the mesh in its boundary only (CavityFit.h);
 ///  - surface: where it takes part in space, it stays as near to what it was as it must, and no
 ///    cell there is inverted;
 ///  - growth: the budget allows the additional cells;

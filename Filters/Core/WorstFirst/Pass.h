@@ -71,7 +71,8 @@ PassResult Pass<D, Shape>::run(const Task& task, const std::vector<Index>& bad)
   return this->result_;
 }
 
-/// Drains by chunks, and one without borders for what these have held up.
+/// Drains by chunks; what borders have held up, again with other borders, and what then remains in
+/// one chunk.
 template <int D, class Shape>
 void Pass<D, Shape>::drainAll(const Task& task, const std::vector<Index>& bad)
 {
