@@ -255,9 +255,6 @@ public:
   /// Sum of signed volumes (areas) of the live cells.
   double volume() const;
 
-  /// V - E + F - C of the live mesh (D = 3), V - E + C (D = 2).
-  long eulerCharacteristic() const;
-
 private:
   template <int>
   friend class MeshEditor;

@@ -72,7 +72,7 @@ TEST(EulerCharacteristic, IsThatOfTheMesh)
   {
     std::rotate(c.begin(), c.begin() + 1, c.end());
   }
-  const long wanted = buildMesh(in).eulerCharacteristic();
+  const long wanted = eulerCharacteristic(buildMesh(in));
   EXPECT_EQ(eulerCharacteristic<3>(in.cells), wanted);
   EXPECT_EQ(eulerCharacteristic<3>(turned), wanted);
 }
