@@ -71,6 +71,7 @@ public:
   double gain(double q) const
   {
     constexpr double nearTarget = 0.1; // of the least gain
+    // Of the least gain, too. The second is above what qualities are off by rounding.
     const double ofTiny = this->wide_ == None ? 1e-4 : 1e-8;
     const double near = std::max(nearTarget * this->gain_, this->target_ - q);
     const double least = this->model_->plain ? std::min(this->gain_, near) : this->gain_;

@@ -27,7 +27,7 @@
 
 namespace meshopt
 {
-/// How far a Cavity may grow.
+/// How far a Cavity may grow. The numbers bound what a try costs when it fails.
 struct CavityLimits
 {
   int cells = 80;    ///< greatest number of cells taken in

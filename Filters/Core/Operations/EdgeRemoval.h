@@ -32,6 +32,8 @@ template <int D, class Shape>
 class EdgeRemoval
 {
 public:
+  /// Larger rings are left alone: time grows with the cube, and a ring has about five cells on
+  /// average.
   static constexpr int MaximumRing = 12;
 
   /// Tries to remove edge e (local number) of cell t. Returns the worst quality of the best

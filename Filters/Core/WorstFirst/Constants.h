@@ -5,8 +5,11 @@
 #define meshopt_WorstFirst_Constants_h
 
 #include "Mesh/Types.h"
+#include "Operations/Level.h"
+#include "Run/Options.h"
 
 #include <cstddef>
+#include <iterator>
 #include <limits>
 
 namespace meshopt
@@ -49,6 +52,7 @@ inline constexpr std::size_t MostBelowBound = 80;
 inline constexpr double WideGain = 0.02;
 inline constexpr int MostIdleCycles = 2;
 inline constexpr int PolishCycles[] = { 2, 8, 8 };
+static_assert(std::size(PolishCycles) == NumberOfEfforts);
 /// Up to the target, polishing may spend 1 look-ahead per CellsPerLook cells in a run; in small
 /// meshes FewestLooks in all. Each takes as long as a pass over thousands of cells.
 inline constexpr Index CellsPerLook = 75;
@@ -105,6 +109,7 @@ inline constexpr long Creeping = 5;
 inline constexpr long CreepingPart = 2, CreepingTries = 100;
 inline constexpr long CreepingLift = 5, CreepingLiftOfSliding = 10;
 inline constexpr int CreepingRounds[] = { 0, 8, 8 };
+static_assert(std::size(CreepingRounds) == NumberOfEfforts);
 /// A run that creeps gives up the many if they are more than the fraction ManyStuck of the cells,
 /// and a pass leaves more than HopelesslyMany of them; a quick run past the first stage in any
 /// case, if they are more than ManyStuckQuick.
@@ -117,6 +122,7 @@ inline constexpr double HardlyFewer = 0.99;
 inline constexpr long Hurry = 5;
 /// By level: the most tries of one chunk between two looks at progress (some tenths of a second).
 inline constexpr long Tries[] = { 20000, 10000, 2000, 200, 20 };
+static_assert(std::size(Tries) == Level::Count);
 }
 }
 
