@@ -59,7 +59,8 @@ public:
   const QualityModel<D, Shape>& model() const { return *this->model_; }
   const Switches& switches() const { return *this->switches_; }
   const Surface<D>* surface() const { return this->surface_; }
-  /// Whether nodes of the surface may move, come and go by the operations of free nodes.
+  /// Whether nodes of the surface may move, come and go by the operations of free nodes: where that
+  /// of tetrahedra slides. Nodes on the boundary of triangles do so by BoundaryChange alone.
   bool slides() const { return this->surface_ && this->surface_->judgesChanges(); }
   const Caps<D>* caps() const { return this->caps_; }
 

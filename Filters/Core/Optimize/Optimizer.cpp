@@ -39,7 +39,7 @@ constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
 /// times it are divided again.
 constexpr double AboveWorst = 1.5, PartsBelow = 0.6;
 /// No more divisions if the worst quality then is less than this many times what it was.
-constexpr double LeastGain = 1.02;
+constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 8;
 
 template <int D>
@@ -192,7 +192,7 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
     run.record("divisions undone");
     run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
   }
-  return now > LeastGain * worst;
+  return now > DivisionsGain * worst;
 }
 
 /// Where the surface takes part: if the target is not reached, long edges are divided at the worst

@@ -87,7 +87,8 @@ inline double metricMiddle(double la, double lb)
 }
 
 /// A pseudo-random number in [-1, 1] that depends on the edge only, so that runs are reproducible.
-/// The factors are those of splitmix64: ids that follow each other give unrelated numbers.
+/// The factors are those of splitmix64: ids that follow each other give unrelated numbers. With
+/// scramble() the same meshes would have other nodes.
 inline double noise(Index a, Index b)
 {
   std::uint64_t h = std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);

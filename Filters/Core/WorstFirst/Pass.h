@@ -195,7 +195,7 @@ void Pass<D, Shape>::gather(const Task& task)
     }
     left += judge.growth.left;
     isShort |= judge.growth.isShort;
-    this->result_.kept += tally.kept;
+    this->result_.accepted += tally.accepted;
     this->result_.creeps |= tally.creeps;
     for (int i : { 0, 1 })
     {
