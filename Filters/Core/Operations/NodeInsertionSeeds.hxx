@@ -51,14 +51,8 @@ void NodeInsertion<D, Shape>::findSeeds(
 template <int D, class Shape>
 bool NodeInsertion<D, Shape>::isKeptEdge(const SimplexMesh<D>& mesh, Index c, Index a, Index b)
 {
-  const Simplex<D>& t = mesh.nodes(c);
-  bool isKept = false;
-  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
-  {
-    const Index p = t[Local<D>::edges[e][0]], q = t[Local<D>::edges[e][1]];
-    isKept |= mesh.isEdgeKept(c, e) && ((p == a && q == b) || (p == b && q == a));
-  }
-  return isKept;
+  const int e = mesh.localEdge(c, a, b);
+  return e >= 0 && mesh.isEdgeKept(c, e);
 }
 
 /// Adds the middle of an edge (the last id is None) or of a facet of the surface, if nodes may be
