@@ -30,8 +30,8 @@ constexpr vtkIdType MaximumNumberOfPoints = vtkIdType(1) << 30;
 using meshopt::MaximumNumberOfCells;
 
 /**
- * Dimension of cells by VTK type; types unknown to VTK count as volumes. Each type is asked for only
- * once.
+ * Dimension of cells by VTK type; types unknown to VTK count as volumes. Each type is asked for
+ * only once.
  */
 class CellDimensions
 {

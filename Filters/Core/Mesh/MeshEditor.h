@@ -167,8 +167,9 @@ public:
     }
     return true;
   }
-  /// Whether a border played a part: something was refused since the last resetHeldUp() because another editor owns it or
-  /// because the pool was empty. Such a failure says nothing about the mesh.
+  /// Whether a border played a part: something was refused since the last resetHeldUp(), because
+  /// another editor owns it or because the pool was empty. Such a failure says nothing about the
+  /// mesh.
   bool isHeldUp() const { return this->isHeldUp_; }
   void resetHeldUp() { this->isHeldUp_ = false; }
   void setPointOwner(Index p, Index owner) { this->mesh_->points_[p].owner = owner; }

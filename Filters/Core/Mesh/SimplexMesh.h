@@ -231,8 +231,8 @@ public:
     }
     return -1;
   }
-  /// The facet at the edge (a, b) of cell c that is not facet i; the first one if i is -1. For walks
-  /// around an edge; D = 3 only.
+  /// The facet at the edge (a, b) of cell c that is not facet i; the first one if i is -1. For
+  /// walks around an edge; D = 3 only.
   int otherFacet(Index c, int i, Index a, Index b) const
   {
     const Simplex<D>& t = this->cells_[c].nodes;

@@ -35,8 +35,8 @@ void loadStar(const Judge<D, Shape>& judge, const std::vector<Index>& star, Inde
   }
 }
 
-/// Parts of the way to a better place that are tried, since the surface may refuse the whole: all of
-/// it, a half, a quarter.
+/// Parts of the way to a better place that are tried, since the surface may refuse the whole: all
+/// of it, a half, a quarter.
 inline constexpr int PartsOfTheWay = 3;
 
 template <int D, class Shape>

@@ -42,8 +42,8 @@ inline constexpr int ThriftySteps = 4;
 /// In a mesh of 2 million cells, ten at a time leave the worst at .700 instead of .740.
 inline constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 inline constexpr Index CellsPerPolish = 500000;
-/// Where the worst cell is below the part FarBelowBound of the certified bound, up to MostBelowBound
-/// cells are polished together already on the way to the target.
+/// Where the worst cell is below the part FarBelowBound of the certified bound, up to
+/// MostBelowBound cells are polished together already on the way to the target.
 inline constexpr double FarBelowBound = 0.97;
 inline constexpr std::size_t MostBelowBound = 80;
 /// A round on more than PolishedCells cells, or a cycle of polishing and repair, has gained if the
