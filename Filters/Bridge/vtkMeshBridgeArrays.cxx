@@ -116,6 +116,18 @@ std::string CheckArray(vtkAbstractArray* found, const ArrayRole& role)
       " components; " + DescribeComponents(role);
 }
 
+std::string CheckLength(vtkAbstractArray* array, vtkIdType wanted, const char* kind)
+{
+  if (array->GetNumberOfTuples() == wanted)
+  {
+    return {};
+  }
+  const char* name = array->GetName();
+  return std::string("The ") + kind + " array '" + (name ? name : "(no name)") + "' has " +
+    std::to_string(array->GetNumberOfTuples()) + " values, but the grid has " +
+    std::to_string(wanted) + " " + kind + "s.";
+}
+
 std::string DescribeMissing(const char* name, const ArrayRole& role)
 {
   return std::string("The ") + role.Noun + (name ? " '" + std::string(name) + "'" : "") +

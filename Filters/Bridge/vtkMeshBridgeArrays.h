@@ -6,6 +6,8 @@
 #ifndef vtkMeshBridgeArrays_h
 #define vtkMeshBridgeArrays_h
 
+#include "vtkType.h"
+
 #include <array>
 #include <string>
 
@@ -45,6 +47,12 @@ vtkAbstractArray* FindArray(
  * A sentence if `array` cannot be used in this role; otherwise empty.
  */
 std::string CheckArray(vtkAbstractArray* array, const ArrayRole& role);
+
+/**
+ * A sentence if `array` does not have one value for each of the `wanted` points or cells; `kind`:
+ * "point" or "cell". A broken grid may have such arrays.
+ */
+std::string CheckLength(vtkAbstractArray* array, vtkIdType wanted, const char* kind);
 
 /**
  * The sentence about a chosen array that does not exist. `name` may be nullptr.

@@ -3,6 +3,7 @@
 // file looks for a bad id, a point twice, or a coordinate that is not finite.
 #include "vtkMeshBridgeCells.h"
 
+#include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeGridView.h"
 
 #include "vtkCellData.h"
@@ -29,7 +30,8 @@ constexpr vtkIdType MaximumNumberOfPoints = vtkIdType(1) << 30;
 using meshopt::MaximumNumberOfCells;
 
 /**
- * Dimension of cells by VTK type. Each type is asked for only once.
+ * Dimension of cells by VTK type; types unknown to VTK count as volumes. Each type is asked for
+ * only once.
  */
 class CellDimensions
 {
@@ -41,32 +43,26 @@ public:
     {
       return known->second;
     }
-    this->Cell->SetCellType(type);
-    return this->Known[type] = this->Cell->GetCellDimension();
+    vtkNew<vtkGenericCell> cell; // a new one: that of an unknown type cannot be used again
+    cell->SetCellType(type);
+    return this->Known[type] = cell->GetRepresentativeCell() ? cell->GetCellDimension() : 3;
   }
 
 private:
   std::map<int, int> Known;
-  vtkNew<vtkGenericCell> Cell;
 };
 
 /**
  * Whoever reads arrays later trusts that each has a value for each point or cell.
  */
-std::string CheckArrayLengths(vtkDataSetAttributes* attributes, vtkIdType wanted, const char* kind)
+std::string CheckLengths(vtkDataSetAttributes* attributes, vtkIdType wanted, const char* kind)
 {
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  std::string error;
+  for (int i = 0; i < attributes->GetNumberOfArrays() && error.empty(); ++i)
   {
-    vtkAbstractArray* array = attributes->GetAbstractArray(i);
-    if (array->GetNumberOfTuples() != wanted)
-    {
-      const char* name = array->GetName();
-      return std::string("The ") + kind + " array '" + (name ? name : "(no name)") + "' has " +
-        std::to_string(array->GetNumberOfTuples()) + " values, but the grid has " +
-        std::to_string(wanted) + " " + kind + "s.";
-    }
+    error = CheckLength(attributes->GetAbstractArray(i), wanted, kind);
   }
-  return {};
+  return error;
 }
 
 std::string CheckSizes(vtkUnstructuredGrid* grid)
@@ -76,8 +72,8 @@ std::string CheckSizes(vtkUnstructuredGrid* grid)
   {
     return "The grid has more than 2^30 points or 2^29 cells in one piece.";
   }
-  std::string error = CheckArrayLengths(grid->GetPointData(), grid->GetNumberOfPoints(), "point");
-  return error.empty() ? CheckArrayLengths(grid->GetCellData(), grid->GetNumberOfCells(), "cell")
+  std::string error = CheckLengths(grid->GetPointData(), grid->GetNumberOfPoints(), "point");
+  return error.empty() ? CheckLengths(grid->GetCellData(), grid->GetNumberOfCells(), "cell")
                        : error;
 }
 
@@ -166,24 +162,39 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
 }
 
 /**
- * Tetrahedra are the mesh, whatever is beside them; triangles only if no other cell has a volume.
+ * Whether `is` holds for the type of a cell.
  */
-int FindDimension(vtkUnstructuredGrid* grid)
+template <class Is>
+bool HasType(vtkUnstructuredGrid* grid, Is&& is)
 {
-  CellDimensions dimensions;
-  bool triangles = false, volumes = false, tetrahedra = false;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells() && !tetrahedra; ++c)
+  vtkIdType c = 0;
+  while (c < grid->GetNumberOfCells() && !is(grid->GetCellType(c)))
   {
-    // One tetrahedron decides: triangles beside it are marks on its mesh.
-    const int type = grid->GetCellType(c);
-    tetrahedra = type == VTK_TETRA;
-    triangles |= type == VTK_TRIANGLE;
-    volumes |= dimensions.Get(type) == 3;
+    ++c;
   }
-  return tetrahedra ? 3 : triangles && !volumes ? 2 : 0;
+  return c < grid->GetNumberOfCells();
 }
 
 } // namespace
+
+bool HasVolumes(vtkUnstructuredGrid* grid)
+{
+  CellDimensions dimensions;
+  return HasType(grid, [&](int type) { return dimensions.Get(type) == 3; });
+}
+
+/**
+ * Tetrahedra are the mesh, whatever is beside them: triangles there are marks on it. Triangles are
+ * the mesh only if no other cell has a volume.
+ */
+int FindDimension(vtkUnstructuredGrid* grid)
+{
+  if (HasType(grid, [](int type) { return type == VTK_TETRA; }))
+  {
+    return 3;
+  }
+  return HasType(grid, [](int type) { return type == VTK_TRIANGLE; }) && !HasVolumes(grid) ? 2 : 0;
+}
 
 std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
 {
@@ -233,6 +244,24 @@ std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells)
     cells.NumberOfSurfaceTriangles += cells.Dimension == 0 && type == VTK_TRIANGLE;
     cells.NumberOfQuadraticSimplices += type == VTK_QUADRATIC_TETRA ||
       (type == VTK_QUADRATIC_TRIANGLE && cells.Dimension != 3);
+  }
+  return {};
+}
+
+std::string CheckOnlySimplices(vtkUnstructuredGrid* grid, const Cells& cells)
+{
+  const int simplex = cells.Dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
+  const int least = cells.Dimension == 3 ? 3 : 2;
+  CellDimensions dimensions;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const int type = grid->GetCellType(c);
+    if (type != simplex && dimensions.Get(type) >= least)
+    {
+      return CellName(grid, c) +
+        " is neither a linear triangle nor a linear tetrahedron. Only these can be used. (In "
+        "ParaView, Tetrahedralize splits other cells.)";
+    }
   }
   return {};
 }

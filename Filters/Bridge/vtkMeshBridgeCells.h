@@ -63,11 +63,34 @@ struct Cells
 };
 
 /**
+ * Whether a cell has dimension three. Types unknown to VTK count.
+ */
+bool HasVolumes(vtkUnstructuredGrid* grid);
+
+/**
+ * Cells::Dimension, by the types alone: nothing is checked. A tetrahedron near the front makes it
+ * short.
+ */
+int FindDimension(vtkUnstructuredGrid* grid);
+
+/**
  * Classifies the cells of `grid`. Returns an empty string, or a sentence about the first error: a
  * point id out of range, a simplex that uses a point twice, a coordinate of a simplex that is not
  * finite, an array of the wrong length, or more cells than the core can number.
  */
 std::string ClassifyCells(vtkUnstructuredGrid* grid, Cells& cells);
+
+/**
+ * For filters whose result would be wrong if a part of the body were left out: a sentence about the
+ * first cell of the mesh's dimension that is no linear simplex, or empty. Cells of lower dimension
+ * are marks on the mesh; vertices and lines may lie beside any.
+ */
+std::string CheckOnlySimplices(vtkUnstructuredGrid* grid, const Cells& cells);
+
+/**
+ * What such a filter says if there are cells, but Cells::Dimension is 0.
+ */
+constexpr const char* NoSimplices = "The input has neither triangles nor tetrahedra.";
 
 /**
  * A message of the core. If `cell` has another id in the grid, this id is added.

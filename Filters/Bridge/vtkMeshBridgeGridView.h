@@ -51,6 +51,16 @@ public:
 
   bool Has(vtkIdType cell) const { return this->Flags && (this->Flags[cell] & Skipped) != 0; }
 
+  /**
+   * Whether the cell is hidden, or replaced by finer ones. It is then no mere copy.
+   */
+  bool IsHidden(vtkIdType cell) const
+  {
+    constexpr unsigned char hidden = Skipped &
+      ~static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL);
+    return this->Flags && (this->Flags[cell] & hidden) != 0;
+  }
+
 private:
   const unsigned char* Flags = nullptr;
 };

@@ -16,11 +16,12 @@
  *
  * <b>What is kept.</b> The surface, bit for bit (in 2D: the boundary edges); the faces between
  * regions, see SetRegionArray(); the points of SetFixedPointArray(). With SetBoundaryMode() Slide
- * the first two take part, within a tolerance. The worst quality never falls,
- * so no cell becomes inverted if none was. Inverted and flat cells of the input are repaired where
- * the surface allows it; a warning names those that are left, and the reason. (Their number may
- * rise if the worst becomes less inverted.) Cells that are numbered against their neighbours are
- * renumbered (counted in the field data `NumberOfReorientedCells`).
+ * the first two take part, within a tolerance. The worst quality never falls; where sizes are
+ * followed it may, but not under TargetQuality (see SetBeta()). So no cell becomes inverted if none
+ * was. Inverted and flat cells of the input are repaired where the surface allows it; a warning
+ * names those that are left, and the reason. (Their number may rise if the worst becomes less
+ * inverted.) Cells that are numbered against their neighbours are renumbered (counted in the field
+ * data `NumberOfReorientedCells`).
  *
  * <b>Output port 0: the mesh</b>, of the type of the input. If that is a tree of grids GetOutput()
  * is null: call GetOutputDataObject(0). First come the remaining points of the input in their old
@@ -256,9 +257,9 @@ public:
   /**
    * How much WorstFirst tries. Quick makes single changes, tries more only for the few worst cells,
    * and stops at TargetQuality. Default also tries changes that gain only together, and stops at
-   * TargetQuality, too. Best looks further ahead and continues past TargetQuality, up to .76 or
-   * what the surface allows, until nothing improves the worst cell any more. It takes many times as
-   * long as Default. Default: Default.
+   * TargetQuality, too. Best looks further ahead and continues past TargetQuality, up to .76
+   * (.80 where the surface of tetrahedra slides) or what the surface allows, until nothing improves
+   * the worst cell any more. It takes many times as long as Default. Default: Default.
    */
   vtkSetClampMacro(Effort, int, Quick, Best);
   vtkGetMacro(Effort, int);
@@ -282,7 +283,7 @@ public:
    * is 0, at least 30 tetrahedra or 10 triangles may be added. Range >= 0, default 0.15. A mesh
    * with hardly any interior nodes may need 1: if the budget stops it, the stop reason is
    * GrowthLimit. No more nodes are removed once 12 % of the cells are gone (unless sizes are
-   * followed), but around the few worst ones.
+   * followed), except around the few worst ones.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);
@@ -320,7 +321,7 @@ public:
   ///@{
   /**
    * The treatment of the boundary, including interfaces between regions and the sides of cracks.
-   * Slide needs WorstFirst, and tetrahedra in one piece. Default: Fixed.
+   * Slide needs WorstFirst; tetrahedra must be in one piece. Default: Fixed.
    *
    * Slide, triangles: nodes slide along the curves that the boundary follows, edges on them are
    * split and contracted, and new nodes lie on the curve. Corners stay. The curves come from the

@@ -87,7 +87,7 @@ def run_mesh(path, effort, threads):
 
 
 def disc(rings):
-    """Triangles of a disc whose inner points are thrown about; the same every time."""
+    """Triangles of a disc whose inner points are moved at random; the same every time."""
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import VTK_TRIANGLE, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
     from vtkmodules.vtkFiltersCore import vtkDelaunay2D

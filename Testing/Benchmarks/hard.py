@@ -19,7 +19,7 @@
     --compare FILE       the same runs in an earlier file, side by side
 
 The points are uniform in a cube, a ball or a slab (1 : 1 : .01), near a sphere's surface (.01 of its radius, normally
-distributed), normally distributed in two clusters, and a lattice whose points are thrown by up to that many edges. The
+distributed), normally distributed in two clusters, and a lattice whose points are perturbed by up to that many edges. The
 surface is kept. Cells whose volume is exactly zero are left out and counted; all others get a positive volume by their
 numbering.
 

@@ -5,7 +5,7 @@
     /usr/bin/python3 Testing/Benchmarks/large.py [--cubes N] [--throw X] [--threads N ...] [--effort NAME]
 
     --cubes N       along each side, six tetrahedra in each (default: 120, which are 10.4 million; N < 5 is too small)
-    --throw X       inner nodes are thrown by up to X of a cube's side in each direction (default: 0.3)
+    --throw X       inner nodes are moved at random by up to X of a cube's side in each direction (default: 0.3)
     --threads N ... default: 1 2
     --effort NAME   quick, default or best (default: default)
 

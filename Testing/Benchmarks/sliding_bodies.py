@@ -8,7 +8,7 @@
     --effort quick|default|best   default: default
     --growth G             growth budget, default .15
     --limit SECONDS        time limit of one run, default 30
-    --seed N               of the thrown nodes, default 0
+    --seed N               of the perturbed nodes, default 0
     --judge FOLDER         with check_surface.py and check_patches.py
     --output FOLDER        where the meshes are written (default: a temporary one)
 
@@ -79,7 +79,7 @@ def split(occ, body, tools):
     return keep
 
 
-# name: (solid, triangles, thrown by how much of the shortest edge)
+# name: (solid, triangles, perturbed by how much of the shortest edge)
 BODIES = {"sectors": (sectors, 900, 0.0), "sectors-thrown": (sectors, 900, 0.1), "lens": (lens, 900, 0.0), "lens-thrown": (lens, 900, 0.1),
           "crack": (crack, 900, 0.0), "crack-thrown": (crack, 900, 0.05), "curved": (curved, 900, 0.0), "curved-thrown": (curved, 900, 0.05),
           "plate": (plate, 900, 0.0), "plate-thrown": (plate, 900, 1e-4), "shell": (plate, 900, 0.0), "heated": (heated, 900, 0.0),

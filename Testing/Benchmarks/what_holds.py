@@ -63,7 +63,7 @@ def angle_between(u, v):
 
 
 def groups_of(cells):
-    """Lists of cells (by number) that hang together by nodes."""
+    """Lists of cells (by number) that are connected by nodes."""
     owner = list(range(len(cells)))
 
     def root(k):

@@ -49,7 +49,7 @@ template <int D>
 void check(const Result<D>& run, long euler, const Options& o)
 {
   expectSound(run.mesh);
-  EXPECT_EQ(run.mesh.eulerCharacteristic(), euler);
+  EXPECT_EQ(eulerCharacteristic(run.mesh), euler);
   EXPECT_EQ(run.report.invertedAfter, 0);
   EXPECT_GE(run.report.worstAfter, std::min(run.report.worstBefore, o.targetQuality));
   EXPECT_EQ(run.report.worstAfter, sortedQualities(run.mesh).front());
@@ -71,7 +71,7 @@ Result<D> optimized(const MeshInput<D>& in, const NodalMetric<D>& metric, const 
   Result<D> run;
   run.mesh = buildMesh(in);
   run.metric = metric;
-  const long euler = run.mesh.eulerCharacteristic();
+  const long euler = eulerCharacteristic(run.mesh);
   if constexpr (D == 2)
   {
     if (slide)
@@ -109,9 +109,9 @@ Result<D> optimized(const MeshInput<D>& in, const NodalMetric<D>& metric, const 
   return run;
 }
 
-/// Sizes at the points of `in` as f says.
+/// Sizes at the points of `in` as f says; `tensors`: one per point, or none.
 template <int D, class F>
-NodalMetric<D> sizesAt(const MeshInput<D>& in, F&& f)
+NodalMetric<D> sizesAt(const MeshInput<D>& in, F&& f, const std::vector<Tensor<D>>& tensors = {})
 {
   std::vector<double> sizes;
   for (const Vec<D>& x : in.points)
@@ -119,15 +119,16 @@ NodalMetric<D> sizesAt(const MeshInput<D>& in, F&& f)
     sizes.push_back(f(x));
   }
   NodalMetric<D> metric;
-  EXPECT_EQ(metric.set(buildMesh(in), sizes, {}), "");
+  EXPECT_EQ(metric.set(buildMesh(in), sizes, tensors), "");
   return metric;
 }
 
+/// The tensor m at all points of `in`.
 template <int D>
-NodalMetric<D> constantMetric(const Tensor<D>& m, double h)
+NodalMetric<D> constantMetric(const MeshInput<D>& in, const Tensor<D>& m, double h)
 {
   NodalMetric<D> metric(h);
-  EXPECT_EQ(metric.setConstant(m), "");
+  EXPECT_EQ(metric.set(buildMesh(in), {}, std::vector<Tensor<D>>(in.points.size(), m)), "");
   return metric;
 }
 }

@@ -3,6 +3,7 @@
 #ifndef meshopt_Testing_TestMeshes_h
 #define meshopt_Testing_TestMeshes_h
 
+#include "Mesh/EulerCharacteristic.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <gtest/gtest.h>
@@ -37,6 +38,21 @@ public:
 private:
   std::mt19937 engine_;
 };
+
+/// That of the live cells; the adjacency, which may be wrong, is not used.
+template <int D>
+long eulerCharacteristic(const SimplexMesh<D>& mesh)
+{
+  std::vector<Simplex<D>> cells;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+  {
+    if (mesh.isAlive(c))
+    {
+      cells.push_back(mesh.nodes(c));
+    }
+  }
+  return eulerCharacteristic<D>(cells);
+}
 
 /// The unit square (2 triangles a square) or cube (6 tetrahedra a cube) of n^D boxes; interior
 /// points are displaced by up to `jitter` box sizes in each coordinate. Beyond some .3 elements get

@@ -340,7 +340,8 @@ TEST(SolutionMetricFilterBadInput, CellsMustBeTrianglesOrTetrahedra)
 {
   Grid mixed = MakeBox(3, 0.1);
   AddCell(mixed, VTK_HEXAHEDRON, { 0, 1, 5, 4, 16, 17, 21, 20 });
-  ExpectError(WithField(mixed, Layer), { "Cell 162", "vtkHexahedron", "split" }); // 6 * 3^3
+  ExpectError(
+    WithField(mixed, Layer), { "Cell 162", "vtkHexahedron", "Tetrahedralize" }); // 6 * 3^3
   Grid quads = MakeGrid({ Flat(0, 0), Flat(1, 0), Flat(1, 1), Flat(0, 1) });
   AddCell(quads, VTK_QUAD, { 0, 1, 2, 3 });
   ExpectError(WithField(quads, Layer), { "Cell 0", "vtkQuad" });

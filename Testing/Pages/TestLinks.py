@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pages hang together: links lead somewhere, files they name exist, README.md is short. A test.
+"""The pages are consistent: links lead somewhere, files they name exist, README.md is short. A test.
 
     python3 Testing/Pages/TestLinks.py
 

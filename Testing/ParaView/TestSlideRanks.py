@@ -16,7 +16,7 @@ LINES, SPLINE = vtkMeshOptimizeFilter.Straight, vtkMeshOptimizeFilter.BSpline
 
 
 class Plane:
-    """A square or a ring of triangles, in a tilted plane. Nodes on its boundary and on the interface are thrown along it."""
+    """A square or a ring of triangles, in a tilted plane. Nodes on its boundary and on the interface are moved along it at random."""
 
     def __init__(self, kind, n=16, throw=0.42):
         random = np.random.default_rng(7)
@@ -26,7 +26,7 @@ class Plane:
         node = np.stack([i // (n + 1), i % (n + 1)], 1)
         at = node / [m, n]
         at += random.uniform(-throw, throw, at.shape) / [m, n]
-        for side in (0, 1, 0.5):  # thrown along it; corners of the square stay
+        for side in (0, 1, 0.5):  # moved along it; corners of the square stay
             on = node[:, 1] == side * n
             at[on, 1] = side
             if kind == "square":

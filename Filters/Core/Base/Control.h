@@ -14,7 +14,7 @@ namespace meshopt
 using Deadline = std::chrono::steady_clock::time_point;
 inline constexpr Deadline NoDeadline = Deadline::max();
 
-/// So many seconds from now. None if they are not positive, or more than a clock can count.
+/// The time in `seconds` from now; NoDeadline if they are not positive, or above 1e9.
 inline Deadline deadlineIn(double seconds)
 {
   constexpr double most = 1e9; // thirty years

@@ -7,8 +7,8 @@
 ///  - quality: the new cells are better than Proposal::least. For operations of the fast engine,
 ///    demand() sets this to the worst quality of the cavity plus gain(). The sorted vector of all
 ///    qualities then rises lexicographically, so that no cycle is possible;
-///  - topology, only if cells may overlap, since geometry then says nothing: the new cells fill the
-///    cavity and meet the rest of the mesh in its boundary only (CavityFit.h). Kept edges stay;
+///  - topology: kept edges stay. And where cells may overlap, since geometry then says nothing, the
+///    new cells fill the cavity and meet the rest of the mesh in its boundary only (CavityFit.h);
 ///  - surface: where it takes part in space, it stays as near to what it was as it must, and no
 ///    cell there is inverted;
 ///  - growth: the budget allows the additional cells;
@@ -59,18 +59,20 @@ public:
   const QualityModel<D, Shape>& model() const { return *this->model_; }
   const Switches& switches() const { return *this->switches_; }
   const Surface<D>* surface() const { return this->surface_; }
-  /// Whether nodes of the surface may move, come and go by the operations of free nodes.
+  /// Whether nodes of the surface may move, come and go by the operations of free nodes: where that
+  /// of tetrahedra slides. Nodes on the boundary of triangles do so by BoundaryChange alone.
   bool slides() const { return this->surface_ && this->surface_->judgesChanges(); }
   const Caps<D>* caps() const { return this->caps_; }
 
   // --- requirements
-  /// The least gain over a worst quality q that makes a change worthwhile. It is smaller if all
-  /// qualities are tiny, where wide insertions are tried down to what rounding allows; and, down to
-  /// a tenth of it, where less reaches the target. Not in a metric: there each change costs more,
-  /// and the many small ones ended lower.
+  /// The least gain over a worst quality q that makes a change worthwhile. Smaller where all
+  /// qualities are tiny (with wide insertions down to 1e-8 of it: what rounding allows), and where
+  /// a smaller gain reaches the target (down to a tenth). In a metric the target does not count:
+  /// there each change costs more, and the many small ones ended lower.
   double gain(double q) const
   {
     constexpr double nearTarget = 0.1; // of the least gain
+    // Of the least gain, too. The second is above what qualities are off by rounding.
     const double ofTiny = this->wide_ == None ? 1e-4 : 1e-8;
     const double near = std::max(nearTarget * this->gain_, this->target_ - q);
     const double least = this->model_->plain ? std::min(this->gain_, near) : this->gain_;
@@ -103,7 +105,7 @@ public:
     constexpr double margin = 0.02; // above the target
     return std::max(this->target_ + margin, q + 2 * this->gain(q));
   }
-  /// Before work for a change that would add so many cells: whether the budget has room. If not,
+  /// Before work for a change that would add `cells`: whether the budget has room. If not,
   /// this is noted for the report.
   bool mayAddCells(long cells) { return this->growth.allows(cells); }
   bool mayRemoveNodes() const { return this->switches_->removeNodes && this->growth.mayShrink(); }

@@ -31,7 +31,7 @@ struct Proposal
   std::vector<Simplex<D>> cells; ///< the new cells
   std::vector<double> qualities; ///< final qualities of the cells, if already known; else empty
   std::vector<Move> moves;
-  KeptChange<D> kept; ///< regions: always used; the rest: only if changesKept
+  KeptChange<D> kept; ///< used only if changesKept
   bool changesKept = false;
 
   double oldWorst = 0.0;      ///< least quality in the cavity

@@ -128,15 +128,8 @@ private:
     const auto cross = [&]
     {
       const Index h = mesh.adjacent(current, exit);
-      const Index next = mesh.cellOf(h);
-      int other = 0; // the other facet of the next cell at the edge
-      while (other == mesh.facetOf(h) || mesh.nodes(next)[other] == edge[0] ||
-        mesh.nodes(next)[other] == edge[1])
-      {
-        ++other;
-      }
-      current = next;
-      exit = other;
+      current = mesh.cellOf(h);
+      exit = mesh.otherFacet(current, mesh.facetOf(h), edge[0], edge[1]);
     };
     const auto cosine = [&]
     {

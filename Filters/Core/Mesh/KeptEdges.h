@@ -21,18 +21,15 @@ bool enclosesKeptEdge(const SimplexMesh<D>& mesh, Index c, const Contains& conta
       continue;
     }
     const Index a = mesh.nodes(c)[Local<D>::edges[e][0]], b = mesh.nodes(c)[Local<D>::edges[e][1]];
-    // from cell to cell around the edge; `back` is the facet by which `current` was entered
-    Index current = c, back = None;
+    // from cell to cell around the edge; `entry` is the facet by which `current` was entered
+    Index current = c;
+    int entry = -1;
     do
     {
-      int exit = 0;
-      while (mesh.nodes(current)[exit] == a || mesh.nodes(current)[exit] == b ||
-        mesh.handle(current, exit) == back)
-      {
-        ++exit;
-      }
-      back = mesh.isKept(current, exit) ? None : mesh.adjacent(current, exit);
-      current = back == None ? None : mesh.cellOf(back);
+      const int exit = mesh.otherFacet(current, entry, a, b);
+      const Index h = mesh.isKept(current, exit) ? None : mesh.adjacent(current, exit);
+      current = h == None ? None : mesh.cellOf(h);
+      entry = h == None ? -1 : mesh.facetOf(h);
     } while (current != None && current != c && contains(current));
     if (current == c)
     {

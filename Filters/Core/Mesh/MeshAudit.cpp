@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The audit: checks all invariants of a SimplexMesh, without trusting any of its data.
-#include "Mesh/EulerCharacteristic.h"
 #include "Mesh/Ids.h"
 #include "Mesh/SimplexMesh.h"
 
@@ -183,23 +182,6 @@ std::vector<std::string> SimplexMesh<D>::audit(bool requirePositive) const
   return audit.faults;
 }
 
-/// Counted anew from the cells: the adjacency, which may be wrong, is not used.
-template <int D>
-long SimplexMesh<D>::eulerCharacteristic() const
-{
-  std::vector<Simplex<D>> cells;
-  for (Index c = 0; c < this->numberOfCellSlots(); ++c)
-  {
-    if (this->isAlive(c))
-    {
-      cells.push_back(this->nodes(c));
-    }
-  }
-  return meshopt::eulerCharacteristic<D>(cells);
-}
-
 template std::vector<std::string> SimplexMesh<2>::audit(bool) const;
 template std::vector<std::string> SimplexMesh<3>::audit(bool) const;
-template long SimplexMesh<2>::eulerCharacteristic() const;
-template long SimplexMesh<3>::eulerCharacteristic() const;
 }

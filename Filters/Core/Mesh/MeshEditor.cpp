@@ -122,7 +122,7 @@ bool MeshEditor<D>::reserveCells(std::size_t n)
 {
   const bool room = n <= this->freeCells_.size() || this->owner_ == None;
   // Such a failure is due to the pool, not to the mesh.
-  this->blocked_ |= !room;
+  this->isHeldUp_ |= !room;
   return room;
 }
 
@@ -187,7 +187,7 @@ Index MeshEditor<D>::takePoint()
   }
   if (this->owner_ != None)
   {
-    this->blocked_ = true;
+    this->isHeldUp_ = true;
     return None;
   }
   this->mesh_->points_.emplace_back();
@@ -452,7 +452,7 @@ bool MeshEditor<D>::star(Index p, std::vector<Index>& star)
   star.clear();
   if (this->owner_ != None && mesh.points_[p].owner != this->owner_)
   {
-    this->blocked_ = true;
+    this->isHeldUp_ = true;
     return false; // the point's cell may be changing at this moment
   }
   star.push_back(mesh.points_[p].cell);

@@ -161,16 +161,17 @@ public:
     {
       if (this->mesh_->points_[p].owner != this->owner_)
       {
-        this->blocked_ = true;
+        this->isHeldUp_ = true;
         return false;
       }
     }
     return true;
   }
-  /// True if something was refused since the last resetBlocked() because another editor owns it or
-  /// because the pool was empty. Such a failure says nothing about the mesh.
-  bool blocked() const { return this->blocked_; }
-  void resetBlocked() { this->blocked_ = false; }
+  /// Whether a border played a part: something was refused since the last resetHeldUp(), because
+  /// another editor owns it or because the pool was empty. Such a failure says nothing about the
+  /// mesh.
+  bool isHeldUp() const { return this->isHeldUp_; }
+  void resetHeldUp() { this->isHeldUp_ = false; }
   void setPointOwner(Index p, Index owner) { this->mesh_->points_[p].owner = owner; }
   /// Dead slots that this editor may use; it takes them from the back.
   std::vector<Index>& freeCells() { return this->freeCells_; }
@@ -266,7 +267,7 @@ private:
   Mesh* mesh_ = nullptr;
   std::vector<PointAttachment<D>*> attachments_;
   Index owner_ = None;
-  mutable bool blocked_ = false;
+  mutable bool isHeldUp_ = false;
   std::uint32_t clock_ = 0;
   std::uint32_t mark_ = 0;
   std::vector<Index> freeCells_, freePoints_;

@@ -100,17 +100,7 @@ bool SimplexMesh<D>::ring(Index c, [[maybe_unused]] Index a, [[maybe_unused]] In
           return !crossed;
         }
         ring.push_back(nextCell);
-        // leave through the facet opposite to the node that is neither a, b nor the new one
-        const int entry = facetOf(h);
-        for (int i = 0; i < 4; ++i)
-        {
-          const Index p = this->cells_[nextCell].nodes[i];
-          if (i != entry && p != a && p != b)
-          {
-            exit = i;
-            break;
-          }
-        }
+        exit = this->otherFacet(nextCell, facetOf(h), a, b);
         current = nextCell;
       }
       if (way == 0)

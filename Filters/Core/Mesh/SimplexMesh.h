@@ -217,6 +217,32 @@ public:
     }
     return -1;
   }
+  /// Local number of the edge (a, b) of cell c as in Local<D>::edgeFirst, or -1.
+  int localEdge(Index c, Index a, Index b) const
+  {
+    const Simplex<D>& t = this->cells_[c].nodes;
+    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    {
+      const Index p = t[Local<D>::edgeFirst[e][0]], q = t[Local<D>::edgeFirst[e][1]];
+      if ((p == a && q == b) || (p == b && q == a))
+      {
+        return e;
+      }
+    }
+    return -1;
+  }
+  /// The facet at the edge (a, b) of cell c that is not facet i; the first one if i is -1. For
+  /// walks around an edge; D = 3 only.
+  int otherFacet(Index c, int i, Index a, Index b) const
+  {
+    const Simplex<D>& t = this->cells_[c].nodes;
+    int other = 0;
+    while (other == i || t[other] == a || t[other] == b)
+    {
+      ++other;
+    }
+    return other;
+  }
 
   // --- points
   const Vec<D>& point(Index p) const { return this->points_[p].x; }
@@ -254,9 +280,6 @@ public:
 
   /// Sum of signed volumes (areas) of the live cells.
   double volume() const;
-
-  /// V - E + F - C of the live mesh (D = 3), V - E + C (D = 2).
-  long eulerCharacteristic() const;
 
 private:
   template <int>

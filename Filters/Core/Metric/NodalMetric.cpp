@@ -6,8 +6,6 @@
 #include "Metric/MetricVolume.h"
 #include "Metric/TensorFunctions.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -87,21 +85,6 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
   // One copy stays as given. The other follows the points of the mesh.
   this->backgroundValues_ = values;
   this->values_ = std::move(values);
-  return std::string();
-}
-
-template <int D>
-std::string NodalMetric<D>::setConstant(const Tensor<D>& tensor)
-{
-  Tensor<D> l;
-  // The logarithm is also the test: it exists for positive definite tensors only.
-  if (!logarithm<D>(tensor, l))
-  {
-    return "The metric tensor is not symmetric, finite and positive definite.";
-  }
-  this->hasConstant_ = true;
-  // The root of the tensor: the length of e in the metric is |map e|.
-  this->constantMap_ = exponential<D>((0.5 * l).eval());
   return std::string();
 }
 
@@ -219,11 +202,6 @@ Tensor<D> NodalMetric<D>::unitTensor(Index p) const
   {
     m = exponential<D>(this->values_[p].logTensor);
   }
-  else if (this->hasConstant_)
-  {
-    // Only the root is stored, since elements are measured by it.
-    m = this->constantMap_ * this->constantMap_;
-  }
   if (!this->hasSizes_ && this->constantSize_ > 0.0) // exact if possible
   {
     return m / (this->constantSize_ * this->constantSize_);
@@ -242,9 +220,7 @@ double NodalMetric<D>::predictedNumberOfElements(const SimplexMesh<D>& mesh) con
     if (mesh.isPointAlive(p))
     {
       // The logarithm of a determinant is the trace of the logarithm.
-      const double trace = this->hasTensors_ ? this->values_[p].logTensor.trace()
-        : this->hasConstant_                 ? 2.0 * std::log(this->constantMap_.determinant())
-                                             : 0.0;
+      const double trace = this->hasTensors_ ? this->values_[p].logTensor.trace() : 0.0;
       halfLogDeterminants[p] = 0.5 * trace - (this->hasSizes_ ? D * this->logSize(p) : 0.0);
     }
   }
@@ -284,11 +260,6 @@ void NodalMetric<D>::fill(const Simplex<D>& nodes, ElementMetric<D>& m) const
     m.euclidean = false;
     // Half of the mean: the map is the root of the tensor.
     m.map = exponential<D>((sum * (0.5 / (D + 1))).eval());
-  }
-  else if (this->hasConstant_)
-  {
-    m.euclidean = false;
-    m.map = this->constantMap_;
   }
 }
 

@@ -52,10 +52,7 @@ public:
   std::string set(const SimplexMesh<D>& background, const std::vector<double>& sizes,
     const std::vector<Tensor<D>>& tensors, NodalValues* blamed = nullptr);
 
-  /// Sets one tensor for all points; errors as for set().
-  std::string setConstant(const Tensor<D>& tensor);
-
-  bool isTrivial() const { return this->values_.empty() && !this->hasConstant_; }
+  bool isTrivial() const { return this->values_.empty(); }
   bool hasSizes() const { return this->hasSizes_; }
 
   /// Samples the background at x and stores the values for point p (moved or new). Does nothing if
@@ -112,10 +109,8 @@ private:
   double constantSize_ = 0.0;
   bool hasSizes_ = false;
   bool hasTensors_ = false;
-  bool hasConstant_ = false;
-  Tensor<D> constantMap_ = Tensor<D>::Identity(); ///< M^(1/2)
-  std::vector<Sample> values_;                    ///< per point of the optimized mesh
-  std::vector<Sample> backgroundValues_;          ///< per point of the background
+  std::vector<Sample> values_;           ///< per point of the optimized mesh
+  std::vector<Sample> backgroundValues_; ///< per point of the background
   std::shared_ptr<const Background<D>> background_;
   std::shared_ptr<const SizeFloor<D>> floor_; ///< null: none
 };

@@ -175,7 +175,9 @@ private:
   /// judge then looks at the other cells of the edge.
   bool split(Judge<D, Shape>& judge, Index t, int e)
   {
-    constexpr long comes = D == 2 ? 2 : 6; // cells that it may add; the judge counts them exactly
+    // One for each cell around the edge: two in the plane, about six in space. The judge counts
+    // them exactly.
+    constexpr long comes = D == 2 ? 2 : 6;
     const SimplexMesh<D>& mesh = judge.mesh();
     const auto& local = Local<D>::edgeFirst[e];
     const Index a = mesh.nodes(t)[local[0]], b = mesh.nodes(t)[local[1]];

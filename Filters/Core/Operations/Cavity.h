@@ -12,7 +12,7 @@
 /// star-shaped around the node. O(k log k) for k cells.
 ///
 /// A node of the surface lies in kept facets or at an edge of the surface (Opening). Facets of its
-/// patches that hang together with these are opened, too: they are not joined to the node, but
+/// patches that are connected with these are opened, too: they are not joined to the node, but
 /// vanish, and what is left of them is joined to it as new facets of the surface.
 #ifndef meshopt_Operations_Cavity_h
 #define meshopt_Operations_Cavity_h
@@ -27,7 +27,7 @@
 
 namespace meshopt
 {
-/// How far a Cavity may grow.
+/// How far a Cavity may grow. The numbers bound what a try costs when it fails.
 struct CavityLimits
 {
   int cells = 80;    ///< greatest number of cells taken in
@@ -187,7 +187,7 @@ bool Cavity<D, Shape>::isWall(const MeshEditor<D>& editor, Index c, int i) const
     !editor.owns(editor.mesh().cellOf(h));
 }
 
-/// Opens kept facet i of cell c if the new node lies in it, or at its edge, or if it hangs together
+/// Opens kept facet i of cell c if the new node lies in it, or at its edge, or if it is connected
 /// with an open facet over an edge that is not kept. Returns whether it is open.
 template <int D, class Shape>
 bool Cavity<D, Shape>::opens(const SimplexMesh<D>& mesh, Index c, int i)

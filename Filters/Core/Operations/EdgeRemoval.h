@@ -32,6 +32,8 @@ template <int D, class Shape>
 class EdgeRemoval
 {
 public:
+  /// Larger rings are left alone: time grows with the cube, and a ring has about five cells on
+  /// average.
   static constexpr int MaximumRing = 12;
 
   /// Tries to remove edge e (local number) of cell t. Returns the worst quality of the best
@@ -208,13 +210,7 @@ bool EdgeRemoval<D, Shape>::gatherOther(
     this->other_ = std::make_unique<EdgeRemoval>();
     this->other_->isSecond_ = true;
   }
-  int e = 0;
-  const Simplex<D>& t = editor.mesh().nodes(first);
-  while (std::minmax(t[Local<D>::edges[e][0]], t[Local<D>::edges[e][1]]) !=
-    std::minmax(this->low_, this->high_))
-  {
-    ++e;
-  }
+  const int e = editor.mesh().localEdge(first, this->low_, this->high_);
   if (!editor.owns(first) || !this->other_->gather(editor, first, e, &surface))
   {
     return false;

@@ -33,14 +33,7 @@ bool cellsAround(
   const MeshEditor<3>& editor, Index t, Index a, Index b, std::vector<Index>& cells, bool& isKept)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
-  int edge = 0;
-  while (!((mesh.nodes(t)[Local<3>::edges[edge][0]] == a &&
-             mesh.nodes(t)[Local<3>::edges[edge][1]] == b) ||
-    (mesh.nodes(t)[Local<3>::edges[edge][0]] == b && mesh.nodes(t)[Local<3>::edges[edge][1]] == a)))
-  {
-    ++edge;
-  }
-  isKept = mesh.isEdgeKeptByItself(t, edge);
+  isKept = mesh.isEdgeKeptByItself(t, mesh.localEdge(t, a, b));
   if (!mesh.ring(t, a, b, false, cells))
   {
     // The ring ends at a kept facet: the edge lies in it. Collect the cells on all sides.
@@ -75,15 +68,10 @@ void divideKept(const SimplexMesh<D>& mesh, Index a, Index b, Index m, Proposal<
   {
     // All cells around an edge agree on whether it is kept: the first one is asked.
     p.kept.goneEdges.push_back({ a, b });
-    for (int e = 0; e < Local<D>::numberOfEdges; ++e)
+    if (mesh.isEdgeKeptByItself(p.cavity[0], mesh.localEdge(p.cavity[0], a, b)))
     {
-      const Simplex<D>& t = mesh.nodes(p.cavity[0]);
-      const std::array<Index, 2> edge{ t[Local<D>::edges[e][0]], t[Local<D>::edges[e][1]] };
-      if (mesh.isEdgeKeptByItself(p.cavity[0], e) && hasId(edge, a) && hasId(edge, b))
-      {
-        p.kept.comeEdges.push_back({ a, m });
-        p.kept.comeEdges.push_back({ m, b });
-      }
+      p.kept.comeEdges.push_back({ a, m });
+      p.kept.comeEdges.push_back({ m, b });
     }
   }
 }

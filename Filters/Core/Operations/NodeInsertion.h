@@ -89,7 +89,6 @@ private:
     limits.swallowed = judge.mayRemoveNodes() ? limits.swallowed : 0;
     return limits;
   }
-  static bool isKeptEdge(const SimplexMesh<D>& mesh, Index c, Index a, Index b);
   static void addSurfaceSeed(const Judge<D, Shape>& judge, const std::array<Index, 3>& ids,
     const std::vector<Index>& cells, bool narrow, std::vector<Seed>& seeds);
   double grow(Judge<D, Shape>& judge, Index t, Index p, const Seed& seed);

@@ -47,20 +47,6 @@ void NodeInsertion<D, Shape>::findSeeds(
   }
 }
 
-/// Whether cell c has the edge ab, and it is kept.
-template <int D, class Shape>
-bool NodeInsertion<D, Shape>::isKeptEdge(const SimplexMesh<D>& mesh, Index c, Index a, Index b)
-{
-  const Simplex<D>& t = mesh.nodes(c);
-  bool isKept = false;
-  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
-  {
-    const Index p = t[Local<D>::edges[e][0]], q = t[Local<D>::edges[e][1]];
-    isKept |= mesh.isEdgeKept(c, e) && ((p == a && q == b) || (p == b && q == a));
-  }
-  return isKept;
-}
-
 /// Adds the middle of an edge (the last id is None) or of a facet of the surface, if nodes may be
 /// added there. `cells`: all that have it.
 template <int D, class Shape>
@@ -84,9 +70,11 @@ void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
       }
     }
   }
+  // A facet between two regions comes from both sides.
   std::vector<Index>& patches = seed.opening.patches;
   std::sort(patches.begin(), patches.end());
   patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  // What the caller locked belongs to no patch: None comes first.
   if (patches.empty() || patches[0] == None)
   {
     return;
@@ -102,7 +90,8 @@ void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
   {
     now = (mesh.point(ids[0]) + mesh.point(ids[1]) + mesh.point(ids[2])) / 3.0;
   }
-  if (!isFacet && isKeptEdge(mesh, cells[0], ids[0], ids[1]))
+  // A kept edge lies on a curve; all its cells agree on that, so one is asked.
+  if (!isFacet && mesh.isEdgeKept(cells[0], mesh.localEdge(cells[0], ids[0], ids[1])))
   {
     const auto span = judge.surface()->span(mesh, ids[0], ids[1]);
     seed.place = { Freedom::Curve, span->part, 0.5 * (span->from + span->to) };
@@ -144,6 +133,8 @@ void NodeInsertion<D, Shape>::findAllSeeds(
     for (const auto& e : Local<3>::edges)
     {
       const Index a = mesh.nodes(t)[e[0]], b = mesh.nodes(t)[e[1]];
+      // The ring of an edge of the surface is open, or crosses an interface. The ends are asked
+      // first: that is cheaper than to walk around.
       if (mesh.isBoundary(a) && mesh.isBoundary(b) && !mesh.ring(t, a, b, false, cells))
       {
         mesh.ring(t, a, b, true, cells);

@@ -35,6 +35,10 @@ void loadStar(const Judge<D, Shape>& judge, const std::vector<Index>& star, Inde
   }
 }
 
+/// Parts of the way to a better place that are tried, since the surface may refuse the whole: all
+/// of it, a half, a quarter.
+inline constexpr int PartsOfTheWay = 3;
+
 template <int D, class Shape>
 class NodeMotion
 {
@@ -120,7 +124,6 @@ private:
   /// Then to the surface; if that goes too far, half of the way, or a quarter.
   bool slideAlong(Judge<D, Shape>& judge, Index v, const Directions<D>& directions)
   {
-    constexpr int tries = 3;
     const double old = judge.mesh().worstQuality(this->proposal_.cavity);
     const Vec<D> from = judge.mesh().point(v);
     Vec<D> to = from;
@@ -129,7 +132,7 @@ private:
     const bool mayGain = this->problem_.maximize(to, judge.goal(old)) > judge.required(old);
     double part = 1.0;
     bool done = false;
-    for (int k = 0; k < tries && mayGain && !done; ++k, part *= 0.5)
+    for (int k = 0; k < PartsOfTheWay && mayGain && !done; ++k, part *= 0.5)
     {
       Vec<D> x = from + part * (to - from);
       const Place place = judge.surface()->project(judge.mesh().place(v), x, x);

@@ -9,7 +9,9 @@
 
 namespace meshopt
 {
-/// The link of the node is collected once. Each neighbour is then only joined with its facets.
+/// The link of the node is collected once. Each neighbour is then only joined with its facets, and
+/// most are refused at the first of them. Not by proposeContraction(): it is for one neighbour,
+/// also on the surface, and would collect the star and all cells anew for each.
 template <int D, class Shape>
 class NodeRemoval
 {

@@ -35,7 +35,9 @@ class PolyhedronSearch
 {
 public:
   static constexpr int MaximumPoints = PointSigns::Maximum;
-  static constexpr int MaximumFacets = 126; ///< of the boundary, and of any front
+  /// Of the boundary, and of any front. A sphere with the most points has 60 facets; a front may
+  /// consist of several parts.
+  static constexpr int MaximumFacets = 126;
   static constexpr double Never = -std::numeric_limits<double>::infinity();
 
   /// Numbers of the nodes of a facet. The tetrahedron (facet, inner point) is positive.
@@ -91,6 +93,7 @@ public:
 private:
   using Mask = PointSigns::Mask;
   static constexpr int Pairs = MaximumPoints * (MaximumPoints - 1) / 2;
+  /// Tetrahedra of a filling: one State is kept for each. A search that needs more ends there.
   static constexpr int MaximumDepth = 128;
 
   /// An open facet: (a, b, c, p) is positive for points p on the side still to be filled.

@@ -76,10 +76,6 @@ public:
   /// Replaces FirstNew - k by ids[k] in cells().
   void nameNewPoints(const std::vector<Index>& ids);
 
-  /// Number of searches of the last propose(), and of their steps.
-  int searches() const { return this->searches_; }
-  long steps() const { return this->steps_; }
-
 private:
   static constexpr double Never = -std::numeric_limits<double>::infinity();
   static constexpr int MaximumPoints = PolyhedronSearch::MaximumPoints;
@@ -122,8 +118,7 @@ private:
   const QualityModel<3, Shape>* model_ = nullptr;
   PolyhedronLimits limits_;
   PolyhedronSearch search_;
-  int searches_ = 0;
-  long steps_ = 0;
+  int searches_ = 0; ///< of this propose()
 
   LocalNumbers meshPoints_, taken_;    // nodes of the mesh; cells
   std::vector<std::uint8_t> numberOf_; // by meshPoints_: number of the point

@@ -16,7 +16,6 @@ void SmallPolyhedron<Shape>::start(
   // With a metric or sizes, qualities need ids of the mesh, which offered points do not have.
   this->limits_.newPoints = model.plain ? limits.newPoints : 0;
   this->searches_ = 0;
-  this->steps_ = 0;
   this->search_.clear();
   this->meshPoints_.clear();
   this->taken_.clear();
@@ -342,7 +341,6 @@ double SmallPolyhedron<Shape>::fill(double above)
   this->rate();
   const double q = this->search_.search(above, this->limits_.steps);
   ++this->searches_;
-  this->steps_ += this->search_.steps();
   return q;
 }
 

@@ -35,7 +35,6 @@ private:
   /// To the best place; if that goes too far for the surface, half of the way, or a quarter.
   bool move(Judge<D, Shape>& judge, Index v)
   {
-    constexpr int tries = 3;
     const SimplexMesh<D>& mesh = judge.mesh();
     this->proposal_.clear();
     std::vector<Index>& star = this->proposal_.cavity;
@@ -53,7 +52,7 @@ private:
     // Parts of the way that the tolerance allows: parts of a longer way could all end at the same
     // place, which has no tolerance left for the edges there.
     judge.surface()->placeNear(mesh.place(v), to, to);
-    for (int k = 0; k < tries && mayGain && !done; ++k, part *= 0.5)
+    for (int k = 0; k < PartsOfTheWay && mayGain && !done; ++k, part *= 0.5)
     {
       Vec<D> x = from + part * (to - from);
       const Place place = judge.surface()->placeNear(mesh.place(v), x, x);

@@ -35,12 +35,12 @@ constexpr double FromRidges = 0.5;
 /// and what divisions may. Found on ten surfaces of CGAL, as the next two: with halves of the
 /// growth the worst qualities were a fifth to a third lower.
 constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
-/// Long edges are divided at cells below AboveWorst times the worst quality, and then at what comes
-/// of them below so many times. If the first way does not help, a gentler one may, which makes less
-/// of the mesh worse; or one that goes on until the parts are good, where few needles are left.
+/// Long edges are divided at cells below AboveWorst times the worst quality. Parts below PartsBelow
+/// times it are divided again. If the first way does not help, a gentler one may, which makes less
+/// of the mesh worse; or one that goes on until the parts are good, where a needle is left alone.
 constexpr double AboveWorst = 1.5, PartsBelow[] = { 0.6, 0.0, 4.0 };
 /// No more divisions if the worst quality then is less than this many times what it was.
-constexpr double LeastGain = 1.02;
+constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 8;
 
 template <int D>
@@ -193,7 +193,7 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
     run.record("divisions undone");
     run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
   }
-  return now > LeastGain * worst;
+  return now > DivisionsGain * worst;
 }
 
 /// Where the surface takes part: if the target is not reached, long edges are divided at the worst

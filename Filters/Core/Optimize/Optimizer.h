@@ -13,15 +13,15 @@
 
 namespace meshopt
 {
-/// Maximizes the quality of the worst element of `mesh` (2.1). Kept facets, kept edges and fixed
-/// points stay as they are, bit for bit. The worst quality never falls, and no cell becomes
-/// inverted.
+/// Maximizes the quality of the worst element of `mesh` (2.1). Fixed points stay as they are, bit
+/// for bit; without a surface kept facets and kept edges, too. Without sizes the worst quality
+/// never falls; with them it does not fall below targetQuality. No cell becomes inverted, if none
+/// was.
 /// `metric` holds h* and the metric at the points; it is sampled where points move or are added.
 /// `surface`: what nodes of the surface slide along, built for this mesh (Algorithm::WorstFirst
 /// only); null: the surface is kept. It changes if it is released on the way (Surface::release()).
 /// Algorithm::WorstFirst first makes the edges as long as wanted (SizeStage.h) if sizes are given,
-/// and if beta > 0 or there is a surface. The worst quality may then fall, but not below
-/// targetQuality.
+/// and if beta > 0 or there is a surface.
 /// Preconditions: options.check(...) is empty; the mesh was built without error.
 template <int D>
 Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& options,

@@ -120,7 +120,6 @@ RepositionResult GlobalAlgorithm<D, Shape>::run(
     // Asked only before work: setting nodes aside costs nothing.
     if (keepGoing && !keepGoing(mesh.quality(worst)))
     {
-      result.cancelled = true;
       return result;
     }
     ++result.tried;

@@ -36,7 +36,6 @@ struct RepositionResult
 {
   long tried = 0, done = 0; ///< local solves, and those that gained
   bool limitReached = false;
-  bool cancelled = false;
 };
 
 /// Called before every iteration with the quality of the worst element; false cancels.

@@ -253,7 +253,6 @@ bool Reconnection<D, Shape>::lookAhead(const std::function<bool(double)>& keepGo
     }
     if (keepGoing && !keepGoing(this->mesh_.quality(c)))
     {
-      this->result_.cancelled = true;
       return false;
     }
     if (this->lookAheadAt(c))
@@ -282,7 +281,6 @@ bool Reconnection<D, Shape>::iterate(const std::function<bool(double)>& keepGoin
     }
     if (keepGoing && !keepGoing(this->mesh_.quality(worst)))
     {
-      this->result_.cancelled = true;
       return false;
     }
     this->improveAround(worst);

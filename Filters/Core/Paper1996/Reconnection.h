@@ -66,16 +66,6 @@ struct ReconnectionResult
   std::array<long, NumberOfFillings> tried{}, done{};
   long aheadTried = 0, aheadDone = 0; ///< fillings tried, and kept, by the look-ahead
   long growth = 0;                    ///< net number of cells added, without the look-ahead
-  bool cancelled = false;
-  long total() const
-  {
-    long sum = this->aheadDone;
-    for (long n : this->done)
-    {
-      sum += n;
-    }
-    return sum;
-  }
 };
 
 /// Runs the iteration of section 2.3. `keepGoing` is called before every iteration with the quality

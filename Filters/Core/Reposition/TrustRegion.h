@@ -30,7 +30,7 @@ struct SearchGoal
 {
   double enough; ///< the worst quality is at least this
   double gain;   ///< no step promises more than this
-  int steps;     ///< so many have been made
+  int steps;     ///< this number of steps has been made
 };
 
 /// Raises `worst` until the goal is reached; returns what is reached. The problem has

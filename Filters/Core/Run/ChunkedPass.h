@@ -6,8 +6,8 @@
 /// points do, and the editor of a chunk changes only cells of its own (see MeshEditor::setOwner()).
 /// The number of chunks, their borders and their free slots depend on the mesh only. Each chunk is
 /// worked on in sequence, and no chunk sees what another does. The result therefore does not depend
-/// on the number of threads. Cells at a border are held up until a later pass puts the borders
-/// elsewhere.
+/// on the number of threads. Cells at a border are held up: the caller opens again with the borders
+/// elsewhere (WorstFirst/Pass.h).
 #ifndef meshopt_Run_ChunkedPass_h
 #define meshopt_Run_ChunkedPass_h
 

@@ -23,6 +23,7 @@ enum class Effort
   Default = 1, ///< up to the target, with look-ahead
   Best = 2     ///< past the target, with more look-ahead, until nothing lifts the worst cell
 };
+inline constexpr int NumberOfEfforts = 3; ///< of tables by effort
 
 struct Options : Switches
 {

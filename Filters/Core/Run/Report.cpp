@@ -9,7 +9,7 @@ namespace meshopt
 {
 namespace
 {
-constexpr double NearBound = 0.9; ///< part of the bound from which on it is named as what holds
+constexpr double HeldByBound = 0.9; ///< part of the bound from which on it is named as what holds
 
 const char* toString(StopReason reason)
 {
@@ -63,7 +63,7 @@ std::string describeStop(const Report& report)
   }
   text += "; nodes of the worst one: " + list;
   // Only of a surface that stays the same set of points: with a tolerance no bound is known.
-  if (report.bound < 1.0 && report.worstAfter > NearBound * report.bound)
+  if (report.bound < 1.0 && report.worstAfter > HeldByBound * report.bound)
   {
     char held[96];
     std::snprintf(held, sizeof held,

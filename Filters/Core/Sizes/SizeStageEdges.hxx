@@ -157,15 +157,8 @@ long SizeStage<D>::split()
 template <int D>
 std::optional<Span> SizeStage<D>::spanOf(const Edge& edge, bool& isKept) const
 {
-  const Simplex<D>& nodes = this->mesh().nodes(edge.cell);
-  isKept = false;
-  for (int e = 0; e < Local<D>::numberOfEdges; ++e)
-  {
-    const Index p = nodes[Local<D>::edgeFirst[e][0]], q = nodes[Local<D>::edgeFirst[e][1]];
-    isKept = isKept ||
-      (std::min(p, q) == edge.a && std::max(p, q) == edge.b &&
-        this->mesh().isEdgeKept(edge.cell, e));
-  }
+  const int e = this->mesh().localEdge(edge.cell, edge.a, edge.b);
+  isKept = e >= 0 && this->mesh().isEdgeKept(edge.cell, e);
   return isKept && this->run_.surface ? this->run_.surface->span(this->mesh(), edge.a, edge.b)
                                       : std::nullopt;
 }

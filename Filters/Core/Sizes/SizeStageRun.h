@@ -36,13 +36,15 @@ constexpr int Sweeps = 3;
 constexpr double WorthMoving = 0.97;
 /// A round that changes fewer edges than this fraction of the cells is the last one.
 constexpr double FewChanges = 0.005;
-/// A round with more than this part of the changes of the one before does not settle; so many such
-/// rounds in a row end the stage, too. The same edges may be split and contracted for ever.
+/// A round with more than the part Settling of the changes of the one before does not settle.
+/// MaximumIdle such rounds in a row end the stage, too: the same edges may be split and contracted
+/// for ever.
 constexpr double Settling = 0.8;
 constexpr int MaximumIdle = 2;
-/// If the number of cells differs by more from the predicted one, h* is corrected: so often, and by
-/// no more than this factor in all. Where edges cannot follow, no h* gives the number, and lengths
-/// would only move away from those that are wanted.
+/// If the number of cells differs from the predicted one by more than the part CountTolerance, h*
+/// is corrected: at most MaximumCorrections times, by at most GreatestScale in all. Where edges
+/// cannot follow, no h* gives the number, and lengths would only move away from those that are
+/// wanted.
 constexpr double CountTolerance = 0.03;
 constexpr int MaximumCorrections = 3;
 constexpr double GreatestScale = 1.25;
@@ -85,7 +87,8 @@ inline double metricMiddle(double la, double lb)
 }
 
 /// A pseudo-random number in [-1, 1] that depends on the edge only, so that runs are reproducible.
-/// The factors are those of splitmix64: ids that follow each other give unrelated numbers.
+/// The factors are those of splitmix64: ids that follow each other give unrelated numbers. With
+/// scramble() the same meshes would have other nodes.
 inline double noise(Index a, Index b)
 {
   std::uint64_t h = std::uint64_t(std::uint32_t(a)) << 32 | std::uint32_t(b);

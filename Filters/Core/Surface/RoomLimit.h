@@ -13,7 +13,7 @@ namespace meshopt
 /// A motion u of the point is within the limit if u . way <= most. Then at least the wanted part of
 /// the distance is left: the distance from a facet is convex, so it shrinks by no more than the
 /// motion along the way there. Motions along the other sheet are free, and so are those away from
-/// it, but where a thin region would get several times its volume.
+/// it, except where a thin region would get several times its volume.
 struct RoomLimit
 {
   Vec<3> way;            ///< to the nearest point of a facet of the other sheet

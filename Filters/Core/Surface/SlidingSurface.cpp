@@ -270,12 +270,8 @@ bool SlidingSurface::mayDivide(
         patches.push_back({ key[0], key[1], key[2], mesh.patch(c, i) });
       }
     }
-    for (int e = 0; e < 6; ++e)
-    {
-      const Simplex<3>& t = mesh.nodes(c);
-      isKept |= mesh.isEdgeKeptByItself(c, e) &&
-        sortedIds(t[Local<3>::edges[e][0]], t[Local<3>::edges[e][1]]) == sortedIds(a, b);
-    }
+    const int e = mesh.localEdge(c, a, b);
+    isKept |= e >= 0 && mesh.isEdgeKeptByItself(c, e);
   }
   // A facet between two regions comes from both sides, and from each cell that has it.
   std::sort(patches.begin(), patches.end());

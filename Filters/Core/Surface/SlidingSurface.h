@@ -23,10 +23,10 @@ namespace meshopt
 /// except its corners, Freedom::Curve, its number and their parameter. Patches and curves are those
 /// of SurfaceDivision. Edges on curves become kept edges of the mesh.
 ///
-/// Nodes lie on the surface as it was, but where placeNear() has been asked for more. Facets and
-/// edges between them are accepted if the surface of before and that of after stay within the
-/// tolerance of each other (ReferenceSurface, SpaceCurve::deviation()); if exact, if they lie in
-/// the plane of their patch and do not fold.
+/// Nodes lie on the old surface, except where placeNear() has put them. Facets and edges between
+/// them are accepted if the surface of before and that of after stay within the tolerance of each
+/// other (ReferenceSurface, SpaceCurve::deviation()); if exact, if they lie in the plane of their
+/// patch and do not fold.
 class SlidingSurface final : public Surface<3>
 {
 public:

@@ -8,8 +8,8 @@
 
 namespace meshopt
 {
-/// Each part of the surface is a part of one of `next`: patches hang together without fewer curves,
-/// and curves lead from corner to corner without fewer corners.
+/// With fewer curves patches only merge, and with fewer corners curves, so each part lies in one
+/// part of `next`.
 struct SlidingSurface::Release
 {
   struct Line

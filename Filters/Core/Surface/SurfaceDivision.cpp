@@ -335,7 +335,7 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
   }
 }
 
-/// Collects in filled_ the facets that hang together with the seed and belong to no patch; if
+/// Collects in filled_ the facets that are connected with the seed and belong to no patch; if
 /// `plane` is given, only those that lie in it. Sides that could be either are chosen alike.
 void SurfaceDivision::fill(Index seed, const Plane* plane)
 {
@@ -414,7 +414,7 @@ bool SurfaceDivision::fits(const std::vector<Index>& numbers, Plane& plane) cons
     });
 }
 
-/// Facets that hang together with no curve between them; if exact, divided further by planes.
+/// Facets that are connected with no curve between them; if exact, divided further by planes.
 void SurfaceDivision::findPatches()
 {
   // The largest facets first: their planes are the most reliable.

@@ -162,7 +162,7 @@ public:
   {
   }
 
-  /// Each step needs those before it: hinges are between bodies, groups hang together over hinges,
+  /// Each step needs those before it: hinges are between bodies, groups are connected by hinges,
   /// and conditions are in the units of their group.
   void run(const std::vector<Constraint>& constraints)
   {
@@ -180,7 +180,7 @@ private:
   using Group = typename RigidModes<D>::Group;
   static constexpr int M = MotionSize<D>;
 
-  /// Cells that hang together over facets. D points in common leave two cells no motion against
+  /// Cells that are connected over facets. D points in common leave two cells no motion against
   /// each other; with fewer they could turn.
   void findBodies()
   {
@@ -235,7 +235,7 @@ private:
     }
   }
 
-  /// Bodies that hang together over hinges.
+  /// Bodies that are connected by hinges.
   void findGroups()
   {
     std::vector<Body>& bodies = this->modes_.bodies;
@@ -316,7 +316,7 @@ private:
     }
   }
 
-  /// The same for points at which two bodies hang together.
+  /// The same for points at which two bodies are connected.
   void addHinges()
   {
     for (const Hinge& h : this->hinges_)

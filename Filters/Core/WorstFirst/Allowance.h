@@ -41,7 +41,7 @@ public:
     }
     return phase == Phase::Polishing ? this->costs_.leftForPolish() : this->costs_.leftForPass();
   }
-  /// What a pass has earned that has lifted so many cells.
+  /// What a pass has earned that has lifted this number of cells.
   double earned(Phase phase, long lifted) const
   {
     return phase == Phase::Polishing ? 0.0

@@ -5,8 +5,11 @@
 #define meshopt_WorstFirst_Constants_h
 
 #include "Mesh/Types.h"
+#include "Operations/Level.h"
+#include "Run/Options.h"
 
 #include <cstddef>
+#include <iterator>
 #include <limits>
 
 namespace meshopt
@@ -39,9 +42,9 @@ inline constexpr int ThriftySteps = 4;
 /// In a mesh of 2 million cells, ten at a time leave the worst at .700 instead of .740.
 inline constexpr std::size_t PolishedCells = 10, MostPolishedCells = 80;
 inline constexpr Index CellsPerPolish = 500000;
-/// Where the worst cell is below the part NearBound of the certified bound, up to MostBelowBound
-/// cells are polished together already on the way to the target.
-inline constexpr double NearBound = 0.97;
+/// Where the worst cell is below the part FarBelowBound of the certified bound, up to
+/// MostBelowBound cells are polished together already on the way to the target.
+inline constexpr double FarBelowBound = 0.97;
 inline constexpr std::size_t MostBelowBound = 80;
 /// A round on more than PolishedCells cells, or a cycle of polishing and repair, has gained if the
 /// worst quality has risen by more than WideGain, relatively. The cycles end after more than
@@ -49,6 +52,7 @@ inline constexpr std::size_t MostBelowBound = 80;
 inline constexpr double WideGain = 0.02;
 inline constexpr int MostIdleCycles = 2;
 inline constexpr int PolishCycles[] = { 2, 8, 8 };
+static_assert(std::size(PolishCycles) == NumberOfEfforts);
 /// Up to the target, polishing may spend 1 look-ahead per CellsPerLook cells in a run; in small
 /// meshes FewestLooks in all. Each takes as long as a pass over thousands of cells.
 inline constexpr Index CellsPerLook = 75;
@@ -81,8 +85,8 @@ inline constexpr long PatientPart = 5;
 /// Stop removing nodes once this fraction of the cells is gone (unless sizes are followed).
 inline constexpr double ShrinkBudget = 0.12;
 /// The most nodes that may vanish in one wide insertion; and the same once WideShrink times as many
-/// cells are gone. With 8 in place of 30 the worst cells of lattices that are hardly thrown end at
-/// a tenth; without the second limit half of the cells of a thin slab vanish.
+/// cells are gone. With 8 in place of 30 the worst cells of lattices that are hardly perturbed end
+/// at a tenth; without the second limit half of the cells of a thin slab vanish.
 inline constexpr int MostSwallowed = 30, FewestSwallowed = 1;
 inline constexpr long WideShrink = 2;
 /// 1 in ReservedPart of the growth budget is reserved for polishing.
@@ -108,6 +112,7 @@ inline constexpr long Creeping = 5;
 inline constexpr long CreepingPart = 2, CreepingTries = 100;
 inline constexpr long CreepingLift = 5, CreepingLiftOfSliding = 10;
 inline constexpr int CreepingRounds[] = { 0, 8, 8 };
+static_assert(std::size(CreepingRounds) == NumberOfEfforts);
 /// A run that creeps gives up the many if they are more than the fraction ManyStuck of the cells,
 /// and a pass leaves more than HopelesslyMany of them; a quick run past the first stage in any
 /// case, if they are more than ManyStuckQuick.
@@ -120,6 +125,7 @@ inline constexpr double HardlyFewer = 0.99;
 inline constexpr long Hurry = 5;
 /// By level: the most tries of one chunk between two looks at progress (some tenths of a second).
 inline constexpr long Tries[] = { 20000, 10000, 2000, 200, 20 };
+static_assert(std::size(Tries) == Level::Count);
 }
 }
 

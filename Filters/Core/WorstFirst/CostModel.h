@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -128,6 +129,10 @@ private:
   /// 1e5.
   static constexpr double PolishPerCell[] = { 18.0, 48.0, 48.0 };
   static constexpr double PolishPerNode[] = { 700.0, 1800.0, 1800.0 };
+  static_assert(std::size(PricePerLifted) == NumberOfEfforts &&
+    std::size(WastePerCell) == NumberOfEfforts && std::size(WastePerNode) == NumberOfEfforts &&
+    std::size(FewestWaste) == NumberOfEfforts && std::size(PolishPerCell) == NumberOfEfforts &&
+    std::size(PolishPerNode) == NumberOfEfforts);
   static constexpr double FewestPerRise = 2e5;
   static constexpr double ClearRise = 0.05;
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries

@@ -16,8 +16,8 @@ namespace
 {
 /// A division may lower the worst quality around it to this part: halves are worse at first.
 constexpr double WorstDivision = 0.2;
-/// What comes of a division is divided on so often at most: for tetrahedra it is not proved that
-/// longest edges end at good shapes.
+/// At most this many divisions follow each other at one place: for tetrahedra it is not proved that
+/// divisions of longest edges end at good shapes.
 constexpr int MostGenerations = 6;
 constexpr int DivisionsPerLook = 64; ///< between two looks at the clock
 
@@ -39,6 +39,7 @@ public:
         bad.push_back(c);
       }
     }
+    // From here on `partsBelow` compares shapes, whatever the caller measures.
     computeQualities<3>(run.editor, run.metric, Measure::Shape, 0.0);
     this->worst_ = run.mesh().worstQuality(bad);
     for (Index c : bad)
@@ -114,7 +115,7 @@ LongEdges::Edge LongEdges::longestOf(Index c) const
 }
 
 /// From cell c along ever longer edges to one that is the longest of all cells around it; `cell`:
-/// one of them.
+/// one of them. It ends, since edges are in a total order and each step takes a greater one.
 LongEdges::Edge LongEdges::longestNearby(Index c, Index& cell)
 {
   Edge longest = this->longestOf(c);
@@ -150,6 +151,7 @@ bool LongEdges::findPatch(Index c, const Edge& edge, Index& patch, bool& isKept)
       const Facet<3> f = this->mesh().facet(other, i);
       if (this->mesh().isKept(other, i) && hasId(f, edge.a) && hasId(f, edge.b))
       {
+        // The least of its patches, so that it does not matter where the ring begins. None: locked.
         isKept = true;
         const Index p = this->mesh().patch(other, i);
         patch = patch == None ? p : std::min(patch, p);
@@ -213,7 +215,8 @@ bool LongEdges::divideAt(Index c, const Edge& edge, const Vec<3>& x, const Place
   return done;
 }
 
-/// The growth ends it: each division adds at least one cell.
+/// The growth ends it: each division adds at least one cell. A cell that waits stays in the queue
+/// until it has gone: the edge that is divided for it may be far away.
 long LongEdges::divide(double partsBelow)
 {
   long done = 0;
@@ -228,6 +231,7 @@ long LongEdges::divide(double partsBelow)
       this->queue_.pop();
       continue;
     }
+    // The next look at the waiting cell leads here again, and gives it up.
     if (!this->divide(cell, edge))
     {
       this->refused_.insert({ edge.a, edge.b });

@@ -17,12 +17,13 @@
 
 namespace meshopt
 {
-/// Divides the longest edges of cells whose quality is under `below`, and of what comes of that if
-/// its shape (MeanEdgeShape) is less than `partsBelow` times the worst at first: worst cells first,
-/// until no such cell is left, the run's growth is used up, or the clock stops. What is kept stays;
-/// an edge of the surface is divided where the surface allows it. No cell is inverted by that, but
-/// qualities may fall. Adds a row to the history. Returns the number of divisions. Precondition: no
-/// cell is inverted. The cost: a few looks at all cells, beside the divisions.
+/// Divides the longest edges of cells whose quality is under `below`. Parts whose shape
+/// (MeanEdgeShape) is below `partsBelow` times the worst shape at first are divided again. The
+/// worst cells come first, until no such cell is left, the run's growth is used up, or the clock
+/// stops. What is kept stays; an edge of the surface is divided where the surface allows it. No
+/// cell is inverted by that, but qualities may fall. Adds a row to the history. Returns the number
+/// of divisions. Precondition: no cell is inverted. The cost: a few looks at all cells, beside the
+/// divisions.
 long divideLongEdges(Run<3>& run, double below, double partsBelow);
 }
 

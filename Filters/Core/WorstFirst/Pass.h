@@ -71,7 +71,8 @@ PassResult Pass<D, Shape>::run(const Task& task, const std::vector<Index>& bad)
   return this->result_;
 }
 
-/// Drains by chunks, and one without borders for what these have held up.
+/// Drains by chunks; what borders have held up, again with other borders, and what then remains in
+/// one chunk.
 template <int D, class Shape>
 void Pass<D, Shape>::drainAll(const Task& task, const std::vector<Index>& bad)
 {
@@ -194,7 +195,7 @@ void Pass<D, Shape>::gather(const Task& task)
     }
     left += judge.growth.left;
     isShort |= judge.growth.isShort;
-    this->result_.kept += tally.kept;
+    this->result_.accepted += tally.accepted;
     this->result_.creeps |= tally.creeps;
     for (int i : { 0, 1 })
     {

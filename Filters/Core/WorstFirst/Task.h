@@ -45,7 +45,7 @@ struct Task
 /// What a pass has done.
 struct PassResult
 {
-  long kept = 0;                ///< accepted changes
+  long accepted = 0;            ///< changes
   std::int64_t evaluations = 0; ///< of quality
   bool creeps = false;          ///< see Worker::watch()
   std::array<long, NumberOfOperations> tried{}, done{};
@@ -55,7 +55,7 @@ struct PassResult
   /// Whether hardly any of the cells that it was given gained.
   bool isInVain(std::size_t given) const
   {
-    return this->kept < std::max<long>(1, static_cast<long>(given) / HardlyAny);
+    return this->accepted < std::max<long>(1, static_cast<long>(given) / HardlyAny);
   }
 };
 }

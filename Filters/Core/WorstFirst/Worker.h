@@ -28,9 +28,9 @@ struct Orders
 struct Tally
 {
   std::int64_t evaluations = 0;
-  long kept = 0, tries = 0; ///< changes; cells
-  long lifted = 0;          ///< cells
-  bool creeps = false;      ///< see Worker::watch()
+  long accepted = 0, tries = 0; ///< changes; cells
+  long lifted = 0;              ///< cells
+  bool creeps = false;          ///< see Worker::watch()
 };
 
 /// Workers are kept from pass to pass. Several are at work at the same time: what they share, they
@@ -150,12 +150,12 @@ void Worker<D, Shape>::work()
     }
     --tries;
     this->watch();
-    this->editor.resetBlocked();
+    this->editor.resetHeldUp();
     if (this->improver_.improve(c, level))
     {
       this->noteSuccess(c);
     }
-    else if (!this->editor.blocked())
+    else if (!this->editor.isHeldUp())
     {
       // A failure is remembered only if no border played a part in it: another pass may succeed.
       this->editor.setFailed(c, this->editor.clock(), rankOf(phase, level));
@@ -177,7 +177,7 @@ void Worker<D, Shape>::noteSuccess(Index c)
   const auto isBad = [&](Index o)
   { return mesh.isAlive(o) && mesh.quality(o) < this->task_->target; };
   const std::vector<Index>& changed = this->judge().changed();
-  ++this->tally_.kept;
+  ++this->tally_.accepted;
   this->tally_.lifted += mesh.isAlive(c) ? !isBad(c)
                                          : std::none_of(changed.begin(), changed.end(), isBad);
   for (Index o : changed)
@@ -236,7 +236,7 @@ int Worker<D, Shape>::patientLevel(int level)
   const long tries = judge.tried[op] * (isPlain ? 1 : Hurry);
   // Where the surface takes part, or in a metric, others of the same level help more often.
   const bool others = this->workpiece_.slides() || !isPlain;
-  const long helped = others ? this->tally_.kept : judge.gained[op];
+  const long helped = others ? this->tally_.accepted : judge.gained[op];
   const bool isFirst = !(task.target > Stages[0]) && !this->tally_.creeps;
   const bool patiently = others || task.below <= this->workpiece_.fewCells();
   const long usual = inserts ? std::max(PatientTries, this->given / (isFirst ? 1 : PatientPart))

@@ -62,13 +62,13 @@ public:
   /// False where no bound is known, unless the surface takes part: then hardly anything is bound.
   bool isFarBelowBound() const
   {
-    return (this->bound() < 1.0 || this->slides()) && this->worst_ < NearBound * this->bound();
+    return (this->bound() < 1.0 || this->slides()) && this->worst_ < FarBelowBound * this->bound();
   }
   /// Whether cells at facets with tiny caps count. At the border of a part they do not.
   bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
 
   // --- the mesh
-  /// Whether the surface takes part.
+  /// Whether the surface of tetrahedra takes part: see Judge::slides().
   bool slides() const { return this->run_.surface && this->run_.surface->judgesChanges(); }
   /// The least gain of a change, in general.
   double usualGain() const { return this->model_.plain ? Gain : CoarseGain; }

@@ -8,9 +8,6 @@
 #include "vtkThermoelasticFilter.h"
 #include "vtkThermoelasticProblem.h"
 
-#include "vtkCellTypes.h"
-#include "vtkGenericCell.h"
-#include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"
 
 namespace vtkThermoelasticBridge
@@ -22,48 +19,6 @@ using meshopt::fem::SolverStatus;
 
 namespace
 {
-
-/**
- * Dimension of a type of cells; types unknown to VTK count as volumes.
- */
-int DimensionOf(int type)
-{
-  vtkNew<vtkGenericCell> cell;
-  cell->SetCellType(type);
-  return cell->GetRepresentativeCell() ? cell->GetCellDimension() : 3;
-}
-
-/**
- * Every cell of the mesh's dimension must be a linear simplex: without such a cell it would be
- * another body. Cells of lower dimension are marks on the body.
- */
-std::string CheckCellTypes(vtkUnstructuredGrid* grid, int dimension)
-{
-  const int simplex = dimension == 3 ? VTK_TETRA : VTK_TRIANGLE;
-  // -1: not asked yet.
-  std::vector<int> dimensions(VTK_NUMBER_OF_CELL_TYPES, -1);
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type == simplex)
-    {
-      continue;
-    }
-    // Asked once for each type: a generic cell is made for it.
-    if (dimensions[type] < 0)
-    {
-      dimensions[type] = DimensionOf(type);
-    }
-    if (dimension == 0 || dimensions[type] >= dimension)
-    {
-      return "Cell " + std::to_string(c) + " (" + vtkCellTypes::GetClassNameFromTypeId(type) +
-        ") is neither a linear triangle nor a linear tetrahedron" +
-        (dimension == 0 ? ", and no other cell is." : ".") +
-        " Only these can be solved for; the filter Tetrahedralize makes them.";
-    }
-  }
-  return {};
-}
 
 /**
  * Triangles are turned into their plane: the core computes in two coordinates.
@@ -159,7 +114,12 @@ std::string SolveGrid(vtkUnstructuredGrid* input, const Request& request,
   std::string error = bridge::ClassifyCells(input, cells);
   if (error.empty())
   {
-    error = CheckCellTypes(input, cells.Dimension);
+    // With a cell left out it would be another body.
+    error = bridge::CheckOnlySimplices(input, cells);
+  }
+  if (error.empty() && cells.Dimension == 0)
+  {
+    error = bridge::NoSimplices;
   }
   // Arrays last: whether the mesh can be solved on at all does not depend on them.
   InputArrays arrays;

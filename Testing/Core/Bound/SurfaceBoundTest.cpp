@@ -361,7 +361,7 @@ TEST(SurfaceBound, BothSidesOfOneFacetAreAllAround)
   }
 }
 
-TEST(SurfaceBound, SidesNotSureAreNoGaps)
+TEST(SurfaceBound, DoubtfulSidesAreNoGaps)
 {
   // three facets at an edge, at 0, 60 and 240 degrees; only 0 to 60 is filled, and where one of
   // these sides is in doubt nothing may be said

@@ -342,7 +342,7 @@ TEST(Judge, WithoutASlotNothingHappens)
   const auto mark = b.judge.begin();
   const Proposal<3> p = twoToThree(b);
   expectRefused(b, [&] { return b.judge.accept(p); });
-  EXPECT_TRUE(b.editor.blocked());
+  EXPECT_TRUE(b.editor.isHeldUp());
   EXPECT_EQ(b.judge.growth.left, 7);
   EXPECT_TRUE(b.judge.keepsGuard(mark));
   b.judge.commit(mark);

@@ -59,7 +59,7 @@ TEST(CavityFitCondition2D, ANodeInARingIsNoFilling)
   EXPECT_FALSE(fillsCavity<2>(mesh, allCells(mesh), cone));
 }
 
-/// A node joined to all of a ring of tetrahedra makes no ring, though all hangs together: Euler's
+/// A node joined to all of a ring of tetrahedra makes no ring, though all is connected: Euler's
 /// number is 1, that of the ring 0.
 TEST(CavityFitCondition3D, ANodeInARingIsNoFilling)
 {
@@ -96,8 +96,8 @@ TEST(CavityFitCondition3D, ANodeInARingIsNoFilling)
   EXPECT_FALSE(fillsCavity<3>(mesh, allCells(mesh), cone));
 }
 
-/// Two parts that are each a filling of a part of the boundary do not hang together: a bubble.
-TEST(CavityFitCondition2D, WhatDoesNotHangTogetherIsNoFilling)
+/// Two parts that are each a filling of a part of the boundary are not connected: a bubble.
+TEST(CavityFitCondition2D, WhatIsNotConnectedIsNoFilling)
 {
   MeshInput<2> in = square();
   const SimplexMesh<2> mesh = buildMesh(in);

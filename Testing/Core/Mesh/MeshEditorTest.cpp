@@ -88,7 +88,7 @@ TYPED_TEST(Editor, InsertAndContract)
   }
   EXPECT_EQ(keptFacets(mesh), kept);
   EXPECT_NEAR(mesh.volume(), 1.0, 1e-13);
-  EXPECT_EQ(mesh.eulerCharacteristic(), 1);
+  EXPECT_EQ(eulerCharacteristic(mesh), 1);
 }
 
 TEST(Editor3D, ContractionBuriesAnInputPointButKeepsItsSlot)
@@ -189,7 +189,7 @@ TYPED_TEST(Editor, RollbackRestoresEveryByte)
     }
     EXPECT_EQ(keptFacets(mesh), kept);
     EXPECT_NEAR(mesh.volume(), 1.0, 1e-12);
-    EXPECT_EQ(mesh.eulerCharacteristic(), 1);
+    EXPECT_EQ(eulerCharacteristic(mesh), 1);
   }
 }
 
@@ -238,12 +238,12 @@ TYPED_TEST(Editor, OwnersKeepToTheirPart)
     (border ? edge : inner) = c;
   }
   ASSERT_TRUE(inner != None && edge != None && foreign != None);
-  EXPECT_TRUE(editor.blocked()); // by the questions above
-  editor.resetBlocked();
+  EXPECT_TRUE(editor.isHeldUp()); // by the questions above
+  editor.resetHeldUp();
   EXPECT_TRUE(editor.owns(inner));
-  EXPECT_FALSE(editor.blocked());
+  EXPECT_FALSE(editor.isHeldUp());
   EXPECT_FALSE(editor.owns(foreign));
-  EXPECT_TRUE(editor.blocked());
+  EXPECT_TRUE(editor.isHeldUp());
   EXPECT_TRUE(root.owns(foreign));
 
   // stars
@@ -253,9 +253,9 @@ TYPED_TEST(Editor, OwnersKeepToTheirPart)
     mesh.star(p, whole);
     const bool all = std::all_of(
       whole.begin(), whole.end(), [&](Index c) { return editor.owns(c); });
-    editor.resetBlocked();
+    editor.resetHeldUp();
     EXPECT_EQ(editor.star(p, star), all);
-    EXPECT_EQ(editor.blocked(), !all);
+    EXPECT_EQ(editor.isHeldUp(), !all);
     if (all)
     {
       std::sort(star.begin(), star.end());
@@ -265,10 +265,10 @@ TYPED_TEST(Editor, OwnersKeepToTheirPart)
   }
 
   // no slots: refused, nothing changed
-  editor.resetBlocked();
+  editor.resetHeldUp();
   const Snapshot<D> before(editor);
   EXPECT_EQ(editor.addPoint(Vec<D>::Zero()), None);
-  EXPECT_TRUE(editor.blocked());
+  EXPECT_TRUE(editor.isHeldUp());
   EXPECT_TRUE(before == Snapshot<D>(editor));
   Vec<D> centre = Vec<D>::Zero();
   for (Index p : mesh.nodes(edge))
@@ -283,15 +283,15 @@ TYPED_TEST(Editor, OwnersKeepToTheirPart)
   ASSERT_EQ(cells.size(), std::size_t(D + 1));
   const std::vector<double> qualities(D + 1, 0.5);
   editor.growCells(D - 1);
-  editor.resetBlocked();
+  editor.resetHeldUp();
   const Snapshot<D> full(editor);
   EXPECT_FALSE(editor.replace({ edge }, cells, qualities));
-  EXPECT_TRUE(editor.blocked());
+  EXPECT_TRUE(editor.isHeldUp());
   EXPECT_TRUE(full == Snapshot<D>(editor));
 
   // enough slots: only links of foreign cells change, and an undo brings those back
   editor.growCells(1);
-  editor.resetBlocked();
+  editor.resetHeldUp();
   const Snapshot<D> start(editor);
   const SimplexMesh<D> copy = mesh;
   const std::size_t place = editor.begin();

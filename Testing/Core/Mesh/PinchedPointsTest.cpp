@@ -76,7 +76,7 @@ TYPED_TEST(PinchedPoints, NoListWhereThereIsNone)
 {
   constexpr int D = TypeParam::dimension;
   EXPECT_TRUE(pinchedPoints<D>(buildMesh(jitteredGrid<D>(3, 0.2))).empty());
-  // Kept facets do not part what hangs together.
+  // Kept facets do not part what is connected.
   MeshInput<D> in = jitteredGrid<D>(4, 0.2);
   splitRegions(in);
   EXPECT_TRUE(pinchedPoints<D>(buildMesh(in)).empty());

@@ -221,10 +221,8 @@ TEST_F(Metric2, ExponentialAndLogarithm)
 TEST_F(Metric3, ConstantMetricIsTheMappedMesh)
 {
   const Tensor<3> m = this->tensor();
-  NodalMetric<3> constant(0.3), varying(0.3);
-  EXPECT_EQ(constant.setConstant(m), "");
-  EXPECT_EQ(
-    varying.set(this->mesh_, {}, std::vector<Tensor<3>>(this->input_.points.size(), m)), "");
+  NodalMetric<3> metric(0.3);
+  EXPECT_EQ(metric.set(this->mesh_, {}, std::vector<Tensor<3>>(this->input_.points.size(), m)), "");
   Tensor<3> l;
   logarithm<3>(m, l);
   const Tensor<3> root = exponential<3>((0.5 * l).eval());
@@ -237,15 +235,14 @@ TEST_F(Metric3, ConstantMetricIsTheMappedMesh)
       p = root * p;
     }
     const double expected = MeanEdgeShape<3>::value(y);
-    EXPECT_NEAR(quality.value(x, constant.element(this->mesh_.nodes(c))), expected, 1e-11);
-    EXPECT_NEAR(quality.value(x, varying.element(this->mesh_.nodes(c))), expected, 1e-11);
-    EXPECT_EQ(constant.element(this->mesh_.nodes(c)).desiredSize, 0.3);
+    EXPECT_NEAR(quality.value(x, metric.element(this->mesh_.nodes(c))), expected, 1e-11);
+    EXPECT_EQ(metric.element(this->mesh_.nodes(c)).desiredSize, 0.3);
   }
   // and it stays constant wherever it is sampled
-  varying.reserve(this->mesh_.numberOfPointSlots() + 1);
+  metric.reserve(this->mesh_.numberOfPointSlots() + 1);
   const Index added = this->mesh_.numberOfPointSlots();
-  varying.resample(added, this->point(0.1, 0.9));
-  EXPECT_EQ(varying.sample(added).logTensor, varying.sample(0).logTensor);
+  metric.resample(added, this->point(0.1, 0.9));
+  EXPECT_EQ(metric.sample(added).logTensor, metric.sample(0).logTensor);
 }
 
 TEST_F(Metric3, LogEuclideanAndSizes)
@@ -302,7 +299,6 @@ TEST_F(Metric2, ErrorsNameThePoint)
   std::vector<Tensor<2>> tensors(n, Tensor<2>::Identity());
   tensors[3](0, 0) = 0.0;
   EXPECT_NE(metric.set(this->mesh_, {}, tensors).find("point 3"), std::string::npos);
-  EXPECT_NE(metric.setConstant(-Tensor<2>::Identity()), "");
   EXPECT_EQ(metric.element(this->mesh_.nodes(0)).desiredSize, 0.5);
   EXPECT_TRUE(metric.element(this->mesh_.nodes(0)).euclidean);
 }

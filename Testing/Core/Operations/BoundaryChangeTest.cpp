@@ -182,5 +182,5 @@ TEST(BoundaryChange, WithoutASurfaceOrWhatIsOwnedNothingHappens)
   Plane away(halfHexagon(0.5));
   away.bench.giveAway({ 4 });
   expectRefused(away.bench, [&] { return away.improve(0, Level::LongLookAhead); });
-  EXPECT_TRUE(away.bench.editor.blocked());
+  EXPECT_TRUE(away.bench.editor.isHeldUp());
 }

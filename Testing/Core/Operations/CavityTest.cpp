@@ -306,9 +306,9 @@ TEST(Cavity3D, StaysWithinWhatTheEditorOwns)
     bench.editor.setPointOwner(p, p == 1 ? 1 : 0); // the upper half belongs to another
   }
   bench.editor.setOwner(0);
-  bench.editor.resetBlocked();
+  bench.editor.resetHeldUp();
   bench.grow(0, x, 1000);
-  EXPECT_TRUE(bench.editor.blocked());
+  EXPECT_TRUE(bench.editor.isHeldUp());
   for (Index c : bench.cavity.cells())
   {
     EXPECT_LT(bench.mesh.localIndex(c, 1), 0);

@@ -135,7 +135,7 @@ TYPED_TEST(Contracting, WhatIsHeldOrAnothersStays)
   }
   b.giveAway({ 3 });
   expectRefused(b, [&] { return contract<D>(b, 0, 1); });
-  EXPECT_TRUE(b.editor.blocked());
+  EXPECT_TRUE(b.editor.isHeldUp());
   in.fixedPoints.assign(in.points.size(), 0);
   in.fixedPoints[0] = 1;
   Bench<D> fixed(in);

@@ -186,5 +186,5 @@ TYPED_TEST(SplittingEdge, HeldNodesAreNotContracted)
   const Index m = b.mesh.numberOfPointSlots() - 1;
   b.giveAway({ 2 });
   expectRefused(b, [&] { return contract<D>(b, m, 0); });
-  EXPECT_TRUE(b.editor.blocked());
+  EXPECT_TRUE(b.editor.isHeldUp());
 }

@@ -72,7 +72,7 @@ TYPED_TEST(InsertingNode, NeedsASlot)
   b.giveAway({}); // an owner takes slots of its own pool only, and that is empty
   Insertion<D> insertion;
   expectRefused(b, [&] { return insertion.improve(b.judge, 0, Level::Insertion); });
-  EXPECT_TRUE(b.editor.blocked());
+  EXPECT_TRUE(b.editor.isHeldUp());
 }
 
 TYPED_TEST(InsertingNode, StaysOnThisSideOfWhatIsKept)

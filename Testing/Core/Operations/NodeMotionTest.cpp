@@ -156,7 +156,7 @@ TYPED_TEST(MovingNode, OnlyWhatIsFreeAndOwned)
       expectRefused(away, [&] { return motion.improve(away.judge, t, 0); });
     }
   }
-  EXPECT_TRUE(away.editor.blocked());
+  EXPECT_TRUE(away.editor.isHeldUp());
   EXPECT_EQ(triedOf(away.judge.tried, Operation::NodeMotion), 0);
   in.fixedPoints.assign(in.points.size(), 0);
   in.fixedPoints[0] = 1;

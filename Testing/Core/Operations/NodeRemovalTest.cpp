@@ -146,7 +146,7 @@ TYPED_TEST(RemovingNode, OnlyWhereItMay)
   Bench<D> away(in);
   away.giveAway({ 2 });
   isRefused(away);
-  EXPECT_TRUE(away.editor.blocked());
+  EXPECT_TRUE(away.editor.isHeldUp());
 }
 
 TYPED_TEST(RemovingNode, InAMeshEachTryRaisesOrRestores)

@@ -229,7 +229,7 @@ TYPED_TEST(Reconnecting, LeavesWhatIsKept)
   }
   away.giveAway(others);
   expectRefused(away, [&] { return reconnect.improve(away.judge, 0, 0); });
-  EXPECT_TRUE(away.editor.blocked());
+  EXPECT_TRUE(away.editor.isHeldUp());
 }
 
 TYPED_TEST(Reconnecting, InAMeshEachTryRaisesOrRestores)

@@ -117,8 +117,6 @@ int improveAll(Bench& b, double target, const PolyhedronLimits& limits)
     const auto before = sortedQualities(b.mesh);
     const double found = r.propose(b.editor, b.model, c, q, limits);
     EXPECT_TRUE(found == Never || found > q);
-    EXPECT_LE(r.searches(), limits.searches);
-    EXPECT_LE(r.steps(), limits.searches * limits.steps);
     if (found > Never)
     {
       EXPECT_NE(std::find(r.cavity().begin(), r.cavity().end(), c), r.cavity().end());
@@ -331,7 +329,7 @@ TEST(SmallPolyhedron, WholeMeshes)
       expectSound(b.mesh);
       EXPECT_EQ(keptFacets(b.mesh), kept);
       EXPECT_NEAR(b.mesh.volume(), volume, 1e-12);
-      EXPECT_EQ(b.mesh.eulerCharacteristic(), 1);
+      EXPECT_EQ(eulerCharacteristic(b.mesh), 1);
       if (run == 0)
       {
         bits = std::make_unique<MeshBits<3>>(bitsOf(b.mesh));

@@ -101,7 +101,7 @@ protected:
     }
     this->judge.growth.left = AnyGrowth;
     this->volume = this->mesh.volume();
-    this->euler = this->mesh.eulerCharacteristic();
+    this->euler = eulerCharacteristic(this->mesh);
   }
 
   template <class F>
@@ -124,7 +124,7 @@ protected:
   {
     expectSound(this->mesh);
     EXPECT_NEAR(this->mesh.volume(), this->volume, 1e-14);
-    EXPECT_EQ(this->mesh.eulerCharacteristic(), this->euler);
+    EXPECT_EQ(eulerCharacteristic(this->mesh), this->euler);
     double area = 0.0;
     this->forKept(
       [&](Index c, int i)

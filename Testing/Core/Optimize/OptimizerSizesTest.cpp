@@ -19,9 +19,12 @@ double sizeAt(const Vec<2>& x, double least) { return least * std::exp(0.3 * x[0
 
 /// Sizes at the points of `in`, and room for more points than a run makes: what is missing is 0
 /// then, not what happens to be in the memory.
-NodalMetric<2> sizesOf(const MeshInput<2>& in, double least)
+NodalMetric<2> sizesOf(
+  const MeshInput<2>& in, double least, const Tensor<2>& m = Tensor<2>::Identity())
 {
-  NodalMetric<2> metric = sizesAt<2>(in, [=](const Vec<2>& x) { return sizeAt(x, least); });
+  const std::vector<Tensor<2>> tensors(m.isIdentity() ? 0 : in.points.size(), m);
+  NodalMetric<2> metric = sizesAt<2>(
+    in, [=](const Vec<2>& x) { return sizeAt(x, least); }, tensors);
   metric.reserve(20000);
   return metric;
 }
@@ -141,8 +144,7 @@ TEST(OptimizerSizes, GivenUpWhereTheWorstWouldFall)
 {
   const SharpCorners sharp;
   constexpr double least = 0.015;
-  NodalMetric<2> metric = sizesOf(sharp.in, least);
-  ASSERT_EQ(metric.setConstant(sharp.metric), "");
+  const NodalMetric<2> metric = sizesOf(sharp.in, least, sharp.metric);
   const Result<2> undone = optimized<2>(sharp.in, metric, options(), true);
   EXPECT_NEAR(undone.report.worstBefore, sharp.best, 1e-3);
   EXPECT_TRUE(undone.report.sizes.isGivenUp);

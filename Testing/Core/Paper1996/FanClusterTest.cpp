@@ -239,7 +239,7 @@ TYPED_TEST(FanClusters, EndAtInterfacesBetweenRegions)
   EXPECT_GT(count[Outcome::Given], 20);
 }
 
-// At the rim of a kept facet that ends inside cells hang together around it.
+// At the rim of a kept facet that ends inside, cells are connected around it.
 TYPED_TEST(FanClusters, OnBothSidesOfAKeptFacetAreNotGiven)
 {
   constexpr int D = TypeParam::dimension;

@@ -116,7 +116,6 @@ TYPED_TEST(GlobalAlgorithm, TakesElementsInTheOrderOfThePaper)
       EXPECT_EQ(result.done, plain.done);
       EXPECT_GT(result.done, 0);
       EXPECT_FALSE(result.limitReached);
-      EXPECT_FALSE(result.cancelled);
       if (target == 1.0) // to the end: an element is the worst twice in a row again and again
       {
         EXPECT_GT(result.done, 5);
@@ -160,7 +159,6 @@ TYPED_TEST(GlobalAlgorithm, AsksBeforeEveryTryWithTheWorstQuality)
       EXPECT_TRUE(std::binary_search(all.begin(), all.end(), worst));
       return asked.size() < 4;
     });
-  EXPECT_TRUE(result.cancelled);
   EXPECT_EQ(result.tried, 3);
   EXPECT_EQ(asked.size(), 4u);
   const Scene<D> fresh(grid<D>());

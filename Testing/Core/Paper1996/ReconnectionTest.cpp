@@ -4,6 +4,8 @@
 #include "Run/Summary.h"
 #include "TestMeshes.h"
 
+#include <numeric>
+
 using namespace meshopt;
 
 namespace
@@ -35,14 +37,14 @@ void expectDone(MeshInput<D> in, Filling kind, Index cellsAfter, Index pointsAft
   SimplexMesh<D> mesh = buildMesh(in);
   const double volume = mesh.volume();
   const auto kept = keptFacets(mesh);
-  const long euler = mesh.eulerCharacteristic();
+  const long euler = eulerCharacteristic(mesh);
   const ReconnectionResult result = run<D>(mesh, { kind });
   EXPECT_GE(result.done[static_cast<int>(kind)], 1);
   EXPECT_EQ(mesh.countCells(), cellsAfter);
   EXPECT_EQ(mesh.countPoints(), pointsAfter);
   EXPECT_NEAR(mesh.volume(), volume, 1e-13);
   EXPECT_EQ(keptFacets(mesh), kept);
-  EXPECT_EQ(mesh.eulerCharacteristic(), euler);
+  EXPECT_EQ(eulerCharacteristic(mesh), euler);
   expectSound(mesh);
 }
 
@@ -275,7 +277,7 @@ void takesTheWorst(int lookAhead)
         order.expect(worst, target);
         return true;
       });
-    EXPECT_GT(result.total(), 0);
+    EXPECT_GT(std::accumulate(result.done.begin(), result.done.end(), result.aheadDone), 0);
     expectSound(mesh);
     // At its end all elements under the target are set aside.
     for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)

@@ -125,12 +125,12 @@ void drain(Worker<D>& w, int most)
     {
       continue;
     }
-    w.editor.resetBlocked();
+    w.editor.resetHeldUp();
     if (w.improve(c))
     {
       ++w.done;
     }
-    else if (w.editor.blocked())
+    else if (w.editor.isHeldUp())
     {
       w.heldUp.push_back(c);
     }
@@ -282,9 +282,9 @@ TYPED_TEST(PassOf, ABorderHoldsUp)
     for (int k = 0; k < 2; ++k)
     {
       Worker<D>& w = all.pass.worker(k);
-      w.editor.resetBlocked();
+      w.editor.resetHeldUp();
       EXPECT_FALSE(w.editor.owns(c));
-      EXPECT_TRUE(w.editor.blocked());
+      EXPECT_TRUE(w.editor.isHeldUp());
     }
   }
   EXPECT_TRUE(Snapshot<D>(all.editor) == before);

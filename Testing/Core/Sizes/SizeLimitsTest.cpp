@@ -81,7 +81,7 @@ TEST(SizeLimits, TheGrowthBudgetIsForTheRepairToo)
     }
     const Tensor<2> m = (Tensor<2>() << 5.05, -4.95, -4.95, 5.05).finished();
     const Options o = options(0.0, 0.95);
-    const Result<2> run = optimized<2>(in, constantMetric<2>(m, 0.1), o, true);
+    const Result<2> run = optimized<2>(in, constantMetric<2>(in, m, 0.1), o, true);
     if (run.report.sizes.isGivenUp)
     {
       const long before = run.report.history.front().cells;
@@ -155,8 +155,8 @@ TEST(SizeLimits, SmallMeshesGetTheirSizes)
     const double h = (1.0 + 0.3 * random()) / 3.0, along = 1.0 + 0.5 * random();
     Tensor<2> metric = Tensor<2>::Identity();
     metric(0, 0) = along * along;
-    const Result<2> run = optimized<2>(
-      jitteredGrid<2>(3, 0.2, seed), constantMetric<2>(metric, h), options(2.0), false);
+    const MeshInput<2> in = jitteredGrid<2>(3, 0.2, seed);
+    const Result<2> run = optimized<2>(in, constantMetric<2>(in, metric, h), options(2.0), false);
     EXPECT_FALSE(run.report.sizes.isGivenUp) << seed;
     EXPECT_NEAR(static_cast<double>(run.cells), run.predicted, 5.0) << seed;
   }

@@ -69,7 +69,7 @@ TEST(KeptSizes, TheFloorFallsWithTheDistanceFromTheSides)
     {
       Tensor<2> m = Tensor<2>::Identity();
       m(0, 0) = stretch * stretch;
-      ASSERT_EQ(metric.setConstant(m), "");
+      ASSERT_EQ(metric.set(mesh, {}, std::vector<Tensor<2>>(mesh.numberOfPointSlots(), m)), "");
     }
     double longest = 0.0;
     const auto floor = floorOf<2>(mesh, metric, longest);

@@ -132,7 +132,7 @@ TEST(SurfaceDivision, ACurvedFaceIsOnePatchWithATolerance)
   const Sliding exact(in, {});
   EXPECT_GT(exact.surface.numberOfPatches(), 100);
   EXPECT_GT(exact.count(Freedom::Fixed), 8);
-  // With a feature angle below that of the facets nothing curved hangs together.
+  // With a feature angle below that of the facets nothing curved is connected.
   options.featureAngle = 1.0;
   EXPECT_GT(Sliding(in, options).surface.numberOfPatches(), 30);
 }

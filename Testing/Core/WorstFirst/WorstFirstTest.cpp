@@ -226,7 +226,7 @@ TYPED_TEST(WorstFirst, SizesAndMetrics)
     }
     else if (kind == 2)
     {
-      EXPECT_EQ(metric.setConstant(stretch), "");
+      EXPECT_EQ(metric.set(input, {}, std::vector<Tensor<D>>(in.points.size(), stretch)), "");
     }
     else if (kind >= 3)
     {

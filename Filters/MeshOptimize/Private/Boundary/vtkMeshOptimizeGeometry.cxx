@@ -37,7 +37,7 @@ namespace
 // their box. Files with single precision are off by 1e-7; what is off by more was meant to be.
 constexpr double InPlane = 1e-6;
 // Points nearer to each other than this part of that diagonal were meant to be one. Rounding only:
-// with more, short lines would vanish; with none, lines that meet would not hang together.
+// with more, short lines would vanish; with none, lines that meet would not be connected.
 constexpr double SamePlace = 1e-10;
 
 vtkDataArray* FindCorners(vtkAlgorithm* filter, vtkPolyData* geometry)

@@ -3,6 +3,7 @@
 // triangles in space, and cells that cannot be used, which get NaN.
 #include "QualityMinMax/vtkMeshQualityGrid.h"
 
+#include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeValues.h"
 
 #include "Metric/TensorFunctions.h"
@@ -23,22 +24,6 @@ namespace
 {
 
 constexpr vtkIdType Grain = 8192;
-
-/**
- * A sentence if an array does not have one value per point or cell of the grid. A broken grid may
- * have such arrays.
- */
-std::string CheckLength(vtkDataArray* array, vtkIdType wanted, const char* noun)
-{
-  if (!array || array->GetNumberOfTuples() == wanted)
-  {
-    return {};
-  }
-  std::ostringstream text;
-  text << "The array '" << array->GetName() << "' has " << array->GetNumberOfTuples()
-       << " values, but the grid has " << wanted << " " << noun << ".";
-  return text.str();
-}
 
 } // namespace
 
@@ -61,9 +46,17 @@ std::string Grid::Read(const vtkMeshOptimizeBridge::InputArrays& arrays, bool us
   {
     return {};
   }
-  std::string error = CheckLength(arrays.Region, this->GetNumberOfCells(), "cells");
-  error = error.empty() ? CheckLength(arrays.Size, this->GetNumberOfPoints(), "points") : error;
-  error = error.empty() ? CheckLength(arrays.Metric, this->GetNumberOfPoints(), "points") : error;
+  const vtkIdType points = this->GetNumberOfPoints();
+  std::string error = arrays.Region
+    ? vtkMeshBridge::CheckLength(arrays.Region, this->GetNumberOfCells(), "cell")
+    : std::string();
+  for (vtkDataArray* array : { arrays.Size, arrays.Metric })
+  {
+    if (error.empty() && array)
+    {
+      error = vtkMeshBridge::CheckLength(array, points, "point");
+    }
+  }
   error = error.empty() ? this->CheckExtent() : error;
   if (error.empty() && arrays.Region)
   {

@@ -107,30 +107,44 @@ void Cut(const std::vector<Position>& centers, const std::vector<double>& work, 
 /// Of all ranks together: as exact as a percent, and nothing to send.
 constexpr vtkIdType MostSamples = 1 << 15;
 
+/// The samples of all ranks, with their work.
+struct Samples
+{
+  std::vector<Position> Centers;
+  std::vector<double> Work;
+};
+
+struct Range
+{
+  Iterator First, Last;
+};
+
 /**
- * Cuts the samples as Cut() does, and with them the cells of this rank. All ranks have the same
- * samples in the same order, and so the same cuts.
+ * Cuts the samples as Cut() does, and with them the cells of this rank, which have `centers`, into
+ * the parts `begin` to `end` - 1. All ranks have the same samples in the same order, and so the
+ * same cuts.
  */
-void CutBoth(const std::vector<Position>& samples, const std::vector<double>& work, Iterator first,
-  Iterator last, const std::vector<Position>& centers, Iterator firstCell, Iterator lastCell,
+void CutBoth(const Samples& samples, const std::vector<Position>& centers, Range some, Range cells,
   int begin, int end, std::vector<int>& target)
 {
-  if (end - begin == 1 || first == last)
+  if (end - begin == 1 || some.First == some.Last)
   {
-    std::for_each(firstCell, lastCell, [&](vtkIdType c) { target[c] = begin; });
+    std::for_each(cells.First, cells.Last, [&](vtkIdType c) { target[c] = begin; });
     return;
   }
-  const int half = begin + (end - begin) / 2, axis = LongestSide(samples, first, last);
+  const int half = begin + (end - begin) / 2;
+  const int axis = LongestSide(samples.Centers, some.First, some.Last);
   const double share = static_cast<double>(half - begin) / (end - begin);
-  const auto middle = CutAt(samples, work, axis, share, first, last);
-  const auto least = std::min_element(
-    middle, last, [&](vtkIdType a, vtkIdType b) { return samples[a][axis] < samples[b][axis]; });
-  const double cut = least == last ? std::numeric_limits<double>::infinity()
-                                   : samples[*least][axis];
+  const auto middle = CutAt(samples.Centers, samples.Work, axis, share, some.First, some.Last);
+  const auto least = std::min_element(middle, some.Last,
+    [&](vtkIdType a, vtkIdType b) { return samples.Centers[a][axis] < samples.Centers[b][axis]; });
+  const double cut = least == some.Last ? std::numeric_limits<double>::infinity()
+                                        : samples.Centers[*least][axis];
   const auto middleCell = std::stable_partition(
-    firstCell, lastCell, [&](vtkIdType c) { return centers[c][axis] < cut; });
-  CutBoth(samples, work, first, middle, centers, firstCell, middleCell, begin, half, target);
-  CutBoth(samples, work, middle, last, centers, middleCell, lastCell, half, end, target);
+    cells.First, cells.Last, [&](vtkIdType c) { return centers[c][axis] < cut; });
+  CutBoth(
+    samples, centers, { some.First, middle }, { cells.First, middleCell }, begin, half, target);
+  CutBoth(samples, centers, { middle, some.Last }, { middleCell, cells.Last }, half, end, target);
 }
 
 std::vector<Position> CentersOf(const Part& part)
@@ -226,20 +240,20 @@ std::vector<int> DivideAnew(const Ranks& ranks, const Part& part, const std::vec
     Put(mine, centers[c]);
     Put(mine, std::accumulate(from, to, 0.0));
   }
-  std::vector<Position> samples;
-  std::vector<double> workOfSamples;
+  Samples samples;
   for (const Bytes& bytes : ranks.Gather(mine))
   {
     for (Reader reader(bytes); !reader.IsAtEnd();)
     {
-      samples.push_back(reader.Take<Position>());
-      workOfSamples.push_back(reader.Take<double>());
+      samples.Centers.push_back(reader.Take<Position>());
+      samples.Work.push_back(reader.Take<double>());
     }
   }
-  std::vector<vtkIdType> order = NumbersUpTo(samples.size()), cells = NumbersUpTo(centers.size());
+  std::vector<vtkIdType> order = NumbersUpTo(samples.Work.size());
+  std::vector<vtkIdType> cells = NumbersUpTo(centers.size());
   std::vector<int> target(cells.size(), 0);
-  CutBoth(samples, workOfSamples, order.begin(), order.end(), centers, cells.begin(), cells.end(),
-    0, ranks.GetCount(), target);
+  CutBoth(samples, centers, { order.begin(), order.end() }, { cells.begin(), cells.end() }, 0,
+    ranks.GetCount(), target);
   return target;
 }
 

@@ -52,13 +52,10 @@ bool HasOnlyCopies(vtkUnstructuredGrid* input, const vtkMeshBridge::Cells& cells
   {
     return false;
   }
-  // All ghost flags that are skipped, but the one for copies.
-  constexpr unsigned char others = vtkMeshBridge::GhostCells::Skipped &
-    ~static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL);
-  vtkUnsignedCharArray* flags = input->GetCellGhostArray();
-  for (vtkIdType c = 0; flags && c < flags->GetNumberOfValues(); ++c)
+  const vtkMeshBridge::GhostCells ghosts(input);
+  for (vtkIdType c = 0; c < cells.NumberOfCells; ++c)
   {
-    if (flags->GetValue(c) & others)
+    if (ghosts.IsHidden(c))
     {
       return false;
     }

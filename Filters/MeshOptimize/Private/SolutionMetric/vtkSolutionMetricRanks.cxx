@@ -257,7 +257,7 @@ std::string AddArraysOnRanks(vtkMultiProcessController* controller, vtkAlgorithm
       const int dimension = *std::max_element(all.begin(), all.end());
       if (dimension == 0)
       {
-        ranks.Agree(grid->GetNumberOfCells() > 0 ? NoSimplices : "");
+        ranks.Agree(grid->GetNumberOfCells() > 0 ? vtkMeshBridge::NoSimplices : "");
         return std::string();
       }
       if (cells.Dimension != dimension)

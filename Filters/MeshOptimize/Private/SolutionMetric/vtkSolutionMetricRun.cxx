@@ -9,10 +9,8 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
-#include "vtkCellTypes.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
-#include "vtkGenericCell.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -100,32 +98,6 @@ std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& 
 //------------------------------------------------------------------------------
 namespace
 {
-
-/**
- * All cells of the greatest dimension must be simplices: a function cannot be differentiated across
- * cells that are ignored.
- */
-std::string CheckCells(vtkUnstructuredGrid* grid, const bridge::Cells& cells)
-{
-  vtkNew<vtkGenericCell> cell;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type == VTK_TETRA || (type == VTK_TRIANGLE && cells.Dimension == 2))
-    {
-      continue;
-    }
-    cell->SetCellType(type);
-    // Lines and vertices may lie beside the mesh; cells of its own dimension may not.
-    if (cell->GetCellDimension() >= std::max(2, cells.Dimension))
-    {
-      return "Cell " + std::to_string(c) + " (" + vtkCellTypes::GetClassNameFromTypeId(type) +
-        ") is neither a linear tetrahedron nor a linear triangle; split or linearize the cells "
-        "first.";
-    }
-  }
-  return {};
-}
 
 std::string ReadSolution(
   vtkDataArray* array, const bridge::Cells& cells, std::vector<double>& values)
@@ -363,9 +335,10 @@ std::string AddArraysIn(
 std::string CheckInput(vtkUnstructuredGrid* grid, const Request& request, bridge::Cells& cells)
 {
   std::string error = bridge::ClassifyCells(grid, cells);
-  if (error.empty() && grid->GetNumberOfCells() > 0)
+  if (error.empty())
   {
-    error = CheckCells(grid, cells);
+    // A function cannot be differentiated across cells that are ignored.
+    error = bridge::CheckOnlySimplices(grid, cells);
   }
   if (!error.empty() || cells.Simplices.empty())
   {
@@ -382,7 +355,7 @@ std::string AddArrays(vtkUnstructuredGrid* grid, const Request& request, Outcome
   const std::string error = CheckInput(grid, request, cells);
   if (!error.empty() || grid->GetNumberOfCells() == 0 || cells.Dimension == 0)
   {
-    return error.empty() && grid->GetNumberOfCells() > 0 ? NoSimplices : error;
+    return error.empty() && grid->GetNumberOfCells() > 0 ? bridge::NoSimplices : error;
   }
   if (cells.Simplices.empty())
   {

@@ -46,9 +46,6 @@ struct Outcome
  */
 std::string FindArray(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Request& request);
 
-/// The error about cells among which there is no simplex.
-constexpr const char* NoSimplices = "The input has neither triangles nor tetrahedra.";
-
 /**
  * Classifies the cells of `grid`. Returns a sentence about the first cell that is no simplex but
  * should be one, or the first value that cannot be used. A grid without cells is fine.

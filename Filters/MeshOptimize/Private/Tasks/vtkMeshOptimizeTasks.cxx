@@ -8,13 +8,12 @@
 #include "Ranks/vtkMeshRanksBlocks.h"
 #include "Rounds/vtkMeshOptimizeRanks.h"
 #include "vtkMeshBridgeBlocks.h"
+#include "vtkMeshBridgeCells.h"
 #include "vtkMeshBridgeControl.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkCellType.h"
 #include "vtkDataObject.h"
 #include "vtkDataObjectTree.h"
-#include "vtkGenericCell.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
@@ -110,36 +109,6 @@ std::string CheckRequest(const Request& request, std::vector<Task>& tasks)
   return error.empty() ? request.Options.check(hasSizes) : error;
 }
 
-bool HasTetrahedra(vtkUnstructuredGrid* grid)
-{
-  vtkIdType c = 0;
-  while (c < grid->GetNumberOfCells() && grid->GetCellType(c) != VTK_TETRA)
-  {
-    ++c;
-  }
-  return c < grid->GetNumberOfCells();
-}
-
-bool HasVolumes(vtkUnstructuredGrid* grid)
-{
-  vtkNew<vtkGenericCell> cell;
-  int last = VTK_EMPTY_CELL; // neighbours mostly are of one type
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type != last)
-    {
-      cell->SetCellType(type);
-      if (cell->GetCellDimension() == 3)
-      {
-        return true;
-      }
-      last = type;
-    }
-  }
-  return false;
-}
-
 /**
  * Whether all ranks have been asked for their pieces of one mesh.
  */
@@ -178,7 +147,7 @@ std::vector<char> FindPiecesOfVolumes(const Ports& ports, const std::vector<Task
   for (const Task& task : tasks)
   {
     blocks.push_back(task.Block);
-    volumes.push_back(HasPieces(ports) && HasVolumes(task.Input));
+    volumes.push_back(HasPieces(ports) && vtkMeshBridge::HasVolumes(task.Input));
   }
   return HasPieces(ports) ? vtkMeshRanks::FindVolumes(ports.Controller, blocks, volumes) : volumes;
 }
@@ -304,7 +273,8 @@ std::string OptimizeAll(const Ports& ports, Request request, Outcome& outcome)
   // Faces that two blocks share stay in both, so that the blocks still fit together.
   const auto locked = PrepareSurface(request, GridsOf(tasks));
   const bool slides = request.Slide &&
-    std::any_of(tasks.begin(), tasks.end(), [](const Task& t) { return HasTetrahedra(t.Input); });
+    std::any_of(tasks.begin(), tasks.end(),
+      [](const Task& t) { return vtkMeshBridge::FindDimension(t.Input) == 3; });
   // The columns are decided before the first grid, so that all rows have the same.
   StartHistory(ports.History, isComposite, slides);
   for (std::size_t i = 0; i < tasks.size(); ++i)

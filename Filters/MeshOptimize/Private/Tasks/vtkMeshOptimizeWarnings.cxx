@@ -45,15 +45,14 @@ void Warn(vtkAlgorithm* filter, const Outcome& outcome)
   if (outcome.NumberOfQuadraticSimplices > 0)
   {
     vtkWarningWithObjectMacro(filter,
-      << outcome.NumberOfQuadraticSimplices
-      << " quadratic triangles or tetrahedra passed through as they are: only linear ones can be "
-         "optimized.");
+      << "Quadratic triangles and tetrahedra passed through as they are, "
+      << outcome.NumberOfQuadraticSimplices << " in all: only linear ones can be optimized.");
   }
   if (outcome.NumberOfReorientedCells > 0)
   {
     vtkWarningWithObjectMacro(filter,
-      << outcome.NumberOfReorientedCells
-      << " cells were numbered the wrong way round (negative volume); they have been renumbered.");
+      << "Cells that were numbered the wrong way round (negative volume) have been renumbered, "
+      << outcome.NumberOfReorientedCells << " in all.");
   }
   for (const std::string& text : { outcome.Twins, outcome.Overlap, outcome.Tangle, outcome.Sizes })
   {
