@@ -257,7 +257,8 @@ bool Worker<D, Shape>::mayLookAhead()
   const auto op = static_cast<int>(Operation::LookAhead);
   const Judge<D, Shape>& judge = this->judge();
   const bool isLifting = this->workpiece_.slides() && !this->task_->polishes();
-  return !isLifting || judge.tried[op] < this->allowance_.patienceOfSliding(PatientLooksOfSliding) ||
+  return !isLifting ||
+    judge.tried[op] < this->allowance_.patienceOfSliding(PatientLooksOfSliding) ||
     judge.gained[op] * Patience >= judge.tried[op];
 }
 
