@@ -106,6 +106,29 @@ TEST(BoundaryChange, ANodeAtItsBestPlaceStays)
   EXPECT_EQ(triedOf(plane.bench.judge.done, Operation::NodeMotion), 0);
 }
 
+TEST(BoundaryChange, WhatFailedIsTriedAgainOnlyWhenTheStarHasChanged)
+{
+  Plane plane(halfHexagon(0.0));
+  Bench<2>& b = plane.bench;
+  const auto tries = [&](Index t)
+  {
+    const auto count = [&]
+    {
+      return triedOf(b.judge.tried, Operation::NodeMotion) +
+        triedOf(b.judge.tried, Operation::EdgeContraction);
+    };
+    const long before = count();
+    EXPECT_FALSE(plane.improve(t, Level::Removal));
+    return count() - before;
+  };
+  b.editor.stamp({ 0, 1, 2 }); // nothing counts at time 0
+  EXPECT_EQ(tries(0), 2);      // node 0 can neither slide nor vanish; the others are corners
+  EXPECT_EQ(tries(1), 0);      // the same node
+  EXPECT_EQ(tries(2), 0);
+  b.editor.stamp({ 1 });
+  EXPECT_EQ(tries(1), 2);
+}
+
 TEST(BoundaryChange, ANodeTooManyGoes)
 {
   Plane plane(dividedTriangle(0.1));
