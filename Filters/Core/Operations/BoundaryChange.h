@@ -61,15 +61,19 @@ private:
   static constexpr int SearchSteps = 14;       ///< along a curve: to 1/1000 of the range
   static constexpr double FarthestSlide = 0.8; ///< fraction of the way to a neighbour
 
-  /// Moves v along its curve to the best place for its star, unless nothing has changed since that
-  /// last failed.
+  /// Only in space, where each try costs a proof of distance and more.
+  static bool failsAgain(const Judge<D, Shape>& judge, Index v, std::uint32_t failed)
+  {
+    return judge.slides() && judge.failsAgain(failed, judge.mesh().pointData(v).stamp);
+  }
+
+  /// Moves v along its curve to the best place for its star, unless that fails again.
   bool slide(Judge<D, Shape>& judge, Index v)
   {
     const SimplexMesh<D>& mesh = judge.mesh();
-    const auto& data = mesh.pointData(v);
     this->proposal_.clear();
     std::vector<Index>& star = this->proposal_.cavity;
-    if (judge.failsAgain(data.moveFailed, data.stamp) || !judge.editor().star(v, star))
+    if (this->failsAgain(judge, v, mesh.pointData(v).moveFailed) || !judge.editor().star(v, star))
     {
       return false;
     }
@@ -101,12 +105,11 @@ private:
     return done;
   }
 
-  /// Joins v with the first neighbour for which that gains, unless nothing has changed since that
-  /// last failed.
+  /// Joins v with the first neighbour for which that gains, unless that fails again.
   bool remove(Judge<D, Shape>& judge, Index v)
   {
-    const auto& data = judge.mesh().pointData(v);
-    if (judge.failsAgain(data.removeFailed, data.stamp) || !judge.editor().star(v, this->star_))
+    const std::uint32_t failed = judge.mesh().pointData(v).removeFailed;
+    if (this->failsAgain(judge, v, failed) || !judge.editor().star(v, this->star_))
     {
       return false;
     }
