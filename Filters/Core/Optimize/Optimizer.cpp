@@ -62,7 +62,6 @@ private:
       (o.desiredSize > 0.0 || this->run_.metric.hasSizes());
   }
   bool untangle();
-  void limitGrowth();
   void restore(const SimplexMesh<D>& mesh);
   void optimizeWith(Effort effort, double part);
   void optimizeSliding();
@@ -77,7 +76,6 @@ private:
 
   Run<D>& run_;
   Surface<D>* surface_; ///< that of the run, to be released
-  long mostCells_ = 0;  ///< the input's and the growth budget's, for the whole run
 };
 
 template <int D>
@@ -99,15 +97,15 @@ void Optimizer<D>::optimize()
     optimizePaper1996<D>(this->run_, o.targetQuality, o.lookAhead);
     return;
   }
-  this->mostCells_ = input.cells +
+  this->run_.mostCells = input.cells +
     std::min(growthOf(this->run_.options, input.cells, D), roomToGrow(input.cells));
-  this->limitGrowth();
+  this->run_.limitGrowth();
   const bool isTangled = input.worst < -FlatQuality;
   if (isTangled && !this->untangle())
   {
     return;
   }
-  this->limitGrowth();
+  this->run_.limitGrowth();
   const Clock::Section part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
   if (this->wantsSizes())
   {
@@ -125,13 +123,6 @@ void Optimizer<D>::optimize()
   {
     optimizeWorstFirst<D>(this->run_);
   }
-}
-
-/// The growth budget is for the whole run: what is left of it after the stages so far.
-template <int D>
-void Optimizer<D>::limitGrowth()
-{
-  this->run_.growth = std::max(0L, this->mostCells_ - this->run_.report.history.back().cells);
 }
 
 /// Back to an earlier state of the mesh.
@@ -152,12 +143,9 @@ void Optimizer<D>::restore(const SimplexMesh<D>& mesh)
 template <int D>
 void Optimizer<D>::optimizeWith(Effort effort, double part)
 {
-  this->limitGrowth();
-  const Run<D>& all = this->run_;
-  Options options = all.options;
-  options.effort = effort;
-  Run<D> run{ all.editor, all.metric, all.surface, options, all.control, all.clock, all.report };
-  run.growth = static_cast<long>(part * static_cast<double>(all.growth));
+  Run<D> run = this->run_;
+  run.effort = effort;
+  run.limitGrowth(part);
   optimizeWorstFirst<D>(run);
 }
 
@@ -172,8 +160,7 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
   const double worst = run.report.history.back().worst;
   const long below = run.report.history.back().belowTarget;
   const StopReason reason = run.report.stopReason;
-  this->limitGrowth();
-  run.growth = static_cast<long>(PartForDivisions * static_cast<double>(run.growth));
+  run.limitGrowth(PartForDivisions);
   if constexpr (D == 3) // only surfaces in space judge changes
   {
     const double bad = std::min(run.options.targetQuality, AboveWorst * worst);
@@ -202,7 +189,7 @@ template <int D>
 void Optimizer<D>::optimizeSliding()
 {
   const Run<D>& run = this->run_;
-  const Effort effort = run.options.effort == Effort::Quick ? Effort::Quick : Effort::Default;
+  const Effort effort = run.effort == Effort::Quick ? Effort::Quick : Effort::Default;
   const auto goesOn = [&]
   {
     const double worst = run.report.history.back().worst;
@@ -228,10 +215,10 @@ void Optimizer<D>::optimizeSliding()
     }
   }
   if (!run.clock.hasStopped() &&
-    (run.options.effort == Effort::Best || run.report.stopReason == StopReason::GrowthLimit))
+    (run.effort == Effort::Best || run.report.stopReason == StopReason::GrowthLimit))
   {
     const Clock::Section part(run.clock, 1.0 - left, 1.0);
-    this->optimizeWith(run.options.effort, 1.0);
+    this->optimizeWith(run.effort, 1.0);
   }
 }
 
@@ -247,7 +234,7 @@ void Optimizer<D>::optimizeFromRidges()
     this->optimizeWith(Effort::Quick, 0.5);
   }
   const bool isDone = all.report.stopReason == StopReason::TargetReached &&
-    all.options.effort != Effort::Best;
+    all.effort != Effort::Best;
   if (isDone || all.clock.hasStopped())
   {
     return;
@@ -338,7 +325,7 @@ bool Optimizer<D>::repairForSizes()
   {
     const Clock::Section part(this->run_.clock, 0.0, Untangled);
     optimizeWorstFirst<D>(this->run_);
-    this->limitGrowth();
+    this->run_.limitGrowth();
     summarize(this->run_.mesh(), this->run_.options.targetQuality, &inverted);
     return inverted == 0 && !this->run_.clock.hasStopped();
   }

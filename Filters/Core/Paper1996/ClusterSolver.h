@@ -8,10 +8,9 @@
 #ifndef meshopt_Paper1996_ClusterSolver_h
 #define meshopt_Paper1996_ClusterSolver_h
 
+#include "Base/Raised.h"
 #include "Edit/Judge.h"
 #include "Paper1996/LocalAlgorithm.h"
-
-#include <cmath>
 
 namespace meshopt
 {
@@ -75,7 +74,7 @@ bool ClusterSolver<D, Shape>::solve(Index cell, int level, const std::vector<std
   }
   this->setMetrics();
   const LocalResult result = this->local_.solve(this->cluster_, this->metrics_);
-  const double required = result.before + this->leastGain_ * std::abs(result.before);
+  const double required = raised(result.before, this->leastGain_);
   // Cells may be inverted before: a quality that is not positive proves nothing, so the moving
   // nodes must also lie among the others.
   return result.after > required && (result.after > 0.0 || this->cluster_.isAmidPoints()) &&

@@ -10,6 +10,7 @@
 #ifndef meshopt_Paper1996_FillingLookAhead_h
 #define meshopt_Paper1996_FillingLookAhead_h
 
+#include "Base/Raised.h"
 #include "Paper1996/ClusterSolver.h"
 #include "Paper1996/FillingTrial.h"
 
@@ -107,7 +108,7 @@ bool FillingLookAhead<D, Shape>::improve(const ElementCluster<D>& around, const 
     this->changed_ = this->trial_.made();
     double before = around.cluster.worst;
     this->reposition(before);
-    if (this->worstOfChanged() > before + this->leastGain_ * std::abs(before))
+    if (this->worstOfChanged() > raised(before, this->leastGain_))
     {
       this->judge_.commit(mark);
       return true;

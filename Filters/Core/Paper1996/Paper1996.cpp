@@ -3,11 +3,11 @@
 // look-ahead is worth its price.
 #include "Paper1996/Paper1996.h"
 
+#include "Base/Raised.h"
 #include "Bound/Caps.h"
 #include "Paper1996/GlobalAlgorithm.h"
 #include "Paper1996/Reconnection.h"
 
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -227,7 +227,7 @@ bool Paper1996<D>::alternate(int lookAhead)
   }
   // A smaller gain counts as none: the loop would go on for hardly anything. Relative to the
   // magnitude, since the worst quality of a tangled mesh is negative.
-  return this->worst() > before + LeastGain * std::abs(before);
+  return this->worst() > raised(before, LeastGain);
 }
 
 // Sets the certified bound, and counts the cells under the target that are at their caps.

@@ -3,6 +3,7 @@
 // fails is set aside until something changes at one of its nodes.
 #include "Paper1996/Reconnection.h"
 
+#include "Base/Raised.h"
 #include "Mesh/PinchedPoints.h"
 #include "Paper1996/FillingLookAhead.h"
 #include "Paper1996/FillingTrial.h"
@@ -10,7 +11,6 @@
 #include "Run/Run.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace meshopt
@@ -127,7 +127,7 @@ bool Reconnection<D, Shape>::improveCell(Index c)
       ++this->result_.tried[static_cast<int>(kind)];
       // A filling must lift the worst cell of its cluster by the least gain, as a fraction.
       const double worst = around.cluster.worst;
-      if (!this->trial_.make(around, apex, worst + this->parameters_.leastGain * std::abs(worst)))
+      if (!this->trial_.make(around, apex, raised(worst, this->parameters_.leastGain)))
       {
         return false;
       }

@@ -12,6 +12,8 @@
 #include "Run/Summary.h"
 #include "Surface/Surface.h"
 
+#include <algorithm>
+
 namespace meshopt
 {
 /// All that it refers to must outlive it.
@@ -25,10 +27,18 @@ struct Run
   const Control& control;
   Clock& clock;
   Report& report;
-  long growth = AnyGrowth; ///< net number of cells that may still be added
+  long growth = AnyGrowth;        ///< net number of cells that may still be added
+  long mostCells = AnyGrowth;     ///< by the growth budget of the whole run
+  Effort effort = options.effort; ///< of the stage at work: the first ones may take less
 
   const SimplexMesh<D>& mesh() const { return this->editor.mesh(); }
 
+  /// Sets the growth to a part of what the stages so far have left.
+  void limitGrowth(double part = 1.0)
+  {
+    const long left = std::max(0L, this->mostCells - this->report.history.back().cells);
+    this->growth = static_cast<long>(part * static_cast<double>(left));
+  }
   /// The stop reason of a run that the clock has stopped.
   StopReason stopped() const
   {

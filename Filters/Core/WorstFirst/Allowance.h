@@ -20,7 +20,7 @@ public:
   /// The workpiece must outlive this object.
   explicit Allowance(const Workpiece<D, Shape>& workpiece)
     : workpiece_(workpiece)
-    , costs_(workpiece.options().effort)
+    , costs_(workpiece.effort())
   {
     this->costs_.open(workpiece.mesh().countCells(), countFreeNodes(workpiece.mesh()));
   }

@@ -6,11 +6,11 @@
 #ifndef meshopt_WorstFirst_CostModel_h
 #define meshopt_WorstFirst_CostModel_h
 
+#include "Base/Raised.h"
 #include "Run/Options.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -100,7 +100,7 @@ public:
   void notePolish(std::int64_t evaluations, double worst)
   {
     this->spent_ += static_cast<double>(evaluations);
-    if (worst > this->lastWorst_ + ClearRise * std::fabs(this->lastWorst_))
+    if (worst > raised(this->lastWorst_, ClearRise))
     {
       this->lastWorst_ = worst;
       this->spent_ = 0.0;

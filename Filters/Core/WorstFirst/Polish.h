@@ -4,6 +4,7 @@
 #ifndef meshopt_WorstFirst_Polish_h
 #define meshopt_WorstFirst_Polish_h
 
+#include "Base/Raised.h"
 #include "WorstFirst/Stage.h"
 
 namespace meshopt
@@ -55,7 +56,7 @@ bool Polish<D, Shape>::runAndRepair(double target, bool isLast)
 {
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
   const Options& options = workpiece.options();
-  const int most = PolishCycles[static_cast<int>(options.effort)];
+  const int most = PolishCycles[static_cast<int>(workpiece.effort())];
   bool more = true, again = true;
   int idle = 0; // cycles in a row without gain: the repair in between may help the next one
   for (int cycle = 0; more && again; ++cycle)
@@ -111,7 +112,7 @@ bool Polish<D, Shape>::run(double target, bool finely)
   // With tiny caps on facets the next worst cells and their surroundings are spared on purpose:
   // there the search does not widen without need.
   const bool widens = past && !workpiece.sparesTiny();
-  const auto times = static_cast<std::size_t>(workpiece.options().effort == Effort::Best
+  const auto times = static_cast<std::size_t>(workpiece.effort() == Effort::Best
       ? std::max<Index>(1, workpiece.mesh().numberOfCellSlots() / CellsPerPolish)
       : 1);
   const std::size_t least = times * PolishedCells;
@@ -144,7 +145,7 @@ bool Polish<D, Shape>::run(double target, bool finely)
     // Few cells cost little: where the surface takes part, these go on while they gain at all.
     const double now = workpiece.worst();
     const bool areFew = workpiece.slides() && worst.size() < wanted && now > before;
-    if (now > before + leastGained * std::fabs(before) || areFew)
+    if (now > raised(before, leastGained) || areFew)
     {
       layers = 0;
       wanted = isWide ? wanted : least;

@@ -68,14 +68,16 @@ std::vector<double> Schedule<D, Shape>::targets() const
   const double bound = this->workpiece_.bound();
   for (double s : Stages)
   {
-    if (options.effort == Effort::Best && this->workpiece_.isPast(s) && result.back() < bound)
+    if (this->workpiece_.effort() == Effort::Best && this->workpiece_.isPast(s) &&
+      result.back() < bound)
     {
       result.push_back(std::min(s, bound));
     }
   }
   for (double s : StagesOfSliding)
   {
-    if (options.effort == Effort::Best && this->workpiece_.isPast(s) && this->workpiece_.slides())
+    if (this->workpiece_.effort() == Effort::Best && this->workpiece_.isPast(s) &&
+      this->workpiece_.slides())
     {
       result.push_back(s);
     }
@@ -90,7 +92,7 @@ void Schedule<D, Shape>::optimize()
   const bool more = this->runStages(targets);
   // The fine polish also makes other cells worse. Bring those that can be repaired back to the
   // target.
-  if (more && this->workpiece_.options().effort == Effort::Best)
+  if (more && this->workpiece_.effort() == Effort::Best)
   {
     this->allowance_.endLimits();
     if (this->polish_.run(targets.back(), true))

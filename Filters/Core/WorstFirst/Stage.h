@@ -36,7 +36,7 @@ public:
 
 private:
   bool run(Task task);
-  int passesThatRise() const { return this->workpiece_.options().effort == Effort::Quick ? 1 : 2; }
+  int passesThatRise() const { return this->workpiece_.effort() == Effort::Quick ? 1 : 2; }
   int levelOf(Phase phase, int pass) const;
   long collect(const Task& task, std::vector<Index>& bad) const;
   bool isPolishSpent(const Task& task) const;
@@ -163,8 +163,7 @@ template <int D, class Shape>
 bool Stage<D, Shape>::givesUpMany(const Task& task, long badBefore) const
 {
   const double cells = static_cast<double>(this->workpiece_.mesh().countCells());
-  const bool isQuick = this->workpiece_.options().effort == Effort::Quick &&
-    task.target > Stages[0];
+  const bool isQuick = this->workpiece_.effort() == Effort::Quick && task.target > Stages[0];
   return !task.polishes() && !this->workpiece_.slides() &&
     ((isQuick && task.below > ManyStuckQuick * cells) ||
       (badBefore > 0 && task.below > HopelesslyMany * badBefore && task.below > ManyStuck * cells));

@@ -198,7 +198,7 @@ void Worker<D, Shape>::noteSuccess(Index c)
 template <int D, class Shape>
 bool Worker<D, Shape>::hasNext()
 {
-  const int rounds = CreepingRounds[static_cast<int>(this->workpiece_.options().effort)];
+  const int rounds = CreepingRounds[static_cast<int>(this->workpiece_.effort())];
   if (this->queue.empty() && this->round_ < rounds)
   {
     ++this->round_;

@@ -28,7 +28,7 @@ public:
   {
     const Options& options = run.options;
     // Caps are needed up to the highest target of any stage: a cell above that is never tried.
-    const double highest = options.effort == Effort::Best
+    const double highest = run.effort == Effort::Best
       ? std::max(*(std::end(Stages) - 1), options.targetQuality)
       : options.targetQuality;
     // No cap is certified if the metric varies or if the surface itself can change.
@@ -43,6 +43,7 @@ public:
   Run<D>& run() const { return this->run_; }
   const SimplexMesh<D>& mesh() const { return this->run_.mesh(); }
   const Options& options() const { return this->run_.options; }
+  Effort effort() const { return this->run_.effort; }
   const QualityModel<D, Shape>& model() const { return this->model_; }
   Caps<D>& caps() { return this->caps_; }
   const Caps<D>& caps() const { return this->caps_; }

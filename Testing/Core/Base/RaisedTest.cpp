@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A quality is raised by a part of its size, whatever its sign.
+#include "Base/Raised.h"
+
+#include <gtest/gtest.h>
+
+using meshopt::raised;
+
+TEST(Raised, RisesWhateverTheSign)
+{
+  EXPECT_DOUBLE_EQ(raised(0.5, 0.02), 0.51);
+  EXPECT_DOUBLE_EQ(raised(-0.5, 0.02), -0.49);
+  EXPECT_EQ(raised(0.0, 0.02), 0.0);
+}
