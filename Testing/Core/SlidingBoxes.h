@@ -49,6 +49,36 @@ inline void bend(MeshInput<3>& in)
   }
 }
 
+/// A gear of as many teeth, each three cells between the axis and a facet of its outline. Its
+/// ridges lie close to each other and go from one face to the other.
+inline MeshInput<3> gear(int teeth, double thickness)
+{
+  MeshInput<3> in;
+  in.points = { { 0, 0, 0 }, { 0, 0, thickness } };
+  const Index n = 2 * teeth;
+  for (Index k = 0; k < n; ++k)
+  {
+    const double angle = 2.0 * std::acos(-1.0) * k / n, radius = k % 2 ? 1.0 : 0.9;
+    in.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    in.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), thickness);
+  }
+  for (Index k = 0; k < n; ++k)
+  {
+    const Index a = 2 + 2 * k, b = 2 + 2 * ((k + 1) % n);
+    in.cells.push_back({ 0, a, b, 1 });
+    in.cells.push_back({ a, b, 1, a + 1 });
+    in.cells.push_back({ b, 1, a + 1, b + 1 });
+  }
+  return in;
+}
+
+inline SurfaceOptions tolerance(double length)
+{
+  SurfaceOptions options;
+  options.tolerance = length;
+  return options;
+}
+
 /// A mesh with its surface.
 struct Sliding
 {

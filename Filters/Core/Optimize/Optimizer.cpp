@@ -8,6 +8,7 @@
 #include "Run/Run.h"
 #include "Sizes/SizeStage.h"
 #include "Surface/KeptSizes.h"
+#include "WorstFirst/Coarsening.h"
 #include "WorstFirst/LongEdges.h"
 #include "WorstFirst/WorstFirst.h"
 
@@ -39,6 +40,10 @@ constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
 /// times it are divided again. If the first way does not help, a gentler one may, which makes less
 /// of the mesh worse; or one that goes on until the parts are good, where a needle is left alone.
 constexpr double AboveWorst = 1.5, PartsBelow[] = { 0.6, 0.0, 4.0 };
+/// Once no more than this part of the growth budget is left, nodes elsewhere make room for each
+/// division: at most the part PartRemoved of the input's cells. No new cell there is below
+/// AboveWorstThere times the worst quality: with 1.5 or 2.5 the worst cells end lower.
+constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 8;
@@ -65,6 +70,7 @@ private:
   void restore(const SimplexMesh<D>& mesh);
   void optimizeWith(Effort effort, double part);
   void optimizeSliding();
+  bool makeRoom();
   bool divideAndOptimize(Effort effort, double partsBelow);
   void optimizeFromRidges();
   bool repairForSizes();
@@ -149,6 +155,24 @@ void Optimizer<D>::optimizeWith(Effort effort, double part)
   optimizeWorstFirst<D>(run);
 }
 
+/// If the growth budget is short, removes nodes where cells are good. Whether there is more room
+/// then.
+template <int D>
+bool Optimizer<D>::makeRoom()
+{
+  Run<D>& run = this->run_;
+  const auto cells = static_cast<double>(run.report.history.front().cells);
+  const double budget = static_cast<double>(run.mostCells) - cells;
+  run.limitGrowth();
+  const bool isShort = static_cast<double>(run.growth) <= ShortGrowth * budget;
+  if constexpr (D == 3) // only surfaces in space judge changes
+  {
+    const auto most = static_cast<long>(PartRemoved * cells);
+    return isShort && run.options.removeNodes && coarsen(run, AboveWorstThere, most) > 0;
+  }
+  return false;
+}
+
 /// Divides long edges at the worst cells, and improves what comes of it. False if the worst quality
 /// is not clearly better then; if it is not better at all, the mesh is as it was. `partsBelow`: see
 /// divideLongEdges().
@@ -160,16 +184,19 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
   const double worst = run.report.history.back().worst;
   const long below = run.report.history.back().belowTarget;
   const StopReason reason = run.report.stopReason;
+  const bool isCoarser = this->makeRoom();
+  bool isDivided = false;
   run.limitGrowth(PartForDivisions);
-  if constexpr (D == 3) // only surfaces in space judge changes
+  if constexpr (D == 3) // as in makeRoom()
   {
     const double bad = std::min(run.options.targetQuality, AboveWorst * worst);
-    if (divideLongEdges(run, bad, partsBelow) == 0)
-    {
-      return false;
-    }
+    isDivided = divideLongEdges(run, bad, partsBelow) > 0;
   }
-  if (!run.clock.hasStopped())
+  if (!isCoarser && !isDivided)
+  {
+    return false;
+  }
+  if (isDivided && !run.clock.hasStopped())
   {
     this->optimizeWith(effort, PartOfGrowth);
   }
