@@ -8,6 +8,7 @@
 #include "Run/Run.h"
 #include "Sizes/SizeStage.h"
 #include "Surface/KeptSizes.h"
+#include "Surface/SlidingSurface.h"
 #include "WorstFirst/Coarsening.h"
 #include "WorstFirst/LongEdges.h"
 #include "WorstFirst/WorstFirst.h"
@@ -173,6 +174,18 @@ bool Optimizer<D>::makeRoom()
   return false;
 }
 
+/// Facets that look the other way than what lay there: parts of divided ones.
+template <int D>
+long turnedFacets(const Run<D>& run)
+{
+  if constexpr (D == 3)
+  {
+    const auto* sliding = dynamic_cast<const SlidingSurface*>(run.surface);
+    return sliding ? sliding->countTurned(run.mesh()) : 0;
+  }
+  return 0;
+}
+
 /// Divides long edges at the worst cells, and improves what comes of it. False if the worst quality
 /// is not clearly better then; if it is not better at all, the mesh is as it was. `partsBelow`: see
 /// divideLongEdges().
@@ -184,6 +197,7 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
   const double worst = run.report.history.back().worst;
   const long below = run.report.history.back().belowTarget;
   const StopReason reason = run.report.stopReason;
+  const long turned = turnedFacets(run);
   const bool isCoarser = this->makeRoom();
   bool isDivided = false;
   run.limitGrowth(PartForDivisions);
@@ -201,13 +215,14 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
     this->optimizeWith(effort, PartOfGrowth);
   }
   const double now = run.report.history.back().worst;
-  if (now < worst || (now == worst && run.report.history.back().belowTarget >= below))
+  const bool isTurned = turnedFacets(run) > turned;
+  if (isTurned || now < worst || (now == worst && run.report.history.back().belowTarget >= below))
   {
     this->restore(before);
     run.record("divisions undone");
     run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
   }
-  return now > DivisionsGain * worst;
+  return !isTurned && now > DivisionsGain * worst;
 }
 
 /// Where the surface takes part: if the target is not reached, long edges are divided at the worst

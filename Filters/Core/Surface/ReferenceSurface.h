@@ -82,6 +82,10 @@ public:
   };
   Offset offset(const Piece& piece) const;
 
+  /// Whether the reference nearest to the centre of a facet looks the other way. Not for facets
+  /// that are no higher than the tolerance: they look nowhere.
+  bool isTurned(const Piece& piece) const;
+
 private:
   struct Facet
   {

@@ -340,6 +340,19 @@ bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& n
   return away < this->tolerance_ * this->tolerance_ && same * away <= distance(false);
 }
 
+bool ReferenceSurface::isTurned(const Piece& piece) const
+{
+  const double longest = std::max({ (piece.x[1] - piece.x[0]).norm(),
+    (piece.x[2] - piece.x[0]).norm(), (piece.x[2] - piece.x[1]).norm() });
+  if (normalOf(piece).norm() <= this->tolerance_ * longest)
+  {
+    return false;
+  }
+  std::vector<int> near;
+  findNear(this->all_, BoxTree::widened(BoxTree::around(piece.x), Reach * this->tolerance_), near);
+  return this->isInsideOut(piece, near);
+}
+
 ReferenceSurface::Offset ReferenceSurface::offset(const Piece& piece) const
 {
   std::vector<int> near;

@@ -454,4 +454,23 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
   // Beside a curve, facets can be off by both.
   return std::max(std::hypot(most, mostOfCurves), mostOfAll);
 }
+
+long SlidingSurface::countTurned(const SimplexMesh<3>& mesh) const
+{
+  long turned = 0;
+  for (Index c = 0; c < mesh.numberOfCellSlots() && !this->isExact_; ++c)
+  {
+    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
+    {
+      const Index patch = mesh.isKept(c, i) ? mesh.patch(c, i) : None;
+      if (patch != None && mesh.region(c) == this->patches_[patch].region)
+      {
+        const Facet<3> f = mesh.facet(c, i);
+        turned += this->reference_.isTurned(this->oriented(
+          { { mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2]) }, patch, mesh.region(c) }));
+      }
+    }
+  }
+  return turned;
+}
 }
