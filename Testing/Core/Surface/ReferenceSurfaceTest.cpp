@@ -73,6 +73,31 @@ TEST(ReferenceSurface, TheNearestPointAgainstBruteForce)
   EXPECT_EQ(surface.project(1, Vec<3>::Zero(), there), -1); // no such patch
 }
 
+/// Turned: seen from behind, beside the surface, and higher than the tolerance.
+TEST(ReferenceSurface, SaysWhichFacetsAreTurned)
+{
+  constexpr double tolerance = 0.01;
+  const ReferenceSurface surface = reference(
+    sheet(4, [](double, double) { return 0.0; }), tolerance);
+  const auto piece = [](double size, double height)
+  {
+    return Piece{ { Vec<3>(0.4, 0.4, height), Vec<3>(0.4 + size, 0.4, height),
+                    Vec<3>(0.4, 0.4 + size, height) },
+      0, 0 };
+  };
+  const auto turned = [](Piece p)
+  {
+    std::swap(p.x[1], p.x[2]);
+    return p;
+  };
+  EXPECT_FALSE(surface.isTurned(piece(0.1, 0.001)));
+  EXPECT_TRUE(surface.isTurned(turned(piece(0.1, 0.001))));
+  EXPECT_FALSE(surface.isTurned(turned(piece(0.1, 2.0 * tolerance)))); // nothing lies there
+  // The altitude of a right angle with equal sides is its size over the root of 2.
+  EXPECT_FALSE(surface.isTurned(turned(piece(1.4 * tolerance, 0.001))));
+  EXPECT_TRUE(surface.isTurned(turned(piece(1.5 * tolerance, 0.001))));
+}
+
 TEST(ReferenceSurface, AcceptsOnlyWhatIsWithinTheToleranceBothWays)
 {
   int accepted = 0, refused = 0;
