@@ -8,7 +8,6 @@
 #include "Run/Run.h"
 #include "Sizes/SizeStage.h"
 #include "Surface/KeptSizes.h"
-#include "Surface/SlidingSurface.h"
 #include "WorstFirst/Coarsening.h"
 #include "WorstFirst/LongEdges.h"
 #include "WorstFirst/WorstFirst.h"
@@ -174,21 +173,9 @@ bool Optimizer<D>::makeRoom()
   return false;
 }
 
-/// Facets that look the other way than what lay there: parts of divided ones.
-template <int D>
-long turnedFacets(const Run<D>& run)
-{
-  if constexpr (D == 3)
-  {
-    const auto* sliding = dynamic_cast<const SlidingSurface*>(run.surface);
-    return sliding ? sliding->countTurned(run.mesh()) : 0;
-  }
-  return 0;
-}
-
 /// Divides long edges at the worst cells, and improves what comes of it. False if the worst quality
-/// is not clearly better then; if it is not better at all, the mesh is as it was. `partsBelow`: see
-/// divideLongEdges().
+/// is not clearly better then; if it is not better at all, or if a facet has turned, the mesh is as
+/// it was. `partsBelow`: see divideLongEdges().
 template <int D>
 bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
 {
@@ -197,7 +184,7 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
   const double worst = run.report.history.back().worst;
   const long below = run.report.history.back().belowTarget;
   const StopReason reason = run.report.stopReason;
-  const long turned = turnedFacets(run);
+  const long turned = run.surface->countTurned(run.mesh());
   const bool isCoarser = this->makeRoom();
   bool isDivided = false;
   run.limitGrowth(PartForDivisions);
@@ -215,7 +202,7 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
     this->optimizeWith(effort, PartOfGrowth);
   }
   const double now = run.report.history.back().worst;
-  const bool isTurned = turnedFacets(run) > turned;
+  const bool isTurned = run.surface->countTurned(run.mesh()) > turned;
   if (isTurned || now < worst || (now == worst && run.report.history.back().belowTarget >= below))
   {
     this->restore(before);

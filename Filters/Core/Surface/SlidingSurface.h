@@ -63,9 +63,9 @@ public:
 
   /// The distance that is proved between the surface of before and that of `mesh` (both ways).
   double distance(const SimplexMesh<3>& mesh) const;
-  /// How many facets lie where the surface of before looks the other way, and are higher than the
-  /// tolerance. Divisions of facets that are within it may make some: their points are the same.
-  long countTurned(const SimplexMesh<3>& mesh) const;
+  /// Of facets that are higher than the tolerance: others look nowhere. With tolerance 0 there are
+  /// none. The cost: a search in the surface of before for each facet.
+  long countTurned(const SimplexMesh<3>& mesh) const override;
 
   Vec<3> at(Index curve, double parameter) const override
   {

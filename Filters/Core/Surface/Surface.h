@@ -92,6 +92,10 @@ public:
     return true;
   }
 
+  /// How many facets lie where the surface of before looks the other way. A change that is allowed
+  /// may make some: parts of a divided facet, which are the same points.
+  virtual long countTurned(const SimplexMesh<D>&) const { return 0; }
+
   /// Whether there is more to keep now than in the end.
   virtual bool mayRelease() const { return false; }
   /// Gives up what was to be kept only at first, and says so in the places of the mesh. False if
