@@ -48,6 +48,12 @@ constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
 constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 8;
 
+/// As far as the rows tell. Two ways of dividing may be the same where no part is bad.
+bool isOfSameMesh(const PassRecord& a, const PassRecord& b)
+{
+  return a.cells == b.cells && a.points == b.points && a.worst == b.worst && a.mean == b.mean;
+}
+
 template <int D>
 class Optimizer
 {
@@ -68,10 +74,12 @@ private:
   }
   bool untangle();
   void restore(const SimplexMesh<D>& mesh);
-  void optimizeWith(Effort effort, double part);
+  void optimizeWith(Effort effort, double part, bool polishesWidely);
   void optimizeSliding();
+  bool isWorthDividing() const;
   bool makeRoom();
-  bool divideAndOptimize(Effort effort, double partsBelow);
+  void divideAndOptimize(Effort effort, double partsBelow, bool polishesWidely, PassRecord& inVain);
+  bool divideInSomeWay(Effort effort, bool polishesWidely);
   void optimizeFromRidges();
   bool repairForSizes();
   void optimizeSizesToo();
@@ -147,10 +155,11 @@ void Optimizer<D>::restore(const SimplexMesh<D>& mesh)
 
 /// Improves the worst cells with another effort and with a part of the growth that is left.
 template <int D>
-void Optimizer<D>::optimizeWith(Effort effort, double part)
+void Optimizer<D>::optimizeWith(Effort effort, double part, bool polishesWidely)
 {
   Run<D> run = this->run_;
   run.effort = effort;
+  run.polishesWidely = polishesWidely;
   run.limitGrowth(part);
   optimizeWorstFirst<D>(run);
 }
@@ -173,11 +182,12 @@ bool Optimizer<D>::makeRoom()
   return false;
 }
 
-/// Divides long edges at the worst cells, and improves what comes of it. False if the worst quality
-/// is not clearly better then; if it is not better at all, or if a facet has turned, the mesh is as
-/// it was. `partsBelow`: see divideLongEdges().
+/// Divides long edges at the worst cells, and improves what comes of it. Back to the mesh as it was
+/// if the worst quality is not better then, or if a facet has turned. `partsBelow`: see
+/// divideLongEdges(). `inVain`: the divided mesh that did not get better the last time, if any.
 template <int D>
-bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
+void Optimizer<D>::divideAndOptimize(
+  Effort effort, double partsBelow, bool polishesWidely, PassRecord& inVain)
 {
   Run<D>& run = this->run_;
   const SimplexMesh<D> before = run.mesh();
@@ -195,11 +205,12 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
   }
   if (!isCoarser && !isDivided)
   {
-    return false;
+    return;
   }
-  if (isDivided && !run.clock.hasStopped())
+  const PassRecord divided = run.report.history.back();
+  if (isDivided && !isOfSameMesh(divided, inVain) && !run.clock.hasStopped())
   {
-    this->optimizeWith(effort, PartOfGrowth);
+    this->optimizeWith(effort, PartOfGrowth, polishesWidely);
   }
   const double now = run.report.history.back().worst;
   const bool isTurned = run.surface->countTurned(run.mesh()) > turned;
@@ -208,8 +219,40 @@ bool Optimizer<D>::divideAndOptimize(Effort effort, double partsBelow)
     this->restore(before);
     run.record("divisions undone");
     run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
+    inVain = divided;
   }
-  return !isTurned && now > DivisionsGain * worst;
+}
+
+/// Whether another division may help a surface that takes part.
+template <int D>
+bool Optimizer<D>::isWorthDividing() const
+{
+  const Run<D>& run = this->run_;
+  const double worst = run.report.history.back().worst;
+  return !run.clock.hasStopped() && run.options.insertNodes && worst > 0.0 &&
+    worst < run.options.targetQuality;
+}
+
+/// One way of dividing after the other, until one has raised the worst quality clearly. False if
+/// none has.
+template <int D>
+bool Optimizer<D>::divideInSomeWay(Effort effort, bool polishesWidely)
+{
+  const double before = this->run_.report.history.back().worst;
+  PassRecord inVain;
+  for (double partsBelow : PartsBelow)
+  {
+    if (!this->isWorthDividing())
+    {
+      return false;
+    }
+    this->divideAndOptimize(effort, partsBelow, polishesWidely, inVain);
+    if (this->run_.report.history.back().worst > DivisionsGain * before)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Where the surface takes part: if the target is not reached, long edges are divided at the worst
@@ -219,35 +262,24 @@ void Optimizer<D>::optimizeSliding()
 {
   const Run<D>& run = this->run_;
   const Effort effort = run.effort == Effort::Quick ? Effort::Quick : Effort::Default;
-  const auto goesOn = [&]
-  {
-    const double worst = run.report.history.back().worst;
-    return !run.clock.hasStopped() && run.options.insertNodes && worst > 0.0 &&
-      worst < run.options.targetQuality;
-  };
   {
     const Clock::Section part(run.clock, 0.0, 0.5);
-    this->optimizeWith(effort, PartOfGrowth);
+    this->optimizeWith(effort, PartOfGrowth, false);
   }
   double left = 0.5;
-  for (int round = 0; round < MostDivisions && goesOn(); ++round, left *= 0.5)
+  bool helps = true;
+  for (int round = 0; round < MostDivisions && helps && this->isWorthDividing(); ++round)
   {
     const Clock::Section part(run.clock, 1.0 - left, 1.0 - 0.5 * left);
-    bool helps = false;
-    for (std::size_t k = 0; k < std::size(PartsBelow) && !helps && goesOn(); ++k)
-    {
-      helps = this->divideAndOptimize(effort, PartsBelow[k]);
-    }
-    if (!helps)
-    {
-      break;
-    }
+    // To polish widely takes most of the time, and mostly another division helps as much.
+    helps = this->divideInSomeWay(effort, false) || this->divideInSomeWay(effort, true);
+    left *= 0.5;
   }
   if (!run.clock.hasStopped() &&
     (run.effort == Effort::Best || run.report.stopReason == StopReason::GrowthLimit))
   {
     const Clock::Section part(run.clock, 1.0 - left, 1.0);
-    this->optimizeWith(run.effort, 1.0);
+    this->optimizeWith(run.effort, 1.0, true);
   }
 }
 
@@ -260,7 +292,7 @@ void Optimizer<D>::optimizeFromRidges()
   const Run<D>& all = this->run_;
   {
     const Clock::Section part(all.clock, 0.0, FromRidges);
-    this->optimizeWith(Effort::Quick, 0.5);
+    this->optimizeWith(Effort::Quick, 0.5, true);
   }
   const bool isDone = all.report.stopReason == StopReason::TargetReached &&
     all.effort != Effort::Best;

@@ -30,6 +30,7 @@ struct Run
   long growth = AnyGrowth;        ///< net number of cells that may still be added
   long mostCells = AnyGrowth;     ///< by the growth budget of the whole run
   Effort effort = options.effort; ///< of the stage at work: the first ones may take less
+  bool polishesWidely = true;     ///< more than the few worst cells, if these are stuck
 
   const SimplexMesh<D>& mesh() const { return this->editor.mesh(); }
 

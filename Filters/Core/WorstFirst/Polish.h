@@ -116,7 +116,10 @@ bool Polish<D, Shape>::run(double target, bool finely)
       ? std::max<Index>(1, workpiece.mesh().numberOfCellSlots() / CellsPerPolish)
       : 1);
   const std::size_t least = times * PolishedCells;
-  const std::size_t most = times * (widens ? MostPolishedCells : MostBelowBound);
+  const std::size_t most = times *
+    (!workpiece.run().polishesWidely ? PolishedCells
+        : widens                     ? MostPolishedCells
+                                     : MostBelowBound);
   std::size_t wanted = least;
   for (int round = 0, layers = 0; round < PolishRounds && more; ++round)
   {

@@ -178,7 +178,7 @@ TEST(Coarsening, ARunExchangesNodesWhenItsBudgetIsShort)
 {
   const auto run = [](double growth, bool removes)
   {
-    Sliding sliding(gear(6, 2.0), tolerance(1e-3));
+    Sliding sliding(gear(12, 1.0), tolerance(1e-3));
     const auto most = static_cast<long>((1.0 + growth) * sliding.mesh.countCells());
     NodalMetric<3> metric;
     Options options;
@@ -200,5 +200,5 @@ TEST(Coarsening, ARunExchangesNodesWhenItsBudgetIsShort)
   EXPECT_TRUE(exchanges(with));
   EXPECT_FALSE(exchanges(without));
   EXPECT_GT(with.worstAfter, 1.1 * without.worstAfter);
-  EXPECT_FALSE(exchanges(run(3.0, true)));
+  EXPECT_FALSE(exchanges(run(10.0, true)));
 }

@@ -91,7 +91,7 @@ TEST(Polish, TriesTheFewWorstCells)
 }
 
 /// At the target of the run, if the worst cell is far below the bound. Then twice as many, up to
-/// the most, as long as there is something left to spend.
+/// the most, as long as there is something left to spend; not in a run that others follow.
 TEST(Polish, TakesMoreCellsWhereThereIsHope)
 {
   const MeshInput<2> in = jitteredGrid<2>(10, 0.25);
@@ -112,6 +112,8 @@ TEST(Polish, TakesMoreCellsWhereThereIsHope)
   EXPECT_EQ(polished(0.9, worst / FarBelowBound + 1e-6, nothing), MostBelowBound);
   EXPECT_EQ(polished(0.9, worst / FarBelowBound - 1e-6, nothing), PolishedCells);
   EXPECT_EQ(polished(0.9, 0.95, [](EngineBench<2>& bench) { bench.allowance.noteLooks(1000); }),
+    PolishedCells);
+  EXPECT_EQ(polished(0.9, 0.95, [](EngineBench<2>& bench) { bench.run.polishesWidely = false; }),
     PolishedCells);
   const auto spendAll = [](EngineBench<2>& bench)
   {
