@@ -30,8 +30,7 @@ constexpr double UntangledQuality = 0.1;
 constexpr double FlatQuality = 1e-9;
 /// Progress after untangling, and after the sizes.
 constexpr double Untangled = 0.2, Sized = 0.6;
-/// The same after the first half of optimizeFromRidges().
-constexpr double FromRidges = 0.5;
+constexpr double FromRidges = 0.5; ///< the same after the first part of optimizeFromRidges()
 /// Where the surface takes part: of the growth that is left, what a run may use if others follow,
 /// and what divisions may. Found on ten surfaces of CGAL, as the next two: with halves of the
 /// growth the worst qualities were a fifth to a third lower.
@@ -47,12 +46,6 @@ constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 8;
-
-/// As far as the rows tell. Two ways of dividing may be the same where no part is bad.
-bool isOfSameMesh(const PassRecord& a, const PassRecord& b)
-{
-  return a.cells == b.cells && a.points == b.points && a.worst == b.worst && a.mean == b.mean;
-}
 
 template <int D>
 class Optimizer
@@ -78,7 +71,7 @@ private:
   void optimizeSliding();
   bool isWorthDividing() const;
   bool makeRoom();
-  void divideAndOptimize(Effort effort, double partsBelow, bool polishesWidely, PassRecord& inVain);
+  void divideAndOptimize(Effort effort, double partsBelow, bool polishesWidely, double& inVain);
   bool divideInSomeWay(Effort effort, bool polishesWidely);
   void optimizeFromRidges();
   bool repairForSizes();
@@ -182,12 +175,12 @@ bool Optimizer<D>::makeRoom()
   return false;
 }
 
-/// Divides long edges at the worst cells, and improves what comes of it. Back to the mesh as it was
-/// if the worst quality is not better then, or if a facet has turned. `partsBelow`: see
-/// divideLongEdges(). `inVain`: the divided mesh that did not get better the last time, if any.
+/// Divides long edges at the worst cells (see divideLongEdges()), and improves what comes of it. The
+/// mesh stays as it was if that is no better, or if a facet has turned. `inVain`: the mean quality
+/// of the last divided mesh that was no better; the same again is the same mesh.
 template <int D>
 void Optimizer<D>::divideAndOptimize(
-  Effort effort, double partsBelow, bool polishesWidely, PassRecord& inVain)
+  Effort effort, double partsBelow, bool polishesWidely, double& inVain)
 {
   Run<D>& run = this->run_;
   const SimplexMesh<D> before = run.mesh();
@@ -207,8 +200,8 @@ void Optimizer<D>::divideAndOptimize(
   {
     return;
   }
-  const PassRecord divided = run.report.history.back();
-  if (isDivided && !isOfSameMesh(divided, inVain) && !run.clock.hasStopped())
+  const double divided = run.report.history.back().mean;
+  if (isDivided && divided != inVain && !run.clock.hasStopped())
   {
     this->optimizeWith(effort, PartOfGrowth, polishesWidely);
   }
@@ -233,21 +226,17 @@ bool Optimizer<D>::isWorthDividing() const
     worst < run.options.targetQuality;
 }
 
-/// One way of dividing after the other, until one has raised the worst quality clearly. False if
-/// none has.
+/// Divides in one way after the other. False if none raises the worst quality clearly.
 template <int D>
 bool Optimizer<D>::divideInSomeWay(Effort effort, bool polishesWidely)
 {
-  const double before = this->run_.report.history.back().worst;
-  PassRecord inVain;
-  for (double partsBelow : PartsBelow)
+  const auto worst = [this] { return this->run_.report.history.back().worst; };
+  const double before = worst();
+  double inVain = -1.0; // no mean quality is negative here
+  for (std::size_t k = 0; k < std::size(PartsBelow) && this->isWorthDividing(); ++k)
   {
-    if (!this->isWorthDividing())
-    {
-      return false;
-    }
-    this->divideAndOptimize(effort, partsBelow, polishesWidely, inVain);
-    if (this->run_.report.history.back().worst > DivisionsGain * before)
+    this->divideAndOptimize(effort, PartsBelow[k], polishesWidely, inVain);
+    if (worst() > DivisionsGain * before)
     {
       return true;
     }
@@ -275,8 +264,8 @@ void Optimizer<D>::optimizeSliding()
     helps = this->divideInSomeWay(effort, false) || this->divideInSomeWay(effort, true);
     left *= 0.5;
   }
-  if (!run.clock.hasStopped() &&
-    (run.effort == Effort::Best || run.report.stopReason == StopReason::GrowthLimit))
+  const bool isDone = run.report.history.back().belowTarget == 0 && run.effort != Effort::Best;
+  if (!isDone && !run.clock.hasStopped())
   {
     const Clock::Section part(run.clock, 1.0 - left, 1.0);
     this->optimizeWith(run.effort, 1.0, true);
