@@ -175,7 +175,7 @@ bool Optimizer<D>::makeRoom()
   return false;
 }
 
-/// Divides long edges at the worst cells (see divideLongEdges()), and improves what comes of it. The
+/// Divides long edges at the worst cells (divideLongEdges()), and improves what comes of it. The
 /// mesh stays as it was if that is no better, or if a facet has turned. `inVain`: the mean quality
 /// of the last divided mesh that was no better; the same again is the same mesh.
 template <int D>
