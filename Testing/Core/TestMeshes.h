@@ -3,7 +3,8 @@
 #ifndef meshopt_Testing_TestMeshes_h
 #define meshopt_Testing_TestMeshes_h
 
-#include "Mesh/EulerCharacteristic.h"
+#include "EulerCharacteristic.h"
+#include "Mesh/CavityFit.h"
 #include "Mesh/SimplexMesh.h"
 
 #include <gtest/gtest.h>
@@ -52,6 +53,25 @@ long eulerCharacteristic(const SimplexMesh<D>& mesh)
     }
   }
   return eulerCharacteristic<D>(cells);
+}
+
+/// CavityFit for a single question.
+template <int D>
+bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells, const KeptChange<D>* change = nullptr)
+{
+  CavityFit<D> fit;
+  fit.load(mesh, cavity, cells);
+  return fit.fills(change);
+}
+
+template <int D>
+bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells, const std::vector<std::uint8_t>& pinched)
+{
+  CavityFit<D> fit;
+  fit.load(mesh, cavity, cells);
+  return fit.meetsOthers(pinched);
 }
 
 /// The unit square (2 triangles a square) or cube (6 tetrahedra a cube) of n^D boxes; interior

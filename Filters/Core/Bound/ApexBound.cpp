@@ -244,7 +244,12 @@ double angleCap(double phi)
     const double m = std::sqrt(r * r + 0.25);
     const double f = m * (1.0 - r * s) - 2.0 * r * r + 1.0;
     const double df = r / m * (1.0 - r * s) - m * s - 4.0 * r;
-    r -= f / df;
+    const double next = r - f / df;
+    if (next == r)
+    {
+      break; // so would all other steps
+    }
+    r = next;
   }
   const double p = 1.0 + 4.0 * std::sqrt(r * r + 0.25) + 2.0 * r * s;
   return std::min(1.0, shapeConstant * r * r * std::sin(phi) / 6.0 / cubed(p));

@@ -201,12 +201,7 @@ public:
   /// better than p.least.
   bool measure(Proposal<D>& p) const;
   /// Whether topology allows the new cells. Always true if cells cannot overlap (setTangled()).
-  bool fits(const Proposal<D>& p) const
-  {
-    return !this->tangled_ ||
-      (fillsCavity<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) &&
-        !meetsOthers<D>(this->mesh(), p.cavity, p.cells, *this->pinched_));
-  }
+  bool fits(const Proposal<D>& p) { return !this->tangled_ || this->fillsAlone(p); }
   /// Makes the change if it is acceptable. `also` is a further condition: it is called after the
   /// nodes have moved, before their cells are judged.
   template <class Also>
@@ -271,9 +266,14 @@ private:
   bool keepsSurface(const Proposal<D>& p)
   {
     ++this->surfaceChanges[0];
-    return p.newWorst > 0.0 && fillsCavity<D>(this->mesh(), p.cavity, p.cells, p.keptChange()) &&
-      !meetsOthers<D>(this->mesh(), p.cavity, p.cells, this->pinched()) &&
+    return p.newWorst > 0.0 && this->fillsAlone(p) &&
       this->changes_.allowsReplacement(*this->surface_, this->mesh(), p);
+  }
+  /// Whether the new cells fill the cavity, and meet the rest of the mesh nowhere else.
+  bool fillsAlone(const Proposal<D>& p)
+  {
+    this->fit_.load(this->mesh(), p.cavity, p.cells);
+    return this->fit_.fills(p.keptChange()) && !this->fit_.meetsOthers(this->pinched());
   }
   const std::vector<std::uint8_t>& pinched() const
   {
@@ -320,6 +320,7 @@ private:
   const std::vector<std::uint8_t>* pinched_ = nullptr; // only if tangled_
   std::vector<Index> changed_;
   std::vector<double> qualities_;
+  CavityFit<D> fit_;
   SurfaceChanges<D> changes_; // only if slides()
 };
 
@@ -431,11 +432,12 @@ bool Judge<D, Shape>::move(const Proposal<D>& p, Also&& also)
     bad += this->badness(q) - this->badness(old);
     this->editor_->setQuality(c, q);
   }
-  good = good &&
-    (!slides ||
-      (this->changes_.allowsMoves(*this->surface_, this->mesh(), p) &&
-        this->changes_.allowsAngles(*this->surface_, this->mesh(), p.cavity)));
-  if (!good || (this->guardsAll_ && bad > 0 && p.oldWorst > 0.0))
+  good = good && !(this->guardsAll_ && bad > 0 && p.oldWorst > 0.0);
+  // The proof of distance comes last: it costs most.
+  if (!good ||
+    (slides &&
+      !(this->changes_.allowsAngles(*this->surface_, this->mesh(), p.cavity) &&
+        this->changes_.allowsMoves(*this->surface_, this->mesh(), p))))
   {
     this->rollback(mark);
     return false;

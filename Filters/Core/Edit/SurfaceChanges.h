@@ -237,9 +237,10 @@ private:
     {
       for (int i = 0; i <= D; ++i)
       {
-        const Facet<D> f = mesh.facet(c, i);
-        if (mesh.isKept(c, i) &&
-          std::any_of(f.begin(), f.end(), [&](Index q) { return slides(p, q); }))
+        // Most facets are inside: their points are not asked for.
+        const auto hasSliding = [&](const Facet<D>& f)
+        { return std::any_of(f.begin(), f.end(), [&](Index q) { return slides(p, q); }); };
+        if (mesh.isKept(c, i) && hasSliding(mesh.facet(c, i)))
         {
           this->addFacet(surface, mesh, c, i, pieces);
         }

@@ -1,275 +1,295 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checks that need no geometry, for meshes whose cells overlap: by brute force over the few cells
-// of a cavity.
+// Checks that need no geometry, for meshes whose cells overlap: the few cells of a cavity and those
+// that are to replace them, with local numbers for their points.
 #include "Mesh/CavityFit.h"
-#include "Mesh/EulerCharacteristic.h"
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <iterator>
-#include <numeric>
+#include <utility>
 
 namespace meshopt
 {
-namespace
-{
-/// Sorted facets with the numbers of their cells.
 template <int D>
-using Facets = std::vector<std::pair<Facet<D>, std::size_t>>;
-
-template <int D>
-Facets<D> facetsOf(const std::vector<Simplex<D>>& cells)
+void CavityFit<D>::load(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
+  const std::vector<Simplex<D>>& cells)
 {
-  Facets<D> facets;
-  for (std::size_t k = 0; k < cells.size(); ++k)
+  this->mesh_ = &mesh;
+  this->numbers_.clear();
+  this->cavity_.clear();
+  this->nodes_.clear();
+  for (Index c : cavity)
   {
-    for (const auto& local : Local<D>::facets)
-    {
-      Facet<D> f;
-      std::transform(
-        std::begin(local), std::end(local), f.begin(), [&](int i) { return cells[k][i]; });
-      facets.push_back({ sortedIds(f), k });
-    }
+    this->cavity_.add(c);
+    this->nodes_.push_back(mesh.nodes(c));
   }
-  std::sort(facets.begin(), facets.end());
-  return facets;
-}
-
-/// A point or an edge, or neither: None stands for no point.
-using Face = std::array<Index, 2>;
-
-template <int D>
-bool has(const Facet<D>& f, const Face& face)
-{
-  const auto isIn = [&f](Index p)
-  { return p == None || f[0] == p || f[1] == p || (D == 3 && f[D - 1] == p); };
-  return isIn(face[0]) && isIn(face[1]);
-}
-
-/// A facet that two cells have.
-template <int D>
-struct Joint
-{
-  Facet<D> facet;
-  std::size_t one, other;
-};
-
-/// Of sorted facets, in their order.
-template <int D>
-std::vector<Joint<D>> jointsOf(const Facets<D>& facets)
-{
-  std::vector<Joint<D>> joints;
-  for (std::size_t k = 1; k < facets.size(); ++k)
-  {
-    if (facets[k].first == facets[k - 1].first)
+  this->old_.load(this->nodes_, this->numbers_,
+    [&](std::size_t k, int i)
     {
-      joints.push_back({ facets[k].first, facets[k - 1].second, facets[k].second });
-    }
+      const Index handle = mesh.adjacent(cavity[k], i);
+      return handle == None || this->cavity_.get(mesh.cellOf(handle)) < 0;
+    });
+  this->new_.load(cells, this->numbers_, [](std::size_t, int) { return false; });
+  const int points = this->numbers_.size();
+  this->isTooLarge_ = points > FewCells<D>::MostPoints;
+  if (this->isTooLarge_)
+  {
+    return;
   }
-  return joints;
-}
-
-/// One number per cell, equal for cells that are connected over facets that contain all of `face`.
-/// `part` has the size of the number of cells.
-template <int D>
-void findParts(
-  const std::vector<Joint<D>>& joints, const Face& face, std::vector<std::size_t>& part)
-{
-  // Every cell is a part of its own at first. O(n) for each join: n is the number of cells of a
-  // cavity.
-  std::iota(part.begin(), part.end(), std::size_t(0));
-  for (const Joint<D>& joint : joints)
+  this->points_.resize(points);
+  for (const std::vector<Simplex<D>>* from : { &std::as_const(this->nodes_), &cells })
   {
-    const std::size_t one = part[joint.one], other = part[joint.other];
-    if (one != other && has<D>(joint.facet, face))
+    for (const Simplex<D>& cell : *from)
     {
-      std::replace(part.begin(), part.end(), other, one);
-    }
-  }
-}
-
-template <int D>
-bool isOnePiece(const std::vector<Joint<D>>& joints, std::size_t numberOfCells)
-{
-  std::vector<std::size_t> part(numberOfCells);
-  // Nothing is in all facets: cells connected in any way.
-  findParts<D>(joints, { None, None }, part);
-  return std::adjacent_find(part.begin(), part.end(), std::not_equal_to<>()) == part.end();
-}
-
-/// All points (D = 3: and edges) of facets.
-template <int D>
-std::vector<Face> facesOf(const Facets<D>& facets)
-{
-  std::vector<Face> faces;
-  faces.reserve(facets.size() * (D == 3 ? 6 : 2));
-  for (const auto& f : facets)
-  {
-    for (int i = 0; i < D; ++i)
-    {
-      faces.push_back({ f.first[i], None });
-      for (int j = 0; D == 3 && j < i; ++j)
+      for (Index p : cell)
       {
-        faces.push_back({ f.first[j], f.first[i] });
+        this->points_[this->numbers_.get(p)] = p;
       }
     }
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  return faces;
+  this->old_.connect(points);
+  this->new_.connect(points);
 }
 
-/// Whether cells that are connected at a point (D = 3: or an edge) of the boundary before are so
-/// after, for every such point and edge. `outer`: the boundary, with the old cells; `within`: the
-/// new cells, in the same order.
 template <int D>
-bool staysTogether(std::size_t numberOfOld, const std::vector<Joint<D>>& oldJoints,
-  std::size_t numberOfNew, const std::vector<Joint<D>>& newJoints, const Facets<D>& outer,
-  const std::vector<std::size_t>& within)
+void CavityFit<D>::keysOf(const std::vector<Facet<D>>& facets, std::vector<std::uint64_t>& keys)
 {
-  std::vector<std::size_t> before(numberOfOld), after(numberOfNew), now(numberOfOld);
-  for (const Face& face : facesOf<D>(outer))
+  keys.clear();
+  for (Facet<D> f : facets)
   {
-    findParts<D>(oldJoints, face, before);
-    findParts<D>(newJoints, face, after);
-    std::fill(now.begin(), now.end(), std::size_t(None)); // for each part before: the part after
-    for (std::size_t k = 0; k < outer.size(); ++k)
+    std::transform(f.begin(), f.end(), f.begin(), [&](Index p) { return this->numbers_.get(p); });
+    if (!hasId(f, -1)) // else no cell here has it
     {
-      if (has<D>(outer[k].first, face))
+      keys.push_back(FewCells<D>::keyOf(f));
+    }
+  }
+}
+
+/// Whether each facet of the boundary has one new cell, and each one inside two. Finds outer_.
+template <int D>
+bool CavityFit<D>::matchesBoundary(const KeptChange<D>* change)
+{
+  const auto isAmong = [](const std::vector<std::uint64_t>& keys, std::uint64_t key)
+  { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+  this->keysOf(change ? change->gone : std::vector<Facet<D>>(), this->gone_);
+  this->keysOf(change ? change->come : std::vector<Facet<D>>(), this->come_);
+  this->outer_.clear();
+  this->sides_.clear();
+  // What the cavity has in common with the rest of the mesh, and what must not change.
+  const auto next = [&](std::size_t k)
+  {
+    const auto& sides = this->old_.sides;
+    while (k < sides.size() && (!sides[k].isOuter || isAmong(this->gone_, sides[k].facet)))
+    {
+      ++k;
+    }
+    return k;
+  };
+  const std::vector<typename FewCells<D>::Side>&before = this->old_.sides,
+                             &after = this->new_.sides;
+  std::size_t at = next(0);
+  for (std::size_t k = 0; k < after.size();)
+  {
+    // Equal facets are treated as one, with the number of cells that have them.
+    const std::uint64_t facet = after[k].facet;
+    std::size_t n = 1;
+    while (k + n < after.size() && after[k + n].facet == facet)
+    {
+      ++n;
+    }
+    if (at < before.size() && before[at].facet < facet)
+    {
+      return false; // no new cell has it
+    }
+    const bool isOuter = at < before.size() && before[at].facet == facet;
+    // A boundary facet needs one new cell; one inside needs two, and a new kept facet one.
+    if (n != (isOuter ? 1 : 2) && (isOuter || n != 1 || !isAmong(this->come_, facet)))
+    {
+      return false;
+    }
+    if (isOuter)
+    {
+      this->outer_.push_back(FewCells<D>::facetOf(facet));
+      this->sides_.push_back({ before[at].cell, after[k].cell });
+      at = next(at + 1);
+      if (at < before.size() && before[at].facet == facet)
       {
-        std::size_t& part = now[before[outer[k].second]];
-        if (part != std::size_t(None) && part != after[within[k]])
+        return false; // a facet must not be on the boundary twice
+      }
+    }
+    k += n;
+  }
+  return at == before.size();
+}
+
+/// Whether cells connected at point p of the boundary before, over facets that have q, too, are so
+/// after.
+template <int D>
+bool CavityFit<D>::agrees(Index p, Index q)
+{
+  for (FewCells<D>* few : { &this->old_, &this->new_ })
+  {
+    for (const int* k = few->jointsAt.begin(p); k != few->jointsAt.end(p); ++k)
+    {
+      if (hasId(few->joints[*k], q))
+      {
+        few->join(*k);
+      }
+    }
+  }
+  bool good = true;
+  for (const int* k = this->outerAt_.begin(p); k != this->outerAt_.end(p); ++k)
+  {
+    if (hasId(this->outer_[*k], q))
+    {
+      int& link = this->link_[this->old_.root(this->sides_[*k][0])];
+      const int root = this->new_.root(this->sides_[*k][1]);
+      good = good && (link == None || link == root);
+      link = root;
+    }
+  }
+  for (const int* k = this->outerAt_.begin(p); k != this->outerAt_.end(p); ++k)
+  {
+    this->link_[this->old_.root(this->sides_[*k][0])] = None;
+  }
+  for (FewCells<D>* few : { &this->old_, &this->new_ })
+  {
+    std::for_each(few->jointsAt.begin(p), few->jointsAt.end(p), [few](int k) { few->separate(k); });
+  }
+  return good;
+}
+
+/// For every point of the boundary (D = 3: and every edge).
+template <int D>
+bool CavityFit<D>::staysTogether()
+{
+  const int points = this->numbers_.size();
+  this->outerAt_.build(points, this->outer_);
+  this->link_.assign(this->old_.cells.size(), None);
+  this->seen_.assign(points, None);
+  for (Index p = 0; p < points; ++p)
+  {
+    if (!this->outerAt_.isEmpty(p) && !this->agrees(p, p))
+    {
+      return false;
+    }
+    for (const int* k = this->outerAt_.begin(p); D == 3 && k != this->outerAt_.end(p); ++k)
+    {
+      for (Index q : this->outer_[*k])
+      {
+        if (q > p && this->seen_[q] != p && !this->agrees(p, q))
         {
           return false;
         }
-        part = after[within[k]];
+        this->seen_[q] = q > p ? p : this->seen_[q];
       }
     }
   }
   return true;
 }
-}
 
 template <int D>
-bool fillsCavity(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
-  const std::vector<Simplex<D>>& cells, const KeptChange<D>* change)
+bool CavityFit<D>::fills(const KeptChange<D>* change)
 {
-  const auto inCavity = [&](Index handle)
+  if (this->isTooLarge_)
   {
-    return handle != None &&
-      std::find(cavity.begin(), cavity.end(), mesh.cellOf(handle)) != cavity.end();
-  };
-  const auto isAmong = [](const std::vector<Facet<D>>& facets, const Facet<D>& f)
-  {
-    return std::any_of(facets.begin(), facets.end(),
-      [&](const Facet<D>& g) { return std::is_permutation(g.begin(), g.end(), f.begin()); });
-  };
-  // What the cavity has in common with the rest of the mesh, and what must not change.
-  Facets<D> outer;
-  std::vector<Simplex<D>> old;
-  for (Index c : cavity)
-  {
-    for (int i = 0; i <= D; ++i)
-    {
-      const Facet<D> f = mesh.facet(c, i);
-      if (!inCavity(mesh.adjacent(c, i)) && !(change && isAmong(change->gone, f)))
-      {
-        outer.push_back({ sortedIds(f), old.size() });
-      }
-    }
-    old.push_back(mesh.nodes(c));
-  }
-  std::sort(outer.begin(), outer.end());
-  const Facets<D> facets = facetsOf<D>(cells);
-  std::vector<std::size_t> within; // for each boundary facet, the new cell that has it
-  const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
-  for (std::size_t k = 0; k < facets.size();)
-  {
-    // Equal facets are treated as one, with the number of cells that have them.
-    const auto [first, last] = std::equal_range(facets.begin(), facets.end(), facets[k], less);
-    const auto [a, b] = std::equal_range(outer.begin(), outer.end(), facets[k], less);
-    const auto n = last - first;
-    const bool comes = change && b == a && n == 1 && isAmong(change->come, facets[k].first);
-    // A facet must not be on the boundary twice. A boundary facet needs one new cell; one inside
-    // needs two, and a new kept facet one.
-    if (b - a > 1 || (n != (b == a ? 2 : 1) && !comes))
-    {
-      return false;
-    }
-    if (b != a)
-    {
-      within.push_back(facets[k].second);
-    }
-    k += static_cast<std::size_t>(n);
+    return false;
   }
   // All of the boundary is filled; the new cells are one piece; no handle and no hollow came or
   // went; nothing was torn apart or joined at the boundary.
-  const std::vector<Joint<D>> joints = jointsOf<D>(facets);
-  return within.size() == outer.size() && isOnePiece<D>(joints, cells.size()) &&
-    eulerCharacteristic<D>(cells) == eulerCharacteristic<D>(old) &&
-    staysTogether<D>(
-      old.size(), jointsOf<D>(facetsOf<D>(old)), cells.size(), joints, outer, within);
+  if (!this->matchesBoundary(change) || !this->new_.isOnePiece())
+  {
+    return false;
+  }
+  const int points = this->numbers_.size();
+  const auto euler = [&](const FewCells<D>& few)
+  {
+    this->seen_.assign(points, None);
+    return few.eulerCharacteristic(points, this->seen_);
+  };
+  return euler(this->new_) == euler(this->old_) && this->staysTogether();
+}
+
+/// Whether a cell of the mesh has the n points of a face that the cavity does not have.
+template <int D>
+bool CavityFit<D>::isTaken(const std::vector<std::uint8_t>& pinched, const Index* face, int n)
+{
+  const SimplexMesh<D>& mesh = *this->mesh_;
+  const auto isPinched = [&](Index p)
+  { return p < static_cast<Index>(pinched.size()) && pinched[p]; };
+  const auto has = [&](Index c)
+  { return std::all_of(face, face + n, [&](Index p) { return mesh.localIndex(c, p) >= 0; }); };
+  // A face with a new point cannot be there.
+  if (!std::all_of(face, face + n, [&](Index p) { return mesh.isPointAlive(p); }))
+  {
+    return false;
+  }
+  // Use the present star if it will do; otherwise that of the last point, the apex that many new
+  // cells share. The star of a pinched point is incomplete, so it will not do.
+  const Index* whole = std::find(face, face + n, this->centre_);
+  // From the last point to the first, until one has a star to be trusted.
+  for (int k = n; whole == face + n && k-- > 0;)
+  {
+    whole = isPinched(face[k]) ? whole : face + k;
+  }
+  if (whole != face + n)
+  {
+    if (*whole != this->centre_)
+    {
+      this->centre_ = *whole;
+      mesh.star(this->centre_, this->star_);
+    }
+    return std::any_of(this->star_.begin(), this->star_.end(), has);
+  }
+  bool found = false; // all points are pinched, which is rare: scan all cells
+  for (Index c = 0; c < mesh.numberOfCellSlots() && !found; ++c)
+  {
+    found = mesh.isAlive(c) && has(c);
+  }
+  return found;
 }
 
 template <int D>
-bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
-  const std::vector<Simplex<D>>& cells, const std::vector<std::uint8_t>& pinched)
+bool CavityFit<D>::meetsOthers(const std::vector<std::uint8_t>& pinched)
 {
-  const auto isPinched = [&](Index p)
-  { return p < static_cast<Index>(pinched.size()) && pinched[p]; };
-  std::vector<Index> star;
-  Index centre = None; // of the star
-  // `face`: the first n ids are a face of a new cell
-  const auto isNewAndTaken = [&](const Index* face, int n)
+  if (this->isTooLarge_)
   {
-    // An old face of the cavity may come back. A face with a new point cannot have been there.
-    const auto has = [&](Index c)
-    { return std::all_of(face, face + n, [&](Index p) { return mesh.localIndex(c, p) >= 0; }); };
-    if (std::any_of(cavity.begin(), cavity.end(), has) ||
-      !std::all_of(face, face + n, [&](Index p) { return mesh.isPointAlive(p); }))
-    {
-      return false;
-    }
-    // Use the present star if it will do; otherwise that of the last point, the apex that many new
-    // cells share. The star of a pinched point is incomplete, so it will not do.
-    const Index* whole = std::find(face, face + n, centre);
-    // From the last point to the first, until one has a star to be trusted.
-    for (int k = n; whole == face + n && k-- > 0;)
-    {
-      whole = isPinched(face[k]) ? whole : face + k;
-    }
-    if (whole != face + n)
-    {
-      if (*whole != centre)
-      {
-        centre = *whole;
-        mesh.star(centre, star);
-      }
-      return std::any_of(star.begin(), star.end(), has);
-    }
-    bool found = false; // all points are pinched, which is rare: scan all cells
-    for (Index c = 0; c < mesh.numberOfCellSlots() && !found; ++c)
-    {
-      found = mesh.isAlive(c) && has(c);
-    }
-    return found;
-  };
-  for (const Simplex<D>& cell : cells)
+    return true;
+  }
+  this->centre_ = None;
+  const int points = this->numbers_.size();
+  this->seen_.assign(points, None);
+  for (Index p = 0; p < points; ++p)
   {
-    for (const auto& e : Local<D>::edges)
+    for (const int* k = this->new_.cellsAt.begin(p); k != this->new_.cellsAt.end(p); ++k)
     {
-      const Index edge[] = { cell[e[0]], cell[e[1]] };
-      if (isNewAndTaken(edge, 2))
+      for (Index q : this->new_.cells[*k])
       {
-        return true;
+        // Each edge at its lower point, when it is met first. Those of the cavity may come back.
+        if (q > p && this->seen_[q] != p)
+        {
+          this->seen_[q] = p;
+          const Index edge[] = { this->points_[p], this->points_[q] };
+          if (!this->old_.hasEdge(p, q) && this->isTaken(pinched, edge, 2))
+          {
+            return true;
+          }
+        }
       }
     }
-    for (const auto& f : Local<D>::facets)
+  }
+  // Where an edge is new, and not taken, no facet is.
+  const auto& sides = this->new_.sides;
+  for (std::size_t k = 0; D == 3 && k < sides.size(); ++k)
+  {
+    const Facet<D> f = FewCells<D>::facetOf(sides[k].facet);
+    if ((k == 0 || sides[k].facet != sides[k - 1].facet) &&
+      !std::binary_search(this->old_.sides.begin(), this->old_.sides.end(), sides[k]) &&
+      this->old_.hasEdge(f[0], f[1]) && this->old_.hasEdge(f[D - 2], f[D - 1]) &&
+      this->old_.hasEdge(f[0], f[D - 1]))
     {
       Index facet[D];
-      std::transform(std::begin(f), std::end(f), facet, [&](int k) { return cell[k]; });
-      if (isNewAndTaken(facet, D))
+      std::transform(f.begin(), f.end(), facet, [&](Index p) { return this->points_[p]; });
+      if (this->isTaken(pinched, facet, D))
       {
         return true;
       }
@@ -278,12 +298,6 @@ bool meetsOthers(const SimplexMesh<D>& mesh, const std::vector<Index>& cavity,
   return false;
 }
 
-template bool fillsCavity<2>(const SimplexMesh<2>&, const std::vector<Index>&,
-  const std::vector<Simplex<2>>&, const KeptChange<2>*);
-template bool fillsCavity<3>(const SimplexMesh<3>&, const std::vector<Index>&,
-  const std::vector<Simplex<3>>&, const KeptChange<3>*);
-template bool meetsOthers<2>(const SimplexMesh<2>&, const std::vector<Index>&,
-  const std::vector<Simplex<2>>&, const std::vector<std::uint8_t>&);
-template bool meetsOthers<3>(const SimplexMesh<3>&, const std::vector<Index>&,
-  const std::vector<Simplex<3>>&, const std::vector<std::uint8_t>&);
+template class CavityFit<2>;
+template class CavityFit<3>;
 }

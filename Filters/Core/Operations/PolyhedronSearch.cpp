@@ -79,7 +79,7 @@ void PolyhedronSearch::loadBoundary()
   this->deadEnds_.resize(Memory);
   this->crossing_.resize(std::max(this->crossing_.size(), pairs * pairs));
   this->quality_.resize(std::max<std::size_t>(this->quality_.size(), choose4(n)));
-  this->crossingKnown_.assign(choose2(n), 0);
+  this->crossingState_.assign(pairs, Crossing::Unknown);
   State& s = this->states_[0];
   s.facets = 0;
   s.used = s.dropped = 0;

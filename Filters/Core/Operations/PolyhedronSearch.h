@@ -96,6 +96,13 @@ private:
   /// Tetrahedra of a filling: one State is kept for each. A search that needs more ends there.
   static constexpr int MaximumDepth = 128;
 
+  /// What is known of an edge: nothing yet, that it crosses no facet, or which ones.
+  enum class Crossing : std::uint8_t
+  {
+    Unknown,
+    None,
+    Some
+  };
   /// An open facet: (a, b, c, p) is positive for points p on the side still to be filled.
   struct Front
   {
@@ -126,6 +133,7 @@ private:
   bool strike();
   void blockEdges(State& s, int i, int j, int k) const;
   void blockFacets(State& s, int a, int b);
+  bool isOutermost(int a, int b) const;
   void findCrossing(int a, int b);
   void addEdge(State& s, int a, int b);
   void open(State& s, int a, int b, int c);
@@ -140,8 +148,8 @@ private:
   PointSigns signs_;
   Mask mustStay_ = 0, stay_ = 0; // as given; with the points of the boundary
   std::vector<Triangle> boundary_;
-  std::vector<Mask> crossing_; // [ab][ij] contains k: edge ab crosses facet ijk
-  std::vector<std::uint8_t> crossingKnown_;
+  std::vector<Mask> crossing_;          // [ab][ij] contains k: edge ab crosses facet ijk
+  std::vector<Crossing> crossingState_; // [ab]: whether the row of crossing_ is needed and filled
   std::vector<Candidate> candidates_;
   std::vector<std::uint16_t> alive_;      // candidates still counted in apex_
   std::vector<double> quality_;           // of candidates, by quadrupleOf()

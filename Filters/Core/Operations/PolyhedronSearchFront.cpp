@@ -28,6 +28,21 @@ void PolyhedronSearch::blockEdges(State& s, int i, int j, int k) const
   }
 }
 
+/// Whether all points lie on one side of some plane through edge (a, b): then it crosses no facet.
+/// So it is with nearly all edges of a polyhedron.
+bool PolyhedronSearch::isOutermost(int a, int b) const
+{
+  for (int i = 0; i < this->signs_.size(); ++i)
+  {
+    // Points on the line itself have nothing on either side.
+    if ((this->signs_.above(a, b, i) == 0) != (this->signs_.above(b, a, i) == 0))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Finds the facets that edge (a, b) crosses. Facets with an edge that is blocked from the start
 /// are left out.
 void PolyhedronSearch::findCrossing(int a, int b)
@@ -46,20 +61,31 @@ void PolyhedronSearch::findCrossing(int a, int b)
       const int j = lowest(rest);
       const Mask k = has(left, j) ? at.above(a, b, j) & right : at.above(b, a, j) & left;
       // and a and b lie on different sides of the facet
-      row[pairOf(i, j)] = k &
-        ((at.above(i, j, a) & at.above(j, i, b)) | (at.above(j, i, a) & at.above(i, j, b)));
+      if (k)
+      {
+        row[pairOf(i, j)] = k &
+          ((at.above(i, j, a) & at.above(j, i, b)) | (at.above(j, i, a) & at.above(i, j, b)));
+      }
     }
   }
-  this->crossingKnown_[pairOf(a, b)] = 1;
 }
 
 /// Blocks the facets that edge (a, b) crosses.
 void PolyhedronSearch::blockFacets(State& s, int a, int b)
 {
   // On demand: most searches meet few of the possible edges.
-  if (!this->crossingKnown_[pairOf(a, b)])
+  Crossing& state = this->crossingState_[pairOf(a, b)];
+  if (state == Crossing::Unknown)
   {
-    this->findCrossing(a, b);
+    state = this->isOutermost(a, b) ? Crossing::None : Crossing::Some;
+    if (state == Crossing::Some)
+    {
+      this->findCrossing(a, b);
+    }
+  }
+  if (state == Crossing::None)
+  {
+    return;
   }
   const int pairs = choose2(this->signs_.size());
   const Mask* row = &this->crossing_[pairOf(a, b) * pairs];

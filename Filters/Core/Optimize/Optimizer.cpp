@@ -3,13 +3,12 @@
 // following the sizes has made the worst cell worse.
 #include "Optimize/Optimizer.h"
 
+#include "Optimize/SurfaceRounds.h"
 #include "Paper1996/Paper1996.h"
 #include "Quality/Evaluations.h"
 #include "Run/Run.h"
 #include "Sizes/SizeStage.h"
 #include "Surface/KeptSizes.h"
-#include "WorstFirst/Coarsening.h"
-#include "WorstFirst/LongEdges.h"
 #include "WorstFirst/WorstFirst.h"
 
 #include <algorithm>
@@ -31,21 +30,6 @@ constexpr double FlatQuality = 1e-9;
 /// Progress after untangling, and after the sizes.
 constexpr double Untangled = 0.2, Sized = 0.6;
 constexpr double FromRidges = 0.5; ///< the same after the first part of optimizeFromRidges()
-/// Where the surface takes part: of the growth that is left, what a run may use if others follow,
-/// and what divisions may. Found on ten surfaces of CGAL, as the next two: with halves of the
-/// growth the worst qualities were a fifth to a third lower.
-constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
-/// Long edges are divided at cells below AboveWorst times the worst quality. Parts below PartsBelow
-/// times it are divided again. If the first way does not help, a gentler one may, which makes less
-/// of the mesh worse; or one that goes on until the parts are good, where a needle is left alone.
-constexpr double AboveWorst = 1.5, PartsBelow[] = { 0.6, 0.0, 4.0 };
-/// Once no more than this part of the growth budget is left, nodes elsewhere make room for each
-/// division: at most the part PartRemoved of the input's cells. No new cell there is below
-/// AboveWorstThere times the worst quality: with 1.5 or 2.5 the worst cells end lower.
-constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
-/// No more divisions if the worst quality then is less than this many times what it was.
-constexpr double DivisionsGain = 1.02;
-constexpr int MostDivisions = 8;
 
 template <int D>
 class Optimizer
@@ -66,13 +50,6 @@ private:
       (o.desiredSize > 0.0 || this->run_.metric.hasSizes());
   }
   bool untangle();
-  void restore(const SimplexMesh<D>& mesh);
-  void optimizeWith(Effort effort, double part, bool polishesWidely);
-  void optimizeSliding();
-  bool isWorthDividing() const;
-  bool makeRoom();
-  void divideAndOptimize(Effort effort, double partsBelow, bool polishesWidely, double& inVain);
-  bool divideInSomeWay(Effort effort, bool polishesWidely);
   void optimizeFromRidges();
   bool repairForSizes();
   void optimizeSizesToo();
@@ -124,151 +101,11 @@ void Optimizer<D>::optimize()
   }
   else if (this->run_.surface && this->run_.surface->judgesChanges())
   {
-    this->optimizeSliding();
+    optimizeSliding<D>(this->run_, *this->surface_);
   }
   else
   {
     optimizeWorstFirst<D>(this->run_);
-  }
-}
-
-/// Back to an earlier state of the mesh.
-template <int D>
-void Optimizer<D>::restore(const SimplexMesh<D>& mesh)
-{
-  MeshEditor<D>& editor = this->run_.editor;
-  editor.mesh() = mesh;
-  // A new editor, since the old one has the marks and the free slots of the other mesh.
-  editor = MeshEditor<D>(editor.mesh());
-  if (this->run_.surface)
-  {
-    editor.makeRoomForPlaces(); // before editors of chunks may set some
-  }
-}
-
-/// Improves the worst cells with another effort and with a part of the growth that is left.
-template <int D>
-void Optimizer<D>::optimizeWith(Effort effort, double part, bool polishesWidely)
-{
-  Run<D> run = this->run_;
-  run.effort = effort;
-  run.polishesWidely = polishesWidely;
-  run.limitGrowth(part);
-  optimizeWorstFirst<D>(run);
-}
-
-/// If the growth budget is short, removes nodes where cells are good. Whether there is more room
-/// then.
-template <int D>
-bool Optimizer<D>::makeRoom()
-{
-  Run<D>& run = this->run_;
-  const auto cells = static_cast<double>(run.report.history.front().cells);
-  const double budget = static_cast<double>(run.mostCells) - cells;
-  run.limitGrowth();
-  const bool isShort = static_cast<double>(run.growth) <= ShortGrowth * budget;
-  if constexpr (D == 3) // only surfaces in space judge changes
-  {
-    const auto most = static_cast<long>(PartRemoved * cells);
-    return isShort && run.options.removeNodes && coarsen(run, AboveWorstThere, most) > 0;
-  }
-  return false;
-}
-
-/// Divides long edges at the worst cells (divideLongEdges()), and improves what comes of it. The
-/// mesh stays as it was if that is no better, or if a facet has turned. `inVain`: the mean quality
-/// of the last divided mesh that was no better; the same again is the same mesh.
-template <int D>
-void Optimizer<D>::divideAndOptimize(
-  Effort effort, double partsBelow, bool polishesWidely, double& inVain)
-{
-  Run<D>& run = this->run_;
-  const SimplexMesh<D> before = run.mesh();
-  const double worst = run.report.history.back().worst;
-  const long below = run.report.history.back().belowTarget;
-  const StopReason reason = run.report.stopReason;
-  const long turned = run.surface->countTurned(run.mesh());
-  const bool isCoarser = this->makeRoom();
-  bool isDivided = false;
-  run.limitGrowth(PartForDivisions);
-  if constexpr (D == 3) // as in makeRoom()
-  {
-    const double bad = std::min(run.options.targetQuality, AboveWorst * worst);
-    isDivided = divideLongEdges(run, bad, partsBelow) > 0;
-  }
-  if (!isCoarser && !isDivided)
-  {
-    return;
-  }
-  const double divided = run.report.history.back().mean;
-  if (isDivided && divided != inVain && !run.clock.hasStopped())
-  {
-    this->optimizeWith(effort, PartOfGrowth, polishesWidely);
-  }
-  const double now = run.report.history.back().worst;
-  const bool isTurned = run.surface->countTurned(run.mesh()) > turned;
-  if (isTurned || now < worst || (now == worst && run.report.history.back().belowTarget >= below))
-  {
-    this->restore(before);
-    run.record("divisions undone");
-    run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
-    inVain = divided;
-  }
-}
-
-/// Whether another division may help a surface that takes part.
-template <int D>
-bool Optimizer<D>::isWorthDividing() const
-{
-  const Run<D>& run = this->run_;
-  const double worst = run.report.history.back().worst;
-  return !run.clock.hasStopped() && run.options.insertNodes && worst > 0.0 &&
-    worst < run.options.targetQuality;
-}
-
-/// Divides in one way after the other. False if none raises the worst quality clearly.
-template <int D>
-bool Optimizer<D>::divideInSomeWay(Effort effort, bool polishesWidely)
-{
-  const auto worst = [this] { return this->run_.report.history.back().worst; };
-  const double before = worst();
-  double inVain = -1.0; // no mean quality is negative here
-  for (std::size_t k = 0; k < std::size(PartsBelow) && this->isWorthDividing(); ++k)
-  {
-    this->divideAndOptimize(effort, PartsBelow[k], polishesWidely, inVain);
-    if (worst() > DivisionsGain * before)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// Where the surface takes part: if the target is not reached, long edges are divided at the worst
-/// cells and the engine runs again, as long as that helps.
-template <int D>
-void Optimizer<D>::optimizeSliding()
-{
-  const Run<D>& run = this->run_;
-  const Effort effort = run.effort == Effort::Quick ? Effort::Quick : Effort::Default;
-  {
-    const Clock::Section part(run.clock, 0.0, 0.5);
-    this->optimizeWith(effort, PartOfGrowth, false);
-  }
-  double left = 0.5;
-  bool helps = true;
-  for (int round = 0; round < MostDivisions && helps && this->isWorthDividing(); ++round)
-  {
-    const Clock::Section part(run.clock, 1.0 - left, 1.0 - 0.5 * left);
-    // To polish widely takes most of the time, and mostly another division helps as much.
-    helps = this->divideInSomeWay(effort, false) || this->divideInSomeWay(effort, true);
-    left *= 0.5;
-  }
-  const bool isDone = run.report.history.back().belowTarget == 0 && run.effort != Effort::Best;
-  if (!isDone && !run.clock.hasStopped())
-  {
-    const Clock::Section part(run.clock, 1.0 - left, 1.0);
-    this->optimizeWith(run.effort, 1.0, true);
   }
 }
 
@@ -278,10 +115,10 @@ void Optimizer<D>::optimizeSliding()
 template <int D>
 void Optimizer<D>::optimizeFromRidges()
 {
-  const Run<D>& all = this->run_;
+  Run<D>& all = this->run_;
   {
     const Clock::Section part(all.clock, 0.0, FromRidges);
-    this->optimizeWith(Effort::Quick, 0.5, true);
+    optimizeOnSurface<D>(all, *this->surface_, Effort::Quick, 0.5, true);
   }
   const bool isDone = all.report.stopReason == StopReason::TargetReached &&
     all.effort != Effort::Best;
@@ -292,10 +129,10 @@ void Optimizer<D>::optimizeFromRidges()
   // If the ridges cannot be given up, the run goes on with them: what was asked for is still due.
   if (this->surface_->release(all.editor))
   {
-    this->run_.record("ridges given up");
+    all.record("ridges given up");
   }
   const Clock::Section part(all.clock, FromRidges, 1.0);
-  this->optimizeSliding();
+  optimizeSliding<D>(all, *this->surface_);
 }
 
 /// Leaves inverted cells to the clusters of 1996. The fast engine moves single nodes first, and
@@ -417,7 +254,7 @@ void Optimizer<D>::giveSizesUp(
   const SimplexMesh<D>& mesh, const NodalMetric<D>& metric, double worst)
 {
   const Run<D>& run = this->run_;
-  this->restore(mesh);
+  restore<D>(this->run_, mesh);
   run.metric = metric;
   this->run_.record("sizes given up");
   run.report.sizes.isGivenUp = true;

@@ -68,10 +68,11 @@ public:
 
   /// Whether facets of one patch may be replaced. Corners are ordered like those of the reference.
   /// `gone` was within the tolerance. A facet cannot stand for one of the reference from which it
-  /// turns by more than 75 degrees. Parts of what was there need no proof. `sideways`: how far the
-  /// border of the facets may have moved.
+  /// turns by more than 75 degrees. `sideways`: how far the border of the facets may have moved.
   bool covers(
     const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways = 0.0) const;
+  /// Whether `come` are parts of `gone`, and all of them: the same points need no proof.
+  static bool isDivision(const std::vector<Piece>& gone, const std::vector<Piece>& come);
 
   /// How far the facet is from the reference of its patch, counted as in covers(): the greatest
   /// height, to which the motion of a curve beside it has to be added at a right angle; and a
@@ -109,8 +110,6 @@ private:
   /// An overlay of less than this part of a facet's area is none.
   static constexpr double Touch = 1e-10;
 
-  bool coversAnew(
-    const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const;
   bool isNeedle(const Facet& r) const;
   Heights heights(const Facet& r, const Piece& piece) const;
   bool covers(const Facet& r, const std::vector<Piece>& gone, const std::vector<Piece>& come,

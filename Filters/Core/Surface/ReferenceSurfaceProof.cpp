@@ -41,14 +41,25 @@ struct Polygon
   /// Keeps what has a u + b v + c >= 0.
   void clip(double a, double b, double c)
   {
-    const auto side = [&](const Vec<3>& p) { return a * p[0] + b * p[1] + c; };
+    std::array<double, 8> side;
+    bool isIn = true;
+    for (int k = 0; k < this->size; ++k)
+    {
+      side[k] = a * this->x[k][0] + b * this->x[k][1] + c;
+      isIn = isIn && side[k] >= 0.0;
+    }
+    if (isIn)
+    {
+      return;
+    }
     Polygon kept;
     for (int k = 0; k < this->size; ++k)
     {
       // Sutherland and Hodgman: corners inside stay, and a new one comes where an edge crosses.
       // Points on the line itself count as inside, and bring no second corner.
-      const Vec<3>&p = this->x[k], &q = this->x[(k + 1) % this->size];
-      const double sp = side(p), sq = side(q);
+      const int next = k + 1 < this->size ? k + 1 : 0;
+      const Vec<3>&p = this->x[k], &q = this->x[next];
+      const double sp = side[k], sq = side[next];
       if (sp >= 0.0)
       {
         kept.x[kept.size++] = p;
@@ -58,12 +69,14 @@ struct Polygon
         kept.x[kept.size++] = p + (q - p) * (sp / (sp - sq));
       }
     }
-    *this = kept;
+    this->size = kept.size;
+    std::copy_n(kept.x.begin(), kept.size, this->x.begin());
   }
 };
 
-/// Whether `come` are parts of `gone`, and all of them: the same points then need no proof.
-bool isDivision(const std::vector<SurfacePiece<3>>& gone, const std::vector<SurfacePiece<3>>& come)
+}
+
+bool ReferenceSurface::isDivision(const std::vector<Piece>& gone, const std::vector<Piece>& come)
 {
   constexpr double rounding = 1e-12; // of the longest edge; squared in areas
   const auto isPartOf = [](const SurfacePiece<3>& part, const SurfacePiece<3>& piece)
@@ -91,7 +104,6 @@ bool isDivision(const std::vector<SurfacePiece<3>>& gone, const std::vector<Surf
   }
   return std::fabs(after - before) <= 1e-9 * before;
 }
-}
 
 /// q is the height over the longest edge, which is l.
 bool ReferenceSurface::isNeedle(const Facet& r) const
@@ -108,7 +120,7 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
   for (const Vec<3>& x : piece.x)
   {
     const Vec<3> d = x - r.origin;
-    polygon.x[polygon.size++] = Vec<3>(r.along.dot(d), r.across.dot(d), r.normal.dot(d));
+    polygon.x[polygon.size++] = Vec<3>(r.along.dot(d), r.across.dot(d), 0.0);
   }
   // The edges of r as lines: inside of it a u + b v + c >= 0.
   const std::array<Vec<3>, 3> sides{ Vec<3>(0.0, 1.0, 0.0), Vec<3>(r.q, -r.p, 0.0),
@@ -120,6 +132,10 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
     {
       return result;
     }
+  }
+  for (int k = 0; k < polygon.size; ++k)
+  {
+    polygon.x[k][2] = r.normal.dot(piece.x[k] - r.origin);
   }
   // Before it is clipped: the normal of what is left would be less certain.
   const Vec<3> n = (polygon.x[1] - polygon.x[0]).cross(polygon.x[2] - polygon.x[0]);
@@ -157,12 +173,6 @@ ReferenceSurface::Heights ReferenceSurface::heights(const Facet& r, const Piece&
 /// All pieces at once for each facet of the reference nearby: only together they tell whether it
 /// stays covered.
 bool ReferenceSurface::covers(
-  const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const
-{
-  return this->coversAnew(gone, come, sideways) || isDivision(gone, come);
-}
-
-bool ReferenceSurface::coversAnew(
   const std::vector<Piece>& gone, const std::vector<Piece>& come, double sideways) const
 {
   Box box;

@@ -366,12 +366,30 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
     }
     // A patch must lose facets where it gets some: otherwise it would spread over another patch,
     // or another one over it.
-    if (gone.empty() || come.empty() || !this->reference_.covers(gone, come, sideways))
+    if (gone.empty() || come.empty() ||
+      (!this->reference_.covers(gone, come, sideways) && !this->allowsDivision(gone, come)))
     {
       return false;
     }
   }
   return true;
+}
+
+/// Where one of the parts looks the wrong way although the whole did not, this is noted.
+bool SlidingSurface::allowsDivision(
+  const std::vector<SurfacePiece<3>>& gone, const std::vector<SurfacePiece<3>>& come) const
+{
+  if (!ReferenceSurface::isDivision(gone, come))
+  {
+    return false;
+  }
+  const bool isTurned = std::any_of(come.begin(), come.end(),
+    [this](const SurfacePiece<3>& piece) { return this->reference_.isTurned(piece); });
+  if (isTurned && !this->refusesTurned_)
+  {
+    this->madeTurned_->store(true, std::memory_order_relaxed);
+  }
+  return !isTurned || !this->refusesTurned_;
 }
 
 bool SlidingSurface::allowsAngle(
@@ -458,7 +476,7 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
 long SlidingSurface::countTurned(const SimplexMesh<3>& mesh) const
 {
   long turned = 0;
-  for (Index c = 0; c < mesh.numberOfCellSlots() && !this->isExact_; ++c)
+  for (Index c = 0; c < mesh.numberOfCellSlots() && *this->madeTurned_; ++c)
   {
     for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
     {

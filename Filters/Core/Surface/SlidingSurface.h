@@ -14,6 +14,7 @@
 #include "Surface/SurfaceAngles.h"
 #include "Surface/SurfaceDivision.h"
 
+#include <atomic>
 #include <memory>
 #include <set>
 
@@ -66,6 +67,7 @@ public:
   /// Of facets that are higher than the tolerance: others look nowhere. With tolerance 0 there are
   /// none. The cost: a search in the surface of before for each facet.
   long countTurned(const SimplexMesh<3>& mesh) const override;
+  void refuseTurned(bool on) override { this->refusesTurned_ = on; }
 
   Vec<3> at(Index curve, double parameter) const override
   {
@@ -100,6 +102,9 @@ public:
   bool release(MeshEditor<3>& editor) override;
 
 private:
+  bool allowsDivision(
+    const std::vector<SurfacePiece<3>>& gone, const std::vector<SurfacePiece<3>>& come) const;
+
   struct Patch
   {
     Index region = 0; ///< facets are ordered as seen from outside of it
@@ -152,6 +157,9 @@ private:
   std::vector<std::uint32_t> setsOfPoint_, setsOfCurve_; ///< empty if there are none
   Index numberOfTwins_ = 0;
   bool isExact_ = false;
+  bool refusesTurned_ = false;
+  /// Whether a change that was allowed has made a turned facet. (A pointer: surfaces are moved.)
+  std::unique_ptr<std::atomic<bool>> madeTurned_ = std::make_unique<std::atomic<bool>>(false);
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it
   std::shared_ptr<Release> release_;              ///< null: there is nothing to give up

@@ -93,8 +93,12 @@ public:
   }
 
   /// How many facets lie where the surface of before looks the other way. A change that is allowed
-  /// may make some: parts of a divided facet, which are the same points.
+  /// may make some: parts of a divided facet, which are the same points. If none of the changes so
+  /// far has, this is 0, and costs nothing.
   virtual long countTurned(const SimplexMesh<D>&) const { return 0; }
+  /// Says whether changes are refused that make such facets. Less is gained then. Between stages
+  /// only.
+  virtual void refuseTurned(bool /*on*/) {}
 
   /// Whether there is more to keep now than in the end.
   virtual bool mayRelease() const { return false; }

@@ -11,10 +11,10 @@ using namespace meshopt;
 namespace
 {
 template <class>
-class CavityFit : public ::testing::Test
+class CavityFits : public ::testing::Test
 {
 };
-TYPED_TEST_SUITE(CavityFit, TestDimensions);
+TYPED_TEST_SUITE(CavityFits, TestDimensions);
 
 /// All cells on the points 0 .. n - 1.
 template <int D>
@@ -208,7 +208,7 @@ TEST(CavityFit3D, TwoToThreeAndBack)
 }
 
 /// The cells themselves fit, a new node fits in the star of a node, one cell less does not.
-TYPED_TEST(CavityFit, StarsOfNodes)
+TYPED_TEST(CavityFits, StarsOfNodes)
 {
   constexpr int D = TypeParam::dimension;
   const SimplexMesh<D> mesh = buildMesh(jitteredGrid<D>(3, 0.2));
@@ -246,7 +246,7 @@ TEST(CavityFit2D, AChangeOfTheSurfaceMustBeSaid)
   EXPECT_TRUE(fillsCavity<2>(mesh, { 0 }, cells, &change));
 }
 
-TYPED_TEST(CavityFit, MeetsWhatASearchOfAllCellsFinds)
+TYPED_TEST(CavityFits, MeetsWhatASearchOfAllCellsFinds)
 {
   constexpr int D = TypeParam::dimension;
   const int met = compareMeets<D>(buildMesh(jitteredGrid<D>(D == 2 ? 4 : 3, 0.2)), 600);
@@ -255,7 +255,7 @@ TYPED_TEST(CavityFit, MeetsWhatASearchOfAllCellsFinds)
 }
 
 /// At pinched points a star is not all of the cells there.
-TYPED_TEST(CavityFit, MeetsWhatIsBeyondPinchedPoints)
+TYPED_TEST(CavityFits, MeetsWhatIsBeyondPinchedPoints)
 {
   constexpr int D = TypeParam::dimension;
   TestRandom random(3);

@@ -11,7 +11,7 @@ namespace meshopt
 {
 /// Nothing slides on it. What matters is that it takes part, and whether it judges changes.
 template <int D>
-class StillSurface final : public Surface<D>
+class StillSurface : public Surface<D>
 {
 public:
   explicit StillSurface(bool judges)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file EulerCharacteristic.h
 /// The topology of a few cells in one number.
-#ifndef meshopt_Mesh_EulerCharacteristic_h
-#define meshopt_Mesh_EulerCharacteristic_h
+#ifndef meshopt_Testing_EulerCharacteristic_h
+#define meshopt_Testing_EulerCharacteristic_h
 
 #include "Mesh/Ids.h"
 

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is tried where the surface takes part, how much of the growth each try may use, and what is
+// undone.
+#include "Optimize/SurfaceRounds.h"
+
+#include "WorstFirst/Coarsening.h"
+#include "WorstFirst/LongEdges.h"
+#include "WorstFirst/WorstFirst.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace meshopt
+{
+namespace
+{
+/// Where the surface takes part: of the growth that is left, what a run may use if others follow,
+/// and what divisions may. Found on ten surfaces of CGAL, as the next two: with halves of the
+/// growth the worst qualities were a fifth to a third lower.
+constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
+/// Long edges are divided at cells below AboveWorst times the worst quality. Parts below PartsBelow
+/// times it are divided again. If the first way does not help, a gentler one may, which makes less
+/// of the mesh worse; or one that goes on until the parts are good, where a needle is left alone.
+constexpr double AboveWorst = 1.5, PartsBelow[] = { 0.6, 0.0, 4.0 };
+/// Once no more than this part of the growth budget is left, nodes elsewhere make room for each
+/// division: at most the part PartRemoved of the input's cells. No new cell there is below
+/// AboveWorstThere times the worst quality: with 1.5 or 2.5 the worst cells end lower.
+constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
+/// No more divisions if the worst quality then is less than this many times what it was.
+constexpr double DivisionsGain = 1.02;
+constexpr int MostDivisions = 8;
+
+/// Improves the worst cells with another effort and with a part of the growth that is left.
+template <int D>
+void optimizeWith(const Run<D>& all, Effort effort, double part, bool polishesWidely)
+{
+  Run<D> run = all;
+  run.effort = effort;
+  run.polishesWidely = polishesWidely;
+  run.limitGrowth(part);
+  optimizeWorstFirst<D>(run);
+}
+
+template <int D>
+class SurfaceRounds
+{
+public:
+  SurfaceRounds(Run<D>& run, Surface<D>& surface)
+    : run_(run)
+    , surface_(surface)
+  {
+  }
+  void run();
+
+private:
+  double worst() const { return this->run_.report.history.back().worst; }
+  bool isWorthDividing() const;
+  bool makeRoom();
+  void divideAndOptimize(Effort effort, double partsBelow, bool polishesWidely, double& inVain);
+  bool divideInSomeWay(Effort effort, bool polishesWidely);
+
+  Run<D>& run_;
+  Surface<D>& surface_; ///< that of the run
+};
+
+/// If the growth budget is short, removes nodes where cells are good. Whether there is more room
+/// then.
+template <int D>
+bool SurfaceRounds<D>::makeRoom()
+{
+  Run<D>& run = this->run_;
+  const auto cells = static_cast<double>(run.report.history.front().cells);
+  const double budget = static_cast<double>(run.mostCells) - cells;
+  run.limitGrowth();
+  const bool isShort = static_cast<double>(run.growth) <= ShortGrowth * budget;
+  if constexpr (D == 3) // only surfaces in space judge changes
+  {
+    const auto most = static_cast<long>(PartRemoved * cells);
+    return isShort && run.options.removeNodes && coarsen(run, AboveWorstThere, most) > 0;
+  }
+  return false;
+}
+
+/// Divides long edges at the worst cells (divideLongEdges()), and improves what comes of it. The
+/// mesh stays as it was if that is no better, or if a facet has turned. `inVain`: the mean quality
+/// of the last divided mesh that was no better; the same again is the same mesh.
+template <int D>
+void SurfaceRounds<D>::divideAndOptimize(
+  Effort effort, double partsBelow, bool polishesWidely, double& inVain)
+{
+  Run<D>& run = this->run_;
+  const SimplexMesh<D> before = run.mesh();
+  const double worst = this->worst();
+  const long below = run.report.history.back().belowTarget;
+  const StopReason reason = run.report.stopReason;
+  const bool isCoarser = this->makeRoom();
+  bool isDivided = false;
+  run.limitGrowth(PartForDivisions);
+  if constexpr (D == 3) // as in makeRoom()
+  {
+    const double bad = std::min(run.options.targetQuality, AboveWorst * worst);
+    isDivided = divideLongEdges(run, bad, partsBelow) > 0;
+  }
+  if (!isCoarser && !isDivided)
+  {
+    return;
+  }
+  const double divided = run.report.history.back().mean;
+  if (isDivided && divided != inVain && !run.clock.hasStopped())
+  {
+    optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely);
+  }
+  const PassRecord& now = run.report.history.back();
+  if (now.worst < worst || (now.worst == worst && now.belowTarget >= below) ||
+    this->surface_.countTurned(run.mesh()) > this->surface_.countTurned(before))
+  {
+    restore<D>(run, before);
+    run.record("divisions undone");
+    run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
+    inVain = divided;
+  }
+}
+
+/// Whether another division may help.
+template <int D>
+bool SurfaceRounds<D>::isWorthDividing() const
+{
+  return !this->run_.clock.hasStopped() && this->run_.options.insertNodes && this->worst() > 0.0 &&
+    this->worst() < this->run_.options.targetQuality;
+}
+
+/// Divides in one way after the other. False if none raises the worst quality clearly.
+template <int D>
+bool SurfaceRounds<D>::divideInSomeWay(Effort effort, bool polishesWidely)
+{
+  const double before = this->worst();
+  double inVain = -1.0; // no mean quality is negative here
+  for (std::size_t k = 0; k < std::size(PartsBelow) && this->isWorthDividing(); ++k)
+  {
+    this->divideAndOptimize(effort, PartsBelow[k], polishesWidely, inVain);
+    if (this->worst() > DivisionsGain * before)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <int D>
+void SurfaceRounds<D>::run()
+{
+  Run<D>& run = this->run_;
+  const Effort effort = run.effort == Effort::Quick ? Effort::Quick : Effort::Default;
+  {
+    const Clock::Section part(run.clock, 0.0, 0.5);
+    optimizeOnSurface<D>(run, this->surface_, effort, PartOfGrowth, false);
+  }
+  double left = 0.5;
+  bool helps = true;
+  for (int round = 0; round < MostDivisions && helps && this->isWorthDividing(); ++round)
+  {
+    const Clock::Section part(run.clock, 1.0 - left, 1.0 - 0.5 * left);
+    // To polish widely takes most of the time, and mostly another division helps as much.
+    helps = this->divideInSomeWay(effort, false) || this->divideInSomeWay(effort, true);
+    left *= 0.5;
+  }
+  const bool isDone = run.report.history.back().belowTarget == 0 && run.effort != Effort::Best;
+  if (!isDone && !run.clock.hasStopped())
+  {
+    const Clock::Section part(run.clock, 1.0 - left, 1.0);
+    optimizeOnSurface<D>(run, this->surface_, run.effort, 1.0, true);
+  }
+}
+}
+
+template <int D>
+void restore(Run<D>& run, const SimplexMesh<D>& mesh)
+{
+  MeshEditor<D>& editor = run.editor;
+  editor.mesh() = mesh;
+  // A new editor, since the old one has the marks and the free slots of the other mesh.
+  editor = MeshEditor<D>(editor.mesh());
+  if (run.surface)
+  {
+    editor.makeRoomForPlaces(); // before editors of chunks may set some
+  }
+}
+
+template <int D>
+void optimizeOnSurface(
+  Run<D>& run, Surface<D>& surface, Effort effort, double part, bool polishesWidely)
+{
+  const SimplexMesh<D> before = run.mesh();
+  optimizeWith<D>(run, effort, part, polishesWidely);
+  if (surface.countTurned(run.mesh()) > surface.countTurned(before))
+  {
+    restore<D>(run, before);
+    run.record("turned facets undone");
+    surface.refuseTurned(true);
+    optimizeWith<D>(run, effort, part, polishesWidely);
+    surface.refuseTurned(false);
+  }
+}
+
+template <int D>
+void optimizeSliding(Run<D>& run, Surface<D>& surface)
+{
+  SurfaceRounds<D>(run, surface).run();
+}
+
+template void restore(Run<2>&, const SimplexMesh<2>&);
+template void restore(Run<3>&, const SimplexMesh<3>&);
+template void optimizeOnSurface(Run<2>&, Surface<2>&, Effort, double, bool);
+template void optimizeOnSurface(Run<3>&, Surface<3>&, Effort, double, bool);
+template void optimizeSliding(Run<2>&, Surface<2>&);
+template void optimizeSliding(Run<3>&, Surface<3>&);
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What follows what where the surface takes part, and what is undone if facets turn.
+#include "Optimize/SurfaceRounds.h"
+
+#include "WorstFirst/EngineBench.h"
+
+using namespace meshopt;
+
+namespace
+{
+/// Says what it is told to say when turned facets are counted; then, that there are none. The
+/// engine counts those of the mesh first, then those of the mesh before.
+class Turning final : public StillSurface<3>
+{
+public:
+  explicit Turning(std::vector<long> answers = {})
+    : StillSurface<3>(true)
+    , answers_(std::move(answers))
+  {
+  }
+  long countTurned(const SimplexMesh<3>&) const override
+  {
+    const std::size_t k = this->asked++;
+    return k < this->answers_.size() ? this->answers_[k] : 0;
+  }
+  void refuseTurned(bool on) override { this->refused.push_back(on); }
+
+  mutable std::size_t asked = 0;
+  std::vector<bool> refused;
+
+private:
+  std::vector<long> answers_;
+};
+
+/// A box that the engine makes better, but not as good as that.
+struct Rounds
+{
+  explicit Rounds(Turning& surface, const Options& options = upTo(0.9))
+    : bench(jitteredGrid<3>(3, 0.35, 7), options, &surface)
+    , input(sortedQualities(this->bench.mesh))
+  {
+    this->bench.run.mostCells = this->bench.mesh.countCells() + 60;
+  }
+  std::vector<PassRecord> rows(const std::string& stage) const
+  {
+    std::vector<PassRecord> found;
+    std::copy_if(this->bench.report.history.begin(), this->bench.report.history.end(),
+      std::back_inserter(found), [&](const PassRecord& row) { return row.stage == stage; });
+    return found;
+  }
+
+  EngineBench<3> bench;
+  std::vector<double> input;
+};
+}
+
+TEST(SurfaceRounds, ARunIsMadeOnceIfNoFacetTurns)
+{
+  Turning surface;
+  Rounds rounds(surface);
+  optimizeOnSurface<3>(rounds.bench.run, surface, Effort::Quick, 1.0, true);
+  EXPECT_TRUE(surface.refused.empty());
+  EXPECT_TRUE(rounds.rows("turned facets undone").empty());
+  EXPECT_GT(sortedQualities(rounds.bench.mesh).front(), rounds.input.front());
+}
+
+/// More facets look the wrong way than before, not only as many.
+TEST(SurfaceRounds, ARunThatTurnsFacetsIsMadeOnceMore)
+{
+  for (long before : { 0, 1 })
+  {
+    Turning surface({ 1, before });
+    Rounds rounds(surface);
+    Rounds once(surface);
+    optimizeOnSurface<3>(rounds.bench.run, surface, Effort::Quick, 1.0, true);
+    const std::vector<PassRecord> undone = rounds.rows("turned facets undone");
+    ASSERT_EQ(undone.size(), before == 0 ? 1u : 0u);
+    if (before == 0)
+    {
+      EXPECT_EQ(undone[0].worst, rounds.input.front());
+      EXPECT_EQ(surface.refused, (std::vector<bool>{ true, false }));
+    }
+    // This surface does not care: the second run is as good as the first.
+    optimizeOnSurface<3>(once.bench.run, surface, Effort::Quick, 1.0, true);
+    EXPECT_EQ(sortedQualities(rounds.bench.mesh), sortedQualities(once.bench.mesh));
+    expectSound(rounds.bench.mesh);
+  }
+}
+
+/// The last run polishes more cells than the first one, whether or not an edge was divided.
+TEST(SurfaceRounds, TheLastRunFollowsIfNoEdgeMayBeDivided)
+{
+  Turning surface;
+  Options options = upTo(0.9);
+  options.insertNodes = false;
+  Rounds rounds(surface, options), byHand(surface, options);
+  optimizeSliding<3>(rounds.bench.run, surface);
+  EXPECT_TRUE(rounds.rows("divisions undone").empty());
+  optimizeOnSurface<3>(byHand.bench.run, surface, Effort::Default, 0.3, false);
+  const std::vector<double> first = sortedQualities(byHand.bench.mesh);
+  optimizeOnSurface<3>(byHand.bench.run, surface, Effort::Default, 1.0, true);
+  EXPECT_EQ(sortedQualities(rounds.bench.mesh), sortedQualities(byHand.bench.mesh));
+  EXPECT_NE(sortedQualities(rounds.bench.mesh), first);
+}
+
+TEST(SurfaceRounds, NothingFollowsWhereTheTargetIsReached)
+{
+  Turning surface;
+  Rounds rounds(surface, upTo(0.2));
+  optimizeSliding<3>(rounds.bench.run, surface);
+  EXPECT_EQ(rounds.bench.report.stopReason, StopReason::TargetReached);
+  EXPECT_EQ(surface.asked, 2u); // after the first run
+  const std::size_t rows = rounds.bench.report.history.size();
+  Rounds once(surface, upTo(0.2));
+  optimizeOnSurface<3>(once.bench.run, surface, Effort::Default, 0.3, false);
+  EXPECT_EQ(once.bench.report.history.size(), rows);
+}
+
+/// The mesh then is that of the run before.
+TEST(SurfaceRounds, DivisionsThatTurnFacetsAreUndone)
+{
+  std::vector<long> answers{ 0, 0 };
+  for (int k = 0; k < 20; ++k)
+  {
+    answers.insert(answers.end(), { 1, 0 });
+  }
+  Turning surface(answers);
+  Rounds rounds(surface), first(surface);
+  optimizeSliding<3>(rounds.bench.run, surface);
+  surface = Turning();
+  optimizeOnSurface<3>(first.bench.run, surface, Effort::Default, 0.3, false);
+  const double worst = sortedQualities(first.bench.mesh).front();
+  const std::vector<PassRecord> undone = rounds.rows("divisions undone");
+  ASSERT_FALSE(undone.empty());
+  for (const PassRecord& row : undone)
+  {
+    EXPECT_EQ(row.worst, worst);
+  }
+  expectSound(rounds.bench.mesh);
+}
