@@ -171,7 +171,8 @@ struct FewCells
       [&](int k) { return hasId(this->cells[k], q); });
   }
 
-  /// V - E + F - C (D = 3), V - E + C (D = 2). `seen`: for each point, a number that is not its.
+  /// V - E + F - C (D = 3), V - E + C (D = 2). `seen` has None for each of the points, and is
+  /// overwritten.
   long eulerCharacteristic(int points, std::vector<Index>& seen) const
   {
     long number = 0;

@@ -489,3 +489,35 @@ TEST(PolyhedronSearch, LargerOnesStepsAndTheSameBits)
   }
   EXPECT_GT(longest, 50);
 }
+
+/// Two of three cells around an edge, which sees more than half a turn from outside: it passes
+/// through the triangle of the three other points. So nothing on that triangle is a candidate.
+TEST(PolyhedronSearch, CandidatesAreNotCrossedByAReflexEdge)
+{
+  const MeshInput<3> in = ringOf(3);
+  PolyhedronSearch search;
+  search.clear();
+  for (const Vec<3>& x : in.points)
+  {
+    search.addPoint(x, true);
+  }
+  std::vector<PolyhedronSearch::Triangle> boundary;
+  const auto add = [&](int a, int b, int c, int inner)
+  {
+    if (signedVolume({ in.points[a], in.points[b], in.points[c], in.points[inner] }) < 0.0)
+    {
+      std::swap(b, c);
+    }
+    boundary.push_back({ std::uint8_t(a), std::uint8_t(b), std::uint8_t(c) });
+  };
+  for (int k : { 2, 3 }) // cells (0, 1, k, k + 1)
+  {
+    add(0, k, k + 1, 1);
+    add(1, k, k + 1, 0);
+  }
+  add(0, 1, 2, 3);
+  add(0, 1, 4, 3);
+  ASSERT_TRUE(search.setBoundary(boundary));
+  search.findCandidates();
+  EXPECT_EQ(search.candidates().size(), 2u);
+}
