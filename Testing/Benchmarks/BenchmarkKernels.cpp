@@ -228,7 +228,7 @@ void star(benchmark::State& state, bool smooth)
   {
     const Index p = bench.nodes[k++ % 1024];
     bench.editor.star(p, cells);
-    problem.clear({ 0.0 }, true);
+    problem.clear(bench.model.quality, true);
     for (Index c : cells)
     {
       const Facet<3> f = bench.mesh.facet(c, bench.mesh.localIndex(c, p));

@@ -28,10 +28,10 @@ struct QualityModel
 
   bool fast() const { return HasSum && this->plain && !this->weights; }
 
-  QualityModel(const SimplexMesh<D>& m, NodalMetric<D>& field, double beta)
+  QualityModel(const SimplexMesh<D>& m, NodalMetric<D>& field, double beta, const Shape& shape = {})
     : mesh(&m)
     , metric(&field)
-    , quality{ beta }
+    , quality{ beta, shape }
     , plain(beta == 0.0 && field.isTrivial())
   {
   }
@@ -40,7 +40,7 @@ struct QualityModel
   double at(const Simplex<D>& nodes, const Corners<D>& x) const
   {
     ++evaluationsOfThread;
-    const double q = this->plain ? Shape::value(x) : this->inMetric(nodes, x);
+    const double q = this->plain ? this->quality.shape.value(x) : this->inMetric(nodes, x);
     const bool weigh = this->weights && !(q < this->floor);
     return weigh ? this->weighted(nodes, q) : q;
   }

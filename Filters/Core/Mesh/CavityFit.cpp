@@ -172,16 +172,11 @@ bool CavityFit<D>::staysTogether()
     {
       return false;
     }
-    for (const int* k = this->outerAt_.begin(p); D == 3 && k != this->outerAt_.end(p); ++k)
+    if (D == 3 &&
+      !forEachEdgeOnce(
+        p, this->outerAt_, this->outer_, this->seen_, [&](Index q) { return this->agrees(p, q); }))
     {
-      for (Index q : this->outer_[*k])
-      {
-        if (q > p && this->seen_[q] != p && !this->agrees(p, q))
-        {
-          return false;
-        }
-        this->seen_[q] = q > p ? p : this->seen_[q];
-      }
+      return false;
     }
   }
   return true;
@@ -260,21 +255,14 @@ bool CavityFit<D>::meetsOthers(const std::vector<std::uint8_t>& pinched)
   this->seen_.assign(points, None);
   for (Index p = 0; p < points; ++p)
   {
-    for (const int* k = this->new_.cellsAt.begin(p); k != this->new_.cellsAt.end(p); ++k)
+    const auto isFree = [&](Index q)
     {
-      for (Index q : this->new_.cells[*k])
-      {
-        // Each edge at its lower point, when it is met first. Those of the cavity may come back.
-        if (q > p && this->seen_[q] != p)
-        {
-          this->seen_[q] = p;
-          const Index edge[] = { this->points_[p], this->points_[q] };
-          if (!this->old_.hasEdge(p, q) && this->isTaken(pinched, edge, 2))
-          {
-            return true;
-          }
-        }
-      }
+      const Index edge[] = { this->points_[p], this->points_[q] };
+      return this->old_.hasEdge(p, q) || !this->isTaken(pinched, edge, 2); // old ones may come back
+    };
+    if (!forEachEdgeOnce(p, this->new_.cellsAt, this->new_.cells, this->seen_, isFree))
+    {
+      return true;
     }
   }
   // Where an edge is new, and not taken, no facet is.

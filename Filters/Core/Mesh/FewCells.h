@@ -11,6 +11,7 @@
 #include <array>
 #include <iterator>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace meshopt
@@ -47,6 +48,26 @@ public:
 private:
   std::vector<int> first_, items_;
 };
+
+/// Calls f(q) for each edge (p, q) of the items that have p, of which `at` knows, with q > p: so a
+/// walk over all p, upwards, meets every edge once. `seen`, by point, must not have p yet, and is
+/// overwritten. Ends when f returns false, and then returns false.
+template <class Item, class F>
+bool forEachEdgeOnce(
+  Index p, const Incidence& at, const std::vector<Item>& items, std::vector<Index>& seen, F&& f)
+{
+  for (const int* k = at.begin(p); k != at.end(p); ++k)
+  {
+    for (Index q : items[*k])
+    {
+      if (q > p && std::exchange(seen[q], p) != p && !f(q))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
 
 /// A few cells, and which of them are joined by a facet.
 template <int D>
@@ -176,17 +197,17 @@ struct FewCells
   long eulerCharacteristic(int points, std::vector<Index>& seen) const
   {
     long number = 0;
+    const auto count = [&number](Index)
+    {
+      --number;
+      return true;
+    };
     for (Index p = 0; p < points; ++p)
     {
       number += !this->cellsAt.isEmpty(p);
-      for (const int* k = this->cellsAt.begin(p); D == 3 && k != this->cellsAt.end(p); ++k)
+      if (D == 3)
       {
-        for (Index q : this->cells[*k])
-        {
-          // Each edge at its lower point, when it is met first.
-          number -= q > p && seen[q] != p;
-          seen[q] = q > p ? p : seen[q];
-        }
+        forEachEdgeOnce(p, this->cellsAt, this->cells, seen, count);
       }
     }
     const long facets = static_cast<long>(this->sides.size() - this->joints.size());

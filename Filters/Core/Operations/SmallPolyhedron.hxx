@@ -53,7 +53,8 @@ double SmallPolyhedron<Shape>::quality(const PolyhedronSearch::Tetrahedron& t) c
   if (this->model_->plain)
   {
     ++evaluationsOfThread;
-    return Shape::value(Corners<3>{ this->x_[a], this->x_[b], this->x_[c], this->x_[d] });
+    return this->model_->quality.shape.value(
+      Corners<3>{ this->x_[a], this->x_[b], this->x_[c], this->x_[d] });
   }
   return (*this->model_)(Simplex<3>{ this->ids_[a], this->ids_[b], this->ids_[c], this->ids_[d] });
 }

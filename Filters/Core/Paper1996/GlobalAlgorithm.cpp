@@ -17,10 +17,11 @@ template <int D, class Shape>
 class GlobalAlgorithm
 {
 public:
-  GlobalAlgorithm(const MeasuredMesh<D>& mesh, const RepositionParameters& parameters)
+  GlobalAlgorithm(
+    const MeasuredMesh<D>& mesh, const Shape& shape, const RepositionParameters& parameters)
     : editor_(mesh.editor)
     , parameters_(parameters)
-    , model_(mesh.editor.mesh(), mesh.metric, mesh.beta)
+    , model_(mesh.editor.mesh(), mesh.metric, mesh.beta, shape)
     , judge_(mesh.editor, this->model_, this->switches_)
     , solver_(this->judge_, parameters.local, parameters.leastGain)
     , queue_(mesh.editor.mesh(), parameters.target)
@@ -144,8 +145,7 @@ RepositionResult reposition(const MeasuredMesh<D>& mesh, const RepositionParamet
   return dispatchOptimizable<D>(mesh.measure,
     [&](auto shape)
     {
-      using Shape = decltype(shape);
-      GlobalAlgorithm<D, Shape> algorithm(mesh, parameters);
+      GlobalAlgorithm<D, decltype(shape)> algorithm(mesh, shape, parameters);
       return algorithm.run(keepGoing, sequence);
     });
 }

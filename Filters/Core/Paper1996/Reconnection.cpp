@@ -21,14 +21,14 @@ template <int D, class Shape>
 class Reconnection
 {
 public:
-  Reconnection(const MeasuredMesh<D>& mesh, const ReconnectionParameters& parameters,
-    ReconnectionMemory<D>& memory)
+  Reconnection(const MeasuredMesh<D>& mesh, const Shape& shape,
+    const ReconnectionParameters& parameters, ReconnectionMemory<D>& memory)
     : editor_(mesh.editor)
     , mesh_(mesh.editor.mesh())
     , parameters_(parameters)
     , memory_(memory)
     , queue_(this->mesh_, parameters.target)
-    , model_(this->mesh_, mesh.metric, mesh.beta)
+    , model_(this->mesh_, mesh.metric, mesh.beta, shape)
     , pinched_(pinchedPoints<D>(this->mesh_))
     , judge_(mesh.editor, this->model_, this->switches_)
     , aheadJudge_(mesh.editor, this->model_, this->switches_)
@@ -311,8 +311,7 @@ ReconnectionResult reconnect(const MeasuredMesh<D>& mesh, const ReconnectionPara
   return dispatchOptimizable<D>(mesh.measure,
     [&](auto shape)
     {
-      using Shape = decltype(shape);
-      Reconnection<D, Shape> reconnection(mesh, parameters, memory);
+      Reconnection<D, decltype(shape)> reconnection(mesh, shape, parameters, memory);
       return reconnection.run(keepGoing);
     });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file ElementQuality.h
-/// Quality of one element and its gradient, for a shape measure chosen at compile time.
+/// Quality of one element and its gradient, for a given shape measure.
 ///
 /// Reference: Buscaglia, Dari, Zavattieri (1996), (2.2): Q = S exp(-beta^2 ln^2(h / h*)).
 #ifndef meshopt_Quality_ElementQuality_h
@@ -35,9 +35,9 @@ inline double sizeFactor(double t, double& slope)
   return phi;
 }
 
-/// Q of an element. Shape is one of the functors of Shape.h, with
-///   static double value(const Corners<D>& x);
-///   static double gradient(const Corners<D>& x, std::array<Vec<D>, D + 1>& g); // returns value
+/// Q of an element. Shape is one of the functors of Shape.h, or AnyShape, with
+///   double value(const Corners<D>& x);
+///   double gradient(const Corners<D>& x, std::array<Vec<D>, D + 1>& g); // returns value
 ///
 /// The element is measured in the metric M: its corners are first mapped by M^(1/2). h is its
 /// longest edge there (the paper's diameter). The size factor applies if beta > 0, h* > 0 and S >
@@ -46,6 +46,7 @@ template <int D, class Shape>
 struct ElementQuality
 {
   double beta = 0.0; ///< width of the size factor (2.2), >= 0
+  Shape shape{};
 
   /// S phi; S if S <= 0 (inverted elements are compared by shape alone).
   double value(const Corners<D>& x, const ElementMetric<D>& m) const;
@@ -94,10 +95,10 @@ inline double ElementQuality<D, Shape>::value(const Corners<D>& x, const Element
   // The usual case: nothing is mapped or copied.
   if (m.euclidean && !this->hasSize(m))
   {
-    return Shape::value(x);
+    return this->shape.value(x);
   }
   const Corners<D> y = m.euclidean ? x : mapped(x, m.map);
-  const double s = Shape::value(y);
+  const double s = this->shape.value(y);
   if (!(s > 0.0) || !this->hasSize(m))
   {
     return s;
@@ -113,7 +114,7 @@ inline double ElementQuality<D, Shape>::gradient(
   const Corners<D>& x, const ElementMetric<D>& m, std::array<Vec<D>, D + 1>& g) const
 {
   const Corners<D> y = m.euclidean ? x : mapped(x, m.map);
-  double q = Shape::gradient(y, g);
+  double q = this->shape.gradient(y, g);
   if (q > 0.0 && this->hasSize(m))
   {
     double h2, slope;

@@ -8,11 +8,13 @@
 #ifndef meshopt_Quality_Measures_h
 #define meshopt_Quality_Measures_h
 
+#include "Quality/AnyShape.h"
+#include "Quality/EdgeSum.h"
 #include "Quality/Measure.h"
 #include "Quality/Shape.h"
 
 #include <tuple>
-#include <utility>
+#include <type_traits>
 
 namespace meshopt
 {
@@ -41,6 +43,11 @@ namespace measures
 template <std::size_t K>
 using Row = std::tuple_element_t<K, MeasureTable>;
 
+/// What f is called with. Engines are compiled for a functor of its own only where edge lengths can
+/// be shared: the others would not become faster by it.
+template <int D, bool All, class Shape>
+using Called = std::conditional_t<All || EdgeSum<Shape>::value, Shape, AnyShape<D>>;
+
 /// Calls f for the row with the number `measure`, among the rows from K on. The caller must not
 /// pass a measure that is not among them: f is then called for the first row.
 template <int D, bool All, std::size_t K, class F>
@@ -53,14 +60,15 @@ decltype(auto) dispatchFrom(Measure measure, F& f)
   }
   else if constexpr (!All && !Row<K>::isOptimizable)
   {
-    // Skipped at compile time: the engine is not instantiated for it.
+    // Skipped at compile time: no engine asks for it.
     return dispatchFrom<D, All, K + 1>(measure, f);
   }
   else
   {
+    using Shape = typename Row<K>::template Shape<D>;
     if (measure == Row<K>::id)
     {
-      return f(typename Row<K>::template Shape<D>{});
+      return f(Called<D, All, Shape>(Shape{}));
     }
     return dispatchFrom<D, All, K + 1>(measure, f);
   }
@@ -75,7 +83,8 @@ decltype(auto) dispatch(Measure measure, F&& f)
   return measures::dispatchFrom<D, true, 0>(measure, f);
 }
 
-/// The same for measures that can be optimized: f is not instantiated for the others.
+/// The same for measures that can be optimized, and for large code: f is called with the functors
+/// that can share edge lengths (EdgeSum.h), and with an AnyShape for all others.
 template <int D, class F>
 decltype(auto) dispatchOptimizable(Measure measure, F&& f)
 {

@@ -28,9 +28,10 @@ class StarProblem
 {
 public:
   /// plain: Euclidean, without size factor. Otherwise addFacetMetric() gives each facet its metric.
+  /// The quality must live until the next clear().
   void clear(const ElementQuality<D, Shape>& quality, bool plain)
   {
-    this->quality_ = quality;
+    this->quality_ = &quality;
     this->plain_ = plain;
     this->numbers_.clear();
     this->ring_.clear();
@@ -38,6 +39,7 @@ public:
     this->metrics_.clear();
     this->directions_.count = 0;
   }
+  void clear(const ElementQuality<D, Shape>&&, bool) = delete; // it would not live long enough
   /// From now on maximize() moves the node only in these directions.
   void restrict(const Directions<D>& directions) { this->directions_ = directions; }
 
@@ -112,7 +114,7 @@ public:
       for (std::size_t k = 0; k < this->facets_.size(); ++k)
       {
         this->values_[k] = this->facets_[k].weight *
-          this->quality_.value(this->corners(k, x), this->metric(k));
+          this->quality_->value(this->corners(k, x), this->metric(k));
       }
     }
     for (double q : this->values_)
@@ -258,7 +260,7 @@ private:
       }
     }
     std::array<Vec<D>, D + 1> g;
-    this->quality_.gradient(this->corners(k, x), this->metric(k), g);
+    this->quality_->gradient(this->corners(k, x), this->metric(k), g);
     return this->facets_[k].weight * g[D];
   }
 
@@ -275,7 +277,7 @@ private:
       static_cast<double>(std::max<std::size_t>(1, this->ring_.size()));
   }
 
-  ElementQuality<D, Shape> quality_;
+  const ElementQuality<D, Shape>* quality_ = nullptr;
   bool plain_ = true;
   LocalNumbers numbers_;
   std::vector<RingPoint> ring_;

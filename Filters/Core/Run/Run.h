@@ -54,6 +54,15 @@ struct Run
     this->report.history.push_back(row);
     return this->report.history.back();
   }
+  /// The same with what a judge, or a pass, has tried and done.
+  template <class Counted>
+  PassRecord& record(const std::string& stage, const Counted& counted)
+  {
+    PassRecord& row = this->record(stage);
+    row.tried = counted.tried;
+    row.done = counted.done;
+    return row;
+  }
 };
 
 /// Attaches a metric to the points of a mesh for as long as this object lives: the metric then

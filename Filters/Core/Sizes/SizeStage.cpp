@@ -49,10 +49,8 @@ void SizeStage<D>::record()
   // The history shows the quality that the caller wants; the stage itself works with the shape.
   computeQualities<D>(
     this->editor_, this->run_.metric, this->options_.measure, this->options_.beta);
-  PassRecord& row = this->run_.record("sizes, round " + std::to_string(this->round_ + 1));
+  this->run_.record("sizes, round " + std::to_string(this->round_ + 1), this->judge());
   computeQualities<D>(this->editor_, this->run_.metric, Measure::Shape, 0.0);
-  row.done = this->judge().done;
-  row.tried = this->judge().tried;
   // The next row of the history counts from here.
   this->judge().done.fill(0);
   this->judge().tried.fill(0);

@@ -140,9 +140,7 @@ void Coarsening::record(bool isRow)
   computeQualities<3>(this->run_.editor, this->run_.metric, o.measure, o.beta);
   if (isRow)
   {
-    PassRecord& row = this->run_.record("coarsened");
-    row.done = this->judge_.done;
-    row.tried = this->judge_.tried;
+    this->run_.record("coarsened", this->judge_);
   }
 }
 }

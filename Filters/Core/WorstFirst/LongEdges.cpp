@@ -260,9 +260,7 @@ void LongEdges::record(bool isRow)
   computeQualities<3>(this->run_.editor, this->run_.metric, o.measure, o.beta);
   if (isRow)
   {
-    PassRecord& row = this->run_.record("long edges divided");
-    row.done = this->judge_.done;
-    row.tried = this->judge_.tried;
+    this->run_.record("long edges divided", this->judge_);
   }
 }
 }

@@ -5,7 +5,6 @@
 #ifndef meshopt_WorstFirst_Schedule_h
 #define meshopt_WorstFirst_Schedule_h
 
-#include "Quality/Measures.h"
 #include "WorstFirst/Parts.h"
 #include "WorstFirst/Polish.h"
 
@@ -21,9 +20,9 @@ template <int D, class Shape>
 class Schedule
 {
 public:
-  explicit Schedule(Run<D>& run)
+  Schedule(Run<D>& run, const Shape& shape)
     : begin_(run.clock.seconds())
-    , workpiece_(run)
+    , workpiece_(run, shape)
     , budget_(run.options, run.growth, run.mesh().countCells(), !this->workpiece_.model().plain)
     , allowance_(this->workpiece_)
     , reporter_(this->workpiece_, this->begin_)
@@ -140,35 +139,12 @@ bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
   }
   return more;
 }
-
-/// Runs row K of the table of measures, if this part has it and the run wants it.
-template <int D, int Part, std::size_t K>
-bool runRow(Run<D>& run)
-{
-  using Row = measures::Row<K>;
-  if constexpr (Row::isOptimizable && K % NumberOfParts == Part)
-  {
-    if (run.options.measure == Row::id)
-    {
-      Schedule<D, typename Row::template Shape<D>>(run).optimize();
-      return true;
-    }
-  }
-  return false;
 }
 
-template <int D, int Part, std::size_t... K>
-bool runRows(Run<D>& run, std::index_sequence<K...>)
+template <int D, class Shape>
+void optimizeWith(Run<D>& run, const Shape& shape)
 {
-  return (runRow<D, Part, K>(run) || ...);
-}
-}
-
-template <int D, int Part>
-bool runPart(Run<D>& run)
-{
-  return worstfirst::runRows<D, Part>(
-    run, std::make_index_sequence<std::tuple_size_v<MeasureTable>>());
+  worstfirst::Schedule<D, Shape>(run, shape).optimize();
 }
 }
 

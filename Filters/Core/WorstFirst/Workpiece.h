@@ -20,9 +20,9 @@ class Workpiece
 {
 public:
   /// Certifies the caps. The run must outlive this object.
-  explicit Workpiece(Run<D>& run)
+  Workpiece(Run<D>& run, const Shape& shape)
     : run_(run)
-    , model_(run.mesh(), run.metric, run.options.beta)
+    , model_(run.mesh(), run.metric, run.options.beta, shape)
     , weights_(run.editor, this->model_, this->caps_)
     , worst_(run.report.history.back().worst)
   {

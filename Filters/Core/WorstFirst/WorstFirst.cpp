@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine is compiled once for each measure, in several files of about equal size. Each of them
-// returns false for a measure that it does not have.
 #include "WorstFirst/WorstFirst.h"
 
+#include "Quality/Measures.h"
 #include "WorstFirst/Parts.h"
 
 namespace meshopt
@@ -11,8 +10,8 @@ template <int D>
 void optimizeWorstFirst(Run<D>& run)
 {
   const FollowedMetric<D> follows(run.editor, run.metric);
-  static_assert(NumberOfParts == 3, "a call for each");
-  (void)(runPart<D, 0>(run) || runPart<D, 1>(run) || runPart<D, 2>(run));
+  dispatchOptimizable<D>(
+    run.options.measure, [&run](const auto& shape) { optimizeWith(run, shape); });
 }
 
 template void optimizeWorstFirst<2>(Run<2>&);

@@ -25,8 +25,9 @@ TEST(Evaluations, EachQualityCountsOnce)
 
 TEST(Evaluations, APlaceOfANodeCostsItsFacets)
 {
+  const ElementQuality<3, MeanEdgeShape<3>> quality{};
   StarProblem<3, MeanEdgeShape<3>> star;
-  star.clear({}, true);
+  star.clear(quality, true);
   const Vec<3> corners[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
   for (int p = 0; p < 4; ++p)
   {

@@ -352,6 +352,22 @@ TYPED_TEST_P(ShapeMeasure, DispatchGivesTheSame)
   EXPECT_EQ(q, TypeParam::Shape::value(x));
 }
 
+/// Engines are compiled for AnyShape in place of most functors.
+TYPED_TEST_P(ShapeMeasure, AnyShapeGivesTheSameBits)
+{
+  constexpr int D = TypeParam::dimension;
+  using S = typename TypeParam::Shape;
+  const AnyShape<D> any{ S{} };
+  for (int k = 0; k < 20; ++k)
+  {
+    const Corners<D> x = this->element();
+    std::array<Vec<D>, D + 1> g, wanted;
+    EXPECT_EQ(any.value(x), S::value(x));
+    EXPECT_EQ(any.gradient(x, g), S::gradient(x, wanted));
+    EXPECT_EQ(g, wanted);
+  }
+}
+
 TYPED_TEST_P(ShapeMeasure, SizeFactorAndMetric)
 {
   constexpr int D = TypeParam::dimension;
@@ -415,7 +431,7 @@ TYPED_TEST_P(ShapeMeasure, SizeFactorAndMetric)
 
 REGISTER_TYPED_TEST_SUITE_P(ShapeMeasure, IdealElement, ValueByHand, GetsWorseWithDistortion,
   InvertedHasOppositeSign, GradientAgainstCentralDifferences, Invariance, OrderOfNodes, Degenerate,
-  DispatchGivesTheSame, SizeFactorAndMetric);
+  DispatchGivesTheSame, AnyShapeGivesTheSameBits, SizeFactorAndMetric);
 INSTANTIATE_TYPED_TEST_SUITE_P(Plane, ShapeMeasure, MeasuresOf<2>);
 INSTANTIATE_TYPED_TEST_SUITE_P(Space, ShapeMeasure, MeasuresOf<3>);
 

@@ -71,7 +71,8 @@ struct Star
   template <class Shape>
   void load(StarProblem<D, Shape>& problem, bool plain) const
   {
-    problem.clear({ 0.0 }, plain);
+    static constexpr ElementQuality<D, Shape> quality;
+    problem.clear(quality, plain);
     for (std::size_t k = 0; k < this->points.size(); ++k)
     {
       EXPECT_EQ(problem.addPoint(Index(100 + 7 * k), this->points[k]), int(k));

@@ -80,7 +80,7 @@ struct EngineBench
     , editor(this->mesh)
     , metric(wanted.desiredSize)
     , run(this->start(surface))
-    , workpiece(this->run)
+    , workpiece(this->run, {})
     , budget(
         this->options, this->run.growth, this->mesh.countCells(), !this->workpiece.model().plain)
     , allowance(this->workpiece)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part 0 of the engine: see Parts.h.
+// The engine for the paper's S: see Parts.h.
 #include "WorstFirst/Schedule.h"
 
 namespace meshopt
 {
 template class Improver<2, MeanEdgeShape<2>>;
 template class Improver<3, MeanEdgeShape<3>>;
-template bool runPart<2, 0>(Run<2>&);
-template bool runPart<3, 0>(Run<3>&);
+template void optimizeWith(Run<2>&, const MeanEdgeShape<2>&);
+template void optimizeWith(Run<3>&, const MeanEdgeShape<3>&);
 }
