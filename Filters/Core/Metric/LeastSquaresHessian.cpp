@@ -59,8 +59,6 @@ public:
   }
 
 private:
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Unknowns<D>>;
-
   /// Adds the neighbours of the outermost ring. False if there are none left.
   bool addRing(Index p)
   {
@@ -176,9 +174,9 @@ private:
   std::vector<Index> seen_;  ///< the last patch that contained the point
   std::vector<Index> patch_; ///< first the point itself, then ring by ring
   std::size_t ringBegin_ = 0;
-  Columns columns_;
-  Eigen::MatrixXd right_;
-  Eigen::ColPivHouseholderQR<Columns> qr_;
+  // Of any size, so that the factorization, which is large, is compiled once for both dimensions.
+  Eigen::MatrixXd columns_, right_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
 };
 }
 

@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 
+#include <cmath>
+
 namespace meshopt::fem
 {
 namespace
@@ -64,12 +66,13 @@ std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidM
     {
       Eigen::RowVectorXd row;
       pins.push_back(findPin(mesh, modes, points[g], left, row));
-      // The motions left are the combinations that do not displace the pinned component.
-      const Eigen::MatrixXd column = row.transpose();
-      // The first column of Q is along the row, the others are orthogonal to it: in them the pinned
-      // component is at rest.
-      const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(column).householderQ();
-      left = (left * q.rightCols(left.cols() - 1)).eval();
+      // The motions left are the combinations that do not displace the pinned component. A
+      // reflection turns the row into a multiple of (1, 0, ... 0), and the combinations with it: all
+      // but the first one leave the component at rest.
+      Eigen::RowVectorXd mirror = row;
+      mirror[0] += std::copysign(row.norm(), row[0]);
+      left -= (2.0 / mirror.squaredNorm() * (left * mirror.transpose())) * mirror;
+      left = left.rightCols(left.cols() - 1).eval();
     }
   }
   return pins;
