@@ -142,12 +142,8 @@ RepositionResult reposition(const MeasuredMesh<D>& mesh, const RepositionParamet
 {
   // While it lives, the editor tells the metric where nodes go.
   const FollowedMetric<D> follows(mesh.editor, mesh.metric);
-  return dispatchOptimizable<D>(mesh.measure,
-    [&](auto shape)
-    {
-      GlobalAlgorithm<D, decltype(shape)> algorithm(mesh, shape, parameters);
-      return algorithm.run(keepGoing, sequence);
-    });
+  GlobalAlgorithm<D, AnyShape<D>> algorithm(mesh, anyShape<D>(mesh.measure), parameters);
+  return algorithm.run(keepGoing, sequence);
 }
 
 template RepositionResult reposition<2>(

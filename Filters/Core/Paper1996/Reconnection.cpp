@@ -307,13 +307,8 @@ ReconnectionResult reconnect(const MeasuredMesh<D>& mesh, const ReconnectionPara
   ReconnectionMemory<D>& memory, const std::function<bool(double)>& keepGoing)
 {
   const FollowedMetric<D> follows(mesh.editor, mesh.metric);
-  // The measure is chosen here, once, and not in the loops.
-  return dispatchOptimizable<D>(mesh.measure,
-    [&](auto shape)
-    {
-      Reconnection<D, decltype(shape)> reconnection(mesh, shape, parameters, memory);
-      return reconnection.run(keepGoing);
-    });
+  Reconnection<D, AnyShape<D>> reconnection(mesh, anyShape<D>(mesh.measure), parameters, memory);
+  return reconnection.run(keepGoing);
 }
 
 template ReconnectionResult reconnect<2>(const MeasuredMesh<2>&, const ReconnectionParameters&,

@@ -83,8 +83,15 @@ decltype(auto) dispatch(Measure measure, F&& f)
   return measures::dispatchFrom<D, true, 0>(measure, f);
 }
 
-/// The same for measures that can be optimized, and for large code: f is called with the functors
-/// that can share edge lengths (EdgeSum.h), and with an AnyShape for all others.
+/// For large code that does not gain by a functor of its own.
+template <int D>
+AnyShape<D> anyShape(Measure measure)
+{
+  return dispatch<D>(measure, [](auto shape) { return AnyShape<D>(shape); });
+}
+
+/// For measures that can be optimized, and for code that becomes faster where edge lengths can be
+/// shared: f is called with the functors that can (EdgeSum.h), and with an AnyShape for all others.
 template <int D, class F>
 decltype(auto) dispatchOptimizable(Measure measure, F&& f)
 {
