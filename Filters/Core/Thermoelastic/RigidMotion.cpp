@@ -67,8 +67,8 @@ std::vector<Constraint> pinRigidMotions(const SimplexMesh<D>& mesh, const RigidM
       Eigen::RowVectorXd row;
       pins.push_back(findPin(mesh, modes, points[g], left, row));
       // The motions left are the combinations that do not displace the pinned component. A
-      // reflection turns the row into a multiple of (1, 0, ... 0), and the combinations with it: all
-      // but the first one leave the component at rest.
+      // reflection turns the row into a multiple of (1, 0, ... 0), and the combinations with it:
+      // all but the first one leave the component at rest.
       Eigen::RowVectorXd mirror = row;
       mirror[0] += std::copysign(row.norm(), row[0]);
       left -= (2.0 / mirror.squaredNorm() * (left * mirror.transpose())) * mirror;
