@@ -10,9 +10,10 @@ namespace meshopt
 namespace
 {
 /// Kept facets and edges at v vanish. Those that do not contain u appear again with u in place of
-/// v.
+/// v. False at an ear, a cell that collapses between such a facet and the one that would appear:
+/// the cell behind, which is not in the cavity, has that facet already, and the surface would fold.
 template <int D>
-void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
+bool joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
 {
   // Facets and edges that several cells of the cavity share come several times. The editor only
   // looks them up.
@@ -29,6 +30,10 @@ void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
       p.kept.gone.push_back(f);
       if (!hasId(f, u))
       {
+        if (mesh.localIndex(c, u) >= 0)
+        {
+          return false;
+        }
         p.kept.come.push_back(exchanged(f, v, u));
         p.kept.patches.push_back(mesh.patch(c, i));
       }
@@ -48,6 +53,7 @@ void joinKept(const SimplexMesh<D>& mesh, Index v, Index u, Proposal<D>& p)
       }
     }
   }
+  return true;
 }
 }
 
@@ -63,11 +69,11 @@ bool proposeContraction(
   }
   if (!mesh.isFree(v))
   {
-    if (!surface || !surface->mayJoin(mesh, proposal.cavity, v, u))
+    if (!surface || !surface->mayJoin(mesh, proposal.cavity, v, u) ||
+      !joinKept(mesh, v, u, proposal))
     {
       return false;
     }
-    joinKept(mesh, v, u, proposal);
   }
   for (Index c : proposal.cavity)
   {

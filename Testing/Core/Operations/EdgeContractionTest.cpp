@@ -2,6 +2,7 @@
 // A node goes into each of its neighbours in turn: which cells are left, and who must stay.
 #include "Operations/EdgeContraction.h"
 #include "Mesh/Ids.h"
+#include "StillSurface.h"
 #include "TestBench.h"
 #include "TestClusters.h"
 
@@ -140,4 +141,74 @@ TYPED_TEST(Contracting, WhatIsHeldOrAnothersStays)
   in.fixedPoints[0] = 1;
   Bench<D> fixed(in);
   expectRefused(fixed, [&] { return contract<D>(fixed, 0, 1); });
+}
+
+namespace
+{
+/// Any two of its points may become one.
+class Joining final : public StillSurface<3>
+{
+public:
+  Joining()
+    : StillSurface<3>(false)
+  {
+  }
+  bool mayJoin(const SimplexMesh<3>&, const std::vector<Index>&, Index, Index) const override
+  {
+    return true;
+  }
+};
+
+/// A ring of four around v, which lies a little below it; below v and the ring one region, above
+/// them the other. `ears`: of that, two cells between v and the ring are all that v has; they
+/// collapse when v goes into the ring. Otherwise v has the four cells up to the top.
+MeshInput<3> dented(bool ears)
+{
+  MeshInput<3> in;
+  in.points = { { 0, 0, -0.5 }, { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -2 },
+    { 0, 0, 1 } };
+  for (Index k = 0; k < 4; ++k)
+  {
+    const Index a = 1 + k, b = 1 + (k + 1) % 4;
+    in.cells.push_back({ 5, a, b, 0 });
+    in.regions.push_back(2);
+    if (!ears)
+    {
+      in.cells.push_back({ 0, a, b, 6 });
+      in.regions.push_back(1);
+    }
+  }
+  for (const Simplex<3>& cell :
+    { Simplex<3>{ 0, 1, 2, 3 }, { 0, 1, 3, 4 }, { 1, 2, 3, 6 }, { 1, 3, 4, 6 } })
+  {
+    if (ears)
+    {
+      in.cells.push_back(cell);
+      in.regions.push_back(1);
+    }
+  }
+  return in;
+}
+}
+
+/// There the cells behind would have to learn that their facets lie between regions now. (Once they
+/// did not, and a walk around such a facet never ended.)
+TEST(EdgeContraction, NoEarsAtAnInterface)
+{
+  for (Index u = 1; u <= 4; ++u)
+  {
+    for (bool ears : { false, true })
+    {
+      SCOPED_TRACE(u);
+      Bench<3> b(dented(ears));
+      const Joining surface;
+      Proposal<3> p;
+      const bool proposed = proposeContraction<3>(b.editor, &surface, 0, u, p);
+      // Points 1 and 3 are in both ears. Into 2 and 4, one ear would become flat.
+      EXPECT_EQ(proposed, !ears || u % 2 == 0);
+      p.least = 0.0;
+      EXPECT_EQ(proposed && b.judge.measure(p) && b.judge.accept(p), !ears);
+      expectSound(b.mesh, true);
+    }
+  }
 }

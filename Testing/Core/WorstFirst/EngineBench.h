@@ -4,52 +4,12 @@
 #define meshopt_Testing_EngineBench_h
 
 #include "Quality/Shape.h"
+#include "StillSurface.h"
 #include "TestMeshes.h"
 #include "WorstFirst/Polish.h"
 
 namespace meshopt
 {
-/// Nothing slides on it. What matters is that it takes part, and whether it judges changes.
-template <int D>
-class StillSurface : public Surface<D>
-{
-public:
-  explicit StillSurface(bool judges)
-    : judges_(judges)
-  {
-  }
-  Vec<D> at(Index, double) const override { return Vec<D>::Zero(); }
-  Place project(const Place& place, const Vec<D>& x, Vec<D>& there) const override
-  {
-    there = x;
-    return place;
-  }
-  int tangents(
-    const SimplexMesh<D>&, const std::vector<Index>&, Index, std::array<Vec<D>, D>&) const override
-  {
-    return 0;
-  }
-  std::optional<Span> span(const SimplexMesh<D>&, Index, Index) const override { return {}; }
-  std::optional<SlidingRange> range(
-    const SimplexMesh<D>&, const std::vector<Index>&, Index) const override
-  {
-    return {};
-  }
-  bool mayDivide(const SimplexMesh<D>&, const std::vector<Index>&, Index, Index) const override
-  {
-    return false;
-  }
-  bool maySwap(const SimplexMesh<D>&, Index, Index) const override { return false; }
-  bool mayJoin(const SimplexMesh<D>&, const std::vector<Index>&, Index, Index) const override
-  {
-    return false;
-  }
-  bool judgesChanges() const override { return this->judges_; }
-
-private:
-  bool judges_;
-};
-
 inline Options upTo(double target, Effort effort = Effort::Default)
 {
   Options options;
