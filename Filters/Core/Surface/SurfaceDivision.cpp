@@ -197,7 +197,7 @@ void SurfaceDivision::collectEdges()
   {
     if (this->edges_.empty() || this->edges_.back().nodes != i.nodes)
     {
-      this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false, None });
+      this->edges_.push_back({ i.nodes, this->incidences_.size(), 0, false, false, false, None });
     }
     this->edgesOf_[i.facet][i.opposite] = static_cast<Index>(this->edges_.size()) - 1;
     this->incidences_.push_back(i.facet);
@@ -302,6 +302,7 @@ void SurfaceDivision::findCurves(const SurfaceOptions& options)
     edge.isCurve = isLine || this->isCurve(edge, options);
     const bool hasAngle = edge.last - edge.first == 2;
     edge.isSharp = hasAngle && this->isSharp(edge, options.featureAngle);
+    edge.isBent = this->isBentOutside(edge, options.featureAngle);
     // Only near these may new sharp edges come.
     if (!hasAngle || this->isSharp(edge, 0.5 * options.featureAngle))
     {

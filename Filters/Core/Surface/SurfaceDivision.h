@@ -109,6 +109,7 @@ private:
     std::array<Index, 2> nodes;
     std::size_t first, last;
     bool isCurve, isSharp;
+    bool isBent; // by more than the feature angle, in the outer surface
     Index label; // that of SurfaceOptions::lines
   };
 

@@ -162,8 +162,10 @@ void SurfaceDivision::findCorners(const SurfaceOptions& options)
       this->patchOfPoint[p] = this->facets[around[0]].patch;
     }
     else if (this->signature(curves[0]) == this->signature(curves[1]) &&
-      this->edges_[curves[0]].isSharp == this->edges_[curves[1]].isSharp && // no end of a ridge
-      this->edges_[curves[0]].label == this->edges_[curves[1]].label &&     // nor of a line
+      // No end of a ridge, also where an interface ends in the outer surface, nor of a line.
+      this->edges_[curves[0]].isSharp == this->edges_[curves[1]].isSharp &&
+      this->edges_[curves[0]].isBent == this->edges_[curves[1]].isBent &&
+      this->edges_[curves[0]].label == this->edges_[curves[1]].label &&
       !this->turns(p, curves, options.cornerAngle))
     {
       this->freedom[p] = Freedom::Curve;

@@ -105,6 +105,9 @@ TEST(SurfaceDivision, ARidgeThatEndsOnABorderEndsInACorner)
     }
   }
   EXPECT_EQ(cornersInside(Sliding(in, options)), 1); // it goes on as a line, and yet ends there
+  in.keptEdges.clear();
+  splitRegions(in);
+  EXPECT_EQ(cornersInside(Sliding(in, options)), 1); // where an interface meets it, too
 }
 
 TEST(SurfaceDivision, SinglePrecisionNeedsATolerance)
