@@ -241,7 +241,8 @@ void star(benchmark::State& state, bool smooth)
     }
     facets += cells.size();
     Vec<3> x = bench.mesh.point(p);
-    benchmark::DoNotOptimize(smooth ? problem.maximize(x, 1.0, 5e-4) : problem.evaluate(x));
+    benchmark::DoNotOptimize(
+      smooth ? problem.maximize(x, { 1.0, 5e-4, StarSteps }) : problem.evaluate(x));
   }
   state.counters["cells"] = benchmark::Counter(double(facets), benchmark::Counter::kAvgIterations);
 }
@@ -291,7 +292,7 @@ void insertionCavity(benchmark::State& state)
     const Index c = bench.edges[k++ % 1024].cell;
     const Corners<3> x = bench.mesh.corners(c);
     const Vec<3> middle = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-    benchmark::DoNotOptimize(cavity.grow(bench.editor, bench.model, c, p, middle, {}));
+    benchmark::DoNotOptimize(cavity.grow(bench.editor, bench.model, c, { p, middle }, {}));
     cells += cavity.cells().size();
   }
   bench.editor.rollback(start);

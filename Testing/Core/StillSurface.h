@@ -12,7 +12,7 @@ template <int D>
 class StillSurface : public Surface<D>
 {
 public:
-  explicit StillSurface(bool judges)
+  explicit StillSurface(bool judges = false)
     : judges_(judges)
   {
   }

@@ -149,19 +149,15 @@ namespace
 class Joining final : public StillSurface<3>
 {
 public:
-  Joining()
-    : StillSurface<3>(false)
-  {
-  }
   bool mayJoin(const SimplexMesh<3>&, const std::vector<Index>&, Index, Index) const override
   {
     return true;
   }
 };
 
-/// A ring of four around v, which lies a little below it; below v and the ring one region, above
-/// them the other. `ears`: of that, two cells between v and the ring are all that v has; they
-/// collapse when v goes into the ring. Otherwise v has the four cells up to the top.
+/// Point 0 lies in the middle of a ring of four, a little below it, on the interface of two
+/// regions. Above it are four cells up to the top; with `ears` two cells between it and the ring,
+/// on which the top stands. Both collapse when it goes into a point of the ring that they share.
 MeshInput<3> dented(bool ears)
 {
   MeshInput<3> in;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Signs of all tetrahedra of a few points, against integer arithmetic of 128 bits.
 #include "Operations/PointSigns.h"
+#include "Mesh/Predicates.h"
+#include "TestMeshes.h"
 
 #include <gtest/gtest.h>
 
@@ -233,4 +235,45 @@ TEST(PointSet, EqualsCountingBits)
   EXPECT_EQ(pointset::count(0), 0);
   EXPECT_EQ(pointset::count(~0u), 32);
   EXPECT_EQ(pointset::lowest(1u << 31), 31);
+}
+
+TEST(PointSigns, EqualPredicates)
+{
+  TestRandom random(5);
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    PointSigns signs;
+    for (int repeat = 0; repeat < 2; ++repeat) // the second time nothing is left of the first
+    {
+      signs.clear();
+      std::vector<Vec<3>> x;
+      for (int k = 0; k < 12; ++k)
+      {
+        Vec<3> p(random(), random(), random());
+        p = kind == 1 ? Vec<3>((2.0 * p).array().round()) : p; // many coplanar
+        p[2] = kind == 2 ? 0.1 * p[0] + 0.3 * p[1] : p[2];     // all nearly so
+        x.push_back(p);
+        signs.add(p);
+      }
+      ASSERT_EQ(signs.size(), 12);
+      for (int i = 0; i < 12; ++i)
+      {
+        for (int j = 0; j < 12; ++j)
+        {
+          for (int k = 0; k < 12; ++k)
+          {
+            for (int l = 0; l < 12; ++l)
+            {
+              const bool distinct = i != j && i != k && i != l && j != k && j != l && k != l;
+              ASSERT_EQ(pointset::has(signs.above(i, j, k), l),
+                distinct && orient(x[i], x[j], x[k], x[l]) > 0);
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(pointset::count(0xffffffffu), 32);
+  EXPECT_EQ(pointset::lowest(0x80000000u), 31);
+  EXPECT_EQ(pointset::lowest(12u), 2);
 }

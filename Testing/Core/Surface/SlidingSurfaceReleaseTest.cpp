@@ -4,6 +4,7 @@
 #include "Metric/NodalMetric.h"
 #include "Optimize/Optimizer.h"
 #include "SlidingBoxes.h"
+#include "StillSurface.h"
 
 #include <functional>
 
@@ -166,38 +167,9 @@ TEST(SlidingSurfaceRelease, PlacesAreThoseOfWhatIsLeft)
 
 /// A surface on which nothing moves, and that has more to keep now than in the end, but never lets
 /// it go.
-class Stubborn final : public Surface<3>
+class Stubborn final : public StillSurface<3>
 {
 public:
-  Vec<3> at(Index, double) const override { return Vec<3>::Zero(); }
-  Place project(const Place& place, const Vec<3>& x, Vec<3>& there) const override
-  {
-    there = x;
-    return place;
-  }
-  int tangents(
-    const SimplexMesh<3>&, const std::vector<Index>&, Index, std::array<Vec<3>, 3>&) const override
-  {
-    return 0;
-  }
-  std::optional<Span> span(const SimplexMesh<3>&, Index, Index) const override
-  {
-    return std::nullopt;
-  }
-  std::optional<SlidingRange> range(
-    const SimplexMesh<3>&, const std::vector<Index>&, Index) const override
-  {
-    return std::nullopt;
-  }
-  bool mayDivide(const SimplexMesh<3>&, const std::vector<Index>&, Index, Index) const override
-  {
-    return false;
-  }
-  bool maySwap(const SimplexMesh<3>&, Index, Index) const override { return false; }
-  bool mayJoin(const SimplexMesh<3>&, const std::vector<Index>&, Index, Index) const override
-  {
-    return false;
-  }
   bool mayRelease() const override { return true; }
 };
 
