@@ -283,7 +283,8 @@ public:
    * is 0, at least 30 tetrahedra or 10 triangles may be added. Range >= 0, default 0.15. A mesh
    * with hardly any interior nodes may need 1: if the budget stops it, the stop reason is
    * GrowthLimit. No more nodes are removed once 12 % of the cells are gone (unless sizes are
-   * followed), except around the few worst ones.
+   * followed), except around the few worst ones, and at cells below 0.3 until 12 % of the nodes are
+   * gone.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);

@@ -9,6 +9,7 @@
 #include "WorstFirst/Constants.h"
 #include "WorstFirst/Task.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace meshopt
@@ -26,23 +27,32 @@ public:
     : left_(growth)
     , allowed_(growth)
     , reserve_(growth / ReservedPart)
+    , cells_(static_cast<double>(cells))
   {
     const long shrink = options.mostShrink >= 0
       ? options.mostShrink
       : static_cast<long>(ShrinkBudget * static_cast<double>(cells));
     this->lean_ = growth + WideShrink * shrink;
     this->most_ = followsSizes ? std::numeric_limits<long>::max() : growth + shrink;
+    this->countsNodes_ = options.mostShrink < 0;
   }
 
   /// What each of n chunks may use. The shares are fixed before the pass: a chunk must not depend
-  /// on what others use up meanwhile.
-  Growth share(Phase phase, int n) const
+  /// on what others use up meanwhile. `nodes`: the part of the input's nodes that is left, where
+  /// these count, too. Then nodes may vanish until ShrinkBudget of them is gone, although swaps,
+  /// which remove no node, have removed as many cells.
+  Growth share(Phase phase, int n, double nodes = 0.0) const
   {
     const long reserve = this->reserveIn(phase);
     Growth share;
     share.left = (this->left_ - reserve) / n;
     share.most = phase == Phase::Polishing ? std::numeric_limits<long>::max()
                                            : (this->most_ - reserve) / n;
+    if (this->countsNodes_)
+    {
+      const double spare = (nodes - (1.0 - ShrinkBudget)) * this->cells_;
+      share.most = std::max(share.most, share.left + static_cast<long>(spare) / n);
+    }
     return share;
   }
   /// To be called after the pass: what all chunks together have left, and whether a change was left
@@ -72,6 +82,8 @@ private:
   long lean_ = 0;        ///< from here on, fewer nodes vanish in wide insertions
   long allowed_;         ///< left_ at the start
   long reserve_;         ///< part of the growth reserved for polishing
+  double cells_;         ///< at the start
+  bool countsNodes_;     ///< not in a part of a mesh, whose caller counts cells
   bool isShort_ = false; ///< a change was left out for lack of growth
 };
 }

@@ -160,8 +160,13 @@ void Pass<D, Shape>::instruct(const Task& task)
   // the first stage.
   const bool many = onTheWay && task.level > 0 && task.below > few;
   const bool wide = polishesOnTheWay && !workpiece.slides() && workpiece.isFarBelowBound();
+  // Very bad cells get rid of nodes also where swaps have used up what may vanish.
+  const std::vector<PassRecord>& history = workpiece.run().report.history;
+  const double nodes = task.target > Stages[0]
+    ? 0.0
+    : static_cast<double>(history.back().points) / static_cast<double>(history.front().points);
   Orders orders;
-  orders.growth = this->budget_.share(task.phase, n);
+  orders.growth = this->budget_.share(task.phase, n, nodes);
   orders.guard = task.polishes() ? -1.0 : many ? task.target : Stages[0];
   orders.guardsAll = workpiece.model().weights || many;
   orders.wide = wide ? this->budget_.mostSwallowed() : None;

@@ -43,6 +43,23 @@ TEST(GrowthBudget, LimitsHowManyCellsVanish)
   EXPECT_GT(budget(-1, true).share(Phase::Lifting, 1).most, 1000 * Allowed);
 }
 
+TEST(GrowthBudget, CountsNodesWhereAsked)
+{
+  // Swaps have removed all cells that may go, and no node.
+  const long shrink = static_cast<long>(worstfirst::ShrinkBudget * Cells);
+  GrowthBudget b = budget();
+  b.takeBack(Phase::Lifting, Allowed - Reserve + shrink, false);
+  EXPECT_FALSE(b.share(Phase::Lifting, 1).mayShrink());
+  const Growth share = b.share(Phase::Lifting, 2, 0.95);
+  EXPECT_TRUE(share.mayShrink());
+  EXPECT_NEAR(share.most - share.left, (0.95 - 1.0 + worstfirst::ShrinkBudget) * Cells / 2, 1.0);
+  EXPECT_FALSE(b.share(Phase::Lifting, 2, 1.0 - worstfirst::ShrinkBudget).mayShrink());
+  // The caller counts cells.
+  b = budget(shrink);
+  b.takeBack(Phase::Lifting, Allowed - Reserve + shrink, false);
+  EXPECT_FALSE(b.share(Phase::Lifting, 2, 0.95).mayShrink());
+}
+
 TEST(GrowthBudget, TakesBackWhatIsLeft)
 {
   GrowthBudget b = budget();

@@ -86,6 +86,20 @@ TYPED_TEST(PassOf, TheRowHasTheCountsOfThePass)
   expectSound(bench.mesh);
 }
 
+TYPED_TEST(PassOf, VeryBadCellsGetRidOfNodesAlthoughManyCellsAreGone)
+{
+  constexpr int D = TypeParam::dimension;
+  constexpr auto contraction = static_cast<int>(meshopt::Operation::EdgeContraction);
+  Options options = frozen(upTo(0.6));
+  options.removeNodes = true;
+  EngineBench<D> bench(roughGrid<D>(), options);
+  // As if swaps had removed cells.
+  bench.budget.takeBack(Phase::Lifting, 10 * bench.run.growth, false);
+  EXPECT_GT(runPass(bench, Phase::Lifting, Stages[0], Level::Removal).tried[contraction], 0);
+  ASSERT_GT(bench.cellsUnder(Stages[1]).size(), 0u);
+  EXPECT_EQ(runPass(bench, Phase::Lifting, Stages[1], Level::Removal).tried[contraction], 0);
+}
+
 TEST(Pass2D, EachChangeIsCountedOnce)
 {
   EngineBench<2> bench(roughGrid<2>(), swapsOnly(0.6));
