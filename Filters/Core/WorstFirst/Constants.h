@@ -82,11 +82,14 @@ inline constexpr long PatientLooksOfSliding = 20;
 /// For insertion, patience is checked only after 1 in PatientPart of the bad cells has been tried:
 /// the worst cells come first, and these are the most stuck.
 inline constexpr long PatientPart = 5;
-/// Stop removing nodes once this fraction of the cells is gone (unless sizes are followed).
+/// Stop removing nodes once this fraction of the cells is gone (unless sizes are followed). Very
+/// bad cells get rid of nodes until this fraction of the nodes is gone, too: swaps alone can remove
+/// that many cells.
 inline constexpr double ShrinkBudget = 0.12;
-/// The most nodes that may vanish in one wide insertion; and the same once WideShrink times as many
-/// cells are gone. With 8 in place of 30 the worst cells of lattices that are hardly perturbed end
-/// at a tenth; without the second limit half of the cells of a thin slab vanish.
+/// The most nodes that may vanish in one wide insertion; and the same once WideShrink times that
+/// fraction of the nodes is gone (in a part of a mesh: of the cells). With 8 in place of 30 the
+/// worst cells of lattices that are hardly perturbed end at a tenth; without the second limit half
+/// of the cells of a thin slab vanish.
 inline constexpr int MostSwallowed = 30, FewestSwallowed = 1;
 inline constexpr long WideShrink = 2;
 /// 1 in ReservedPart of the growth budget is reserved for polishing.

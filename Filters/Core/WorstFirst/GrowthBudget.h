@@ -65,8 +65,14 @@ public:
 
   /// From now on passes that lift may use the reserve, too.
   void openReserve() { this->reserve_ = 0; }
-  /// The most nodes that may vanish in one wide insertion.
-  int mostSwallowed() const { return this->left_ < this->lean_ ? MostSwallowed : FewestSwallowed; }
+  /// The most nodes that may vanish in one wide insertion. `nodes`: the part of the input's nodes
+  /// that is left.
+  int mostSwallowed(double nodes) const
+  {
+    const bool many = this->countsNodes_ ? nodes > 1.0 - WideShrink * ShrinkBudget
+                                         : this->left_ < this->lean_;
+    return many ? MostSwallowed : FewestSwallowed;
+  }
   /// Whether changes were left out because nothing is left. A small rest counts as nothing: hardly
   /// any change fits into it.
   bool isUsedUp() const
@@ -79,7 +85,7 @@ private:
   long reserveIn(Phase phase) const { return phase == Phase::Polishing ? 0 : this->reserve_; }
 
   long left_, most_ = 0; ///< see Growth
-  long lean_ = 0;        ///< from here on, fewer nodes vanish in wide insertions
+  long lean_ = 0;        ///< from here on, fewer nodes vanish in wide insertions, in a part
   long allowed_;         ///< left_ at the start
   long reserve_;         ///< part of the growth reserved for polishing
   double cells_;         ///< at the start

@@ -162,14 +162,13 @@ void Pass<D, Shape>::instruct(const Task& task)
   const bool wide = polishesOnTheWay && !workpiece.slides() && workpiece.isFarBelowBound();
   // Very bad cells get rid of nodes also where swaps have used up what may vanish.
   const std::vector<PassRecord>& history = workpiece.run().report.history;
-  const double nodes = task.target > Stages[0]
-    ? 0.0
-    : static_cast<double>(history.back().points) / static_cast<double>(history.front().points);
+  const double nodes = static_cast<double>(history.back().points) /
+    static_cast<double>(history.front().points);
   Orders orders;
-  orders.growth = this->budget_.share(task.phase, n, nodes);
+  orders.growth = this->budget_.share(task.phase, n, task.target > Stages[0] ? 0.0 : nodes);
   orders.guard = task.polishes() ? -1.0 : many ? task.target : Stages[0];
   orders.guardsAll = workpiece.model().weights || many;
-  orders.wide = wide ? this->budget_.mostSwallowed() : None;
+  orders.wide = wide ? this->budget_.mostSwallowed(nodes) : None;
   orders.tries = onTheWay && task.level == Level::LookAhead ? few / n : any;
   orders.looks = polishesOnTheWay ? this->allowance_.looks(n) : any;
   orders.evaluations = this->allowance_.evaluations(task.phase) / n;

@@ -88,11 +88,18 @@ TEST(GrowthBudget, IsUsedUpOnlyIfAChangeWasLeftOut)
 
 TEST(GrowthBudget, LetsFewerNodesVanishWhenManyAreGone)
 {
+  const double least = 1.0 - worstfirst::WideShrink * worstfirst::ShrinkBudget;
+  EXPECT_EQ(budget().mostSwallowed(least + 0.01), worstfirst::MostSwallowed);
+  EXPECT_EQ(budget().mostSwallowed(least - 0.01), worstfirst::FewestSwallowed);
+}
+
+TEST(GrowthBudget, LetsFewerNodesVanishInAPartWhenManyCellsAreGone)
+{
   GrowthBudget b = budget(100);
-  EXPECT_EQ(b.mostSwallowed(), worstfirst::MostSwallowed);
+  EXPECT_EQ(b.mostSwallowed(0.0), worstfirst::MostSwallowed);
   b.takeBack(Phase::Polishing, Allowed + worstfirst::WideShrink * 100 - 1, false);
-  EXPECT_EQ(b.mostSwallowed(), worstfirst::MostSwallowed);
+  EXPECT_EQ(b.mostSwallowed(0.0), worstfirst::MostSwallowed);
   b.takeBack(Phase::Polishing, Allowed + worstfirst::WideShrink * 100, false);
-  EXPECT_EQ(b.mostSwallowed(), worstfirst::FewestSwallowed);
+  EXPECT_EQ(b.mostSwallowed(1.0), worstfirst::FewestSwallowed);
 }
 }
