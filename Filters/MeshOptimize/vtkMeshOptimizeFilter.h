@@ -530,7 +530,8 @@ public:
    * certified upper bound on the worst quality (1 if unknown); the number of cells that their own
    * cap keeps under the target. 0 before a run, and if there was nothing to optimize.
    *
-   * The bound holds while the surface is kept; with BoundaryMode Slide, tetrahedra and
+   * The bound holds while the surface is kept, for the measure Shape also for what stands opposite
+   * in thin walls, see vtkMeshQualityMinMax; with BoundaryMode Slide, tetrahedra and
    * SurfaceTolerance 0, while it stays the same set of points: it is then what the angles at
    * straight ridges and in flat corners allow, for all measures. With a tolerance above 0 nothing
    * is certain.

@@ -38,8 +38,13 @@
  * along a border is taken for a part of the border; the bound still holds.) Facets to ghost cells
  * do not count as surface either. vtkMeshOptimizeFilter keeps them, so that its own bound can be
  * lower. The bound is known for triangles in a plane and for tetrahedra. With the measure Shape it
- * follows from facets and dihedral angles, with Mean Ratio and Volume Length from facets.
- * Otherwise, and with a metric array, it is the value of the regular element.
+ * follows from facets, dihedral angles, and, on one rank, from what stands opposite in thin walls;
+ * with Mean Ratio and Volume Length from facets. Otherwise, and with a metric array, it is the
+ * value of the regular element. What stands opposite is looked for at the worst elements on the
+ * surface if they are under TargetQuality. It takes for granted that the surface does not pass
+ * through itself. The better the mesh, the fewer places it is looked for at, and the surer the
+ * lowest is found; so the bound of an optimized mesh can be lower than that of the input. Both
+ * hold.
  *
  * Input arrays, by SetInputArrayToProcess() or the setters below:
  *  - 0, cells: region, integers, one component;

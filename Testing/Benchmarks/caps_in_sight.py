@@ -3,12 +3,12 @@
 
     /usr/bin/python3 caps_in_sight.py MESH.vtu [--facets N] [--prove Q]
 
-Each boundary facet belongs to one element, whose fourth node must be seen from all of the facet. The cap that Mesh Quality Min Max
-certifies lets that node be anywhere; where another part of the surface is near, as in thin walls, it is far too high. Here the node is sought by
-chance, then by ever smaller steps, among places that the facet's corners and its middle see: an estimate (in sight of four points only,
-so that it may be too high; sought by chance, so that it may be too low), no certificate. --prove gives one: it looks for a facet that cannot have an
-element of quality Q, as wherever the fourth node is, the element is worse or has a facet of the surface inside. Places from which a given
-facet is in the way form a convex set; so a box of places is ruled out once one facet is in the way of its eight corners, or else divided.
+Each boundary facet belongs to one element, whose fourth node must be seen from all of the facet. Mesh Quality Min Max certifies a bound that
+counts this (Filters/Core/Bound/SightBound.h). Here the same is sought by other means, without its code. The node is sought by chance, then by
+ever smaller steps, among places that the facet's corners and its middle see: an estimate (in sight of four points only, so that it may be too
+high; sought by chance, so that it may be too low), no certificate. --prove gives one: it looks for a facet that cannot have an element of
+quality Q, as wherever the fourth node is, the element is worse or has a facet of the surface inside. Places from which a given facet is in
+the way form a convex set; so a box of places is ruled out once one facet is in the way of its eight corners, or else divided.
 Needs a Python with VTK.
 """
 import argparse

@@ -428,31 +428,37 @@ SurfaceBound<D> surfaceBound(
   return result;
 }
 
-/// Each kept facet from both its sides, as each side has cells of its own.
 template <int D>
-SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptions& options)
+KeptSurface<D>::KeptSurface(const SimplexMesh<D>& mesh)
+  : points(mesh.numberOfPointSlots())
 {
-  std::vector<Vec<D>> points(mesh.numberOfPointSlots());
   for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
   {
-    points[p] = mesh.point(p);
+    this->points[p] = mesh.point(p);
   }
-  std::vector<KeptSide<D>> sides;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     for (int i = 0; mesh.isAlive(c) && i <= D; ++i)
     {
       if (mesh.isKept(c, i))
       {
-        sides.push_back({ mesh.facet(c, i), c, mesh.region(c), true });
+        this->sides.push_back({ mesh.facet(c, i), c, mesh.region(c), true, mesh.quality(c) });
       }
     }
   }
-  return surfaceBound<D>(points.data(), std::move(sides), options);
+}
+
+template <int D>
+SurfaceBound<D> surfaceBound(const SimplexMesh<D>& mesh, const SurfaceBoundOptions& options)
+{
+  KeptSurface<D> surface(mesh);
+  return surfaceBound<D>(surface.points.data(), std::move(surface.sides), options);
 }
 
 template struct SurfaceBound<2>;
 template struct SurfaceBound<3>;
+template struct KeptSurface<2>;
+template struct KeptSurface<3>;
 template SurfaceBound<2> surfaceBound(
   const Vec<2>*, std::vector<KeptSide<2>>, const SurfaceBoundOptions&);
 template SurfaceBound<3> surfaceBound(

@@ -33,6 +33,7 @@ struct KeptSide
   /// False if it is uncertain on which side of the facet the mesh lies (the cell is inverted or
   /// flat, and nothing else tells). Its angles with other facets are then ignored.
   bool oriented = true;
+  double quality = -1.0; ///< of that cell; not positive: not known, or nothing can be said from it
 };
 
 /// A kept edge (nodes a, b) or, in 2D, a kept node (a; b is None), where every filling has some
@@ -66,6 +67,17 @@ struct SurfaceBound
   std::vector<KeptSide<D>> sides;
   std::vector<double> sideCaps; ///< cap of the cell on each side, in [0, 1]
   std::vector<EdgeBound> edges; ///< see listEdgesBelow; in no special order, but always the same
+};
+
+/// The present kept facets of a mesh (surface, regions, the caller's) from both their sides, as
+/// each side has cells of its own.
+template <int D>
+struct KeptSurface
+{
+  explicit KeptSurface(const SimplexMesh<D>& mesh);
+
+  std::vector<Vec<D>> points; ///< all of the mesh, by id
+  std::vector<KeptSide<D>> sides;
 };
 
 /// The bound of a mesh with its present kept facets (surface, regions, the caller's). Linear in the

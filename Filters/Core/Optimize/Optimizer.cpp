@@ -3,6 +3,7 @@
 // following the sizes has made the worst cell worse.
 #include "Optimize/Optimizer.h"
 
+#include "Bound/SightBound.h"
 #include "Optimize/SurfaceRounds.h"
 #include "Paper1996/Paper1996.h"
 #include "Quality/Evaluations.h"
@@ -297,6 +298,24 @@ void Optimizer<D>::optimizeSizesToo()
     this->giveSizesUp(meshBefore, metricBefore, worst);
   }
 }
+
+/// Looks for what stands in the way of the worst cells, if they have remained worse than the bound
+/// and the target. Only of the shape in space, with a surface that stays, more is known than the
+/// bound says.
+void lowerBoundInSight(const Run<2>&) {}
+void lowerBoundInSight(const Run<3>& run)
+{
+  Report& report = run.report;
+  const double worst = report.worstAfter;
+  if (infoOf(run.options.measure).bound == FacetBound::BestApex && run.metric.isTrivial() &&
+    !run.surface && !run.mesh().hasBorder() && 0.0 < worst && worst < run.options.targetQuality &&
+    worst < CapReached * report.bound)
+  {
+    const KeptSurface<3> surface(run.mesh());
+    report.bound = boundInSight(surface.points.data(), surface.sides, report.bound,
+      stepsInSight(report.history.back().cells));
+  }
+}
 }
 
 /// Qualities are computed first: all later steps trust those that are stored.
@@ -326,6 +345,7 @@ Report optimize(SimplexMesh<D>& mesh, NodalMetric<D>& metric, const Options& opt
   const PassRecord output = summarize(mesh, options.targetQuality, &report.invertedAfter);
   report.worstAfter = output.worst;
   report.meanAfter = output.mean;
+  lowerBoundInSight(run);
   report.seconds = clock.seconds();
   return report;
 }

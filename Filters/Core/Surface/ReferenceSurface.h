@@ -8,7 +8,7 @@
 #ifndef meshopt_Surface_ReferenceSurface_h
 #define meshopt_Surface_ReferenceSurface_h
 
-#include "Surface/BoxTree.h"
+#include "Mesh/BoxTree.h"
 #include "Surface/RoomLimit.h"
 #include "Surface/SurfaceChange.h"
 

@@ -4,7 +4,7 @@
 #ifndef meshopt_Surface_SharpEdges_h
 #define meshopt_Surface_SharpEdges_h
 
-#include "Surface/BoxTree.h"
+#include "Mesh/BoxTree.h"
 
 #include <array>
 #include <vector>

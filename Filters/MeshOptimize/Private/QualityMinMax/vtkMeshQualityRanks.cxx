@@ -218,6 +218,15 @@ public:
     // Ranks without any cells of this dimension take part in all exchanges all the same.
     this->DropBorders();
     this->AddSides();
+    // What stands in the way may lie on another rank. Without qualities it is not looked for: the
+    // bound must not depend on how the mesh is divided.
+    for (const std::size_t b : this->Mine)
+    {
+      for (KeptSide<D>& side : this->Of(b).Sides)
+      {
+        side.quality = -1.0;
+      }
+    }
   }
 
 private:

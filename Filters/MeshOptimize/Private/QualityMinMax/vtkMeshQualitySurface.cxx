@@ -12,6 +12,7 @@
 #include "QualityMinMax/vtkMeshQualityMeasure.h"
 
 #include "Base/Scramble.h"
+#include "Bound/SightBound.h"
 
 #include "vtkSMPTools.h"
 
@@ -257,6 +258,7 @@ public:
       side.region = static_cast<Index>(this->Mesh.GetRegion(facet.Cell));
       // On which side of a flat or inverted cell the mesh lies is not known.
       side.oriented = quality[facet.Cell] > 0.0;
+      side.quality = quality[facet.Cell];
       this->Result.Sides.push_back(side);
       this->Result.Opposite.push_back(ids[facet.Facet]);
     }
@@ -285,6 +287,27 @@ template <int D>
 void Collect(const Grid& grid, const double* quality, Surface& surface)
 {
   SideCollector<D>(grid, surface, std::get<SurfaceOf<D>>(surface.Parts)).Collect(quality);
+}
+
+/**
+ * Looks for what stands in the way of the worst cells, if they are under the target: as the
+ * optimizer does.
+ */
+double BoundInSight(const std::vector<meshopt::Vec<3>>& places,
+  const meshopt::SurfaceBound<3>& surface, const Options& options, std::int64_t cells)
+{
+  const bool known = meshopt::infoOf(options.Measure).bound == meshopt::FacetBound::BestApex &&
+    std::any_of(surface.sides.begin(), surface.sides.end(),
+      [&](const KeptSide<3>& side) { return side.quality < options.TargetQuality; });
+  return known ? meshopt::boundInSight(places.data(), surface.sides, surface.bound,
+                   meshopt::stepsInSight(static_cast<long>(cells)))
+               : surface.bound;
+}
+
+double BoundInSight(const std::vector<meshopt::Vec<2>>&, const meshopt::SurfaceBound<2>& surface,
+  const Options&, std::int64_t)
+{
+  return surface.bound;
 }
 
 /**
@@ -318,7 +341,7 @@ void MeasurePart(const SurfaceOf<D>& part, const std::vector<long long>& regions
       }
     }
     Sums sums;
-    sums.Bound = result.bound;
+    sums.Bound = BoundInSight(part.Places, result, options, figures.Total.Quality.count);
     sums.CappedCells = capped;
     figures.Total.Merge(sums);
     if (!regions.empty())

@@ -4,8 +4,8 @@
 ///
 /// The tree is Eigen's. Its searches are not used: they take memory at each call, and the engine
 /// asks for every change of a surface.
-#ifndef meshopt_Surface_BoxTree_h
-#define meshopt_Surface_BoxTree_h
+#ifndef meshopt_Mesh_BoxTree_h
+#define meshopt_Mesh_BoxTree_h
 
 #include "Mesh/Types.h"
 
@@ -81,7 +81,43 @@ public:
     return least;
   }
 
+  /// Calls found(number) for all things whose boxes touch the segment from `from` to `from + t
+  /// way`, 0 <= t <= end, in any order. found() may shorten `end` meanwhile.
+  template <class Found>
+  void findAlong(const Vec<3>& from, const Vec<3>& way, double& end, Found&& found) const
+  {
+    if (!this->isEmpty_)
+    {
+      const Segment segment{ Eigen::Array3d(from), Eigen::Array3d(way), end };
+      this->findAlong(this->tree_.getRootIndex(), segment, found);
+    }
+  }
+
 private:
+  struct Segment
+  {
+    Eigen::Array3d from, way;
+    const double& end;
+
+    /// By the parameters at which it enters and leaves the slabs between opposite sides.
+    bool touches(const Box& box) const
+    {
+      double first = 0.0, last = this->end;
+      for (int i = 0; i < 3; ++i)
+      {
+        const double low = box.min()[i] - this->from[i], high = box.max()[i] - this->from[i];
+        if (this->way[i] == 0.0)
+        {
+          last = low <= 0.0 && high >= 0.0 ? last : -1.0; // it stays in the slab, or outside
+          continue;
+        }
+        first = std::max(first, (this->way[i] > 0.0 ? low : high) / this->way[i]);
+        last = std::min(last, (this->way[i] > 0.0 ? high : low) / this->way[i]);
+      }
+      return first <= last;
+    }
+  };
+
   using Tree = Eigen::KdBVH<double, 3, Item>;
 
   /// A node has two children: boxes, or things.
@@ -112,6 +148,26 @@ private:
     for (; c.item != c.itemEnd; ++c.item)
     {
       if (c.item->box.intersects(box))
+      {
+        found(c.item->number);
+      }
+    }
+  }
+
+  template <class Found>
+  void findAlong(int node, const Segment& segment, Found& found) const
+  {
+    Children c = this->children(node);
+    for (; c.box != c.boxEnd; ++c.box)
+    {
+      if (segment.touches(this->tree_.getVolume(*c.box)))
+      {
+        this->findAlong(*c.box, segment, found);
+      }
+    }
+    for (; c.item != c.itemEnd; ++c.item)
+    {
+      if (segment.touches(c.item->box))
       {
         found(c.item->number);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tree of boxes against looking at every box.
-#include "Surface/BoxTree.h"
+#include "Mesh/BoxTree.h"
 
 #include <gtest/gtest.h>
 
@@ -99,6 +99,48 @@ TEST(BoxTree, AsksForAllThatAreNearest)
     }
     // The tree is there to look at few of them.
     EXPECT_TRUE(n < 500 || asked < 50u * static_cast<std::size_t>(n) / 5u) << asked;
+  }
+}
+
+TEST(BoxTree, FindsWhatASegmentPasses)
+{
+  for (const auto& [n, step] : Cases)
+  {
+    const std::vector<BoxTree::Item> items = boxes(n, step, 5);
+    BoxTree tree;
+    tree.build(items);
+    for (const BoxTree::Item& asked : boxes(50, step, 6))
+    {
+      // Of multiples of a step many components are 0, and many ends lie on a side of a box.
+      const Vec<3> from = asked.box.min(), way = asked.box.max() - asked.box.min();
+      for (double end : { 1.0, 0.25 })
+      {
+        std::vector<int> found;
+        tree.findAlong(from, way, end, [&](int number) { found.push_back(number); });
+        for (const BoxTree::Item& item : items)
+        {
+          // Exact in quarters of steps; at random nothing is touched only just.
+          bool passes = false;
+          for (int k = 0; k <= 64 && !passes; ++k)
+          {
+            passes = item.box.contains(Eigen::Vector3d(from + end * k / 64.0 * way));
+          }
+          const bool isFound = std::count(found.begin(), found.end(), item.number) == 1;
+          EXPECT_TRUE(isFound || !passes);
+          EXPECT_TRUE(!isFound || item.box.intersects(asked.box));
+        }
+      }
+      // Once the first is found, and the end is there, hardly any other is asked for.
+      double end = 1.0;
+      std::size_t after = 0;
+      tree.findAlong(from, way, end,
+        [&](int)
+        {
+          end = -1.0;
+          ++after;
+        });
+      EXPECT_LE(after, 1u);
+    }
   }
 }
 
