@@ -37,6 +37,18 @@ const char* toString(StopReason reason)
   }
   return "not run";
 }
+
+/// If it is near: what bounds the worst cell of a run that has ended under its target.
+std::string describeBound(const Report& report, const char* format)
+{
+  if (report.bound >= 1.0 || report.worstAfter <= HeldByBound * report.bound)
+  {
+    return {};
+  }
+  char held[96];
+  std::snprintf(held, sizeof held, format, report.bound);
+  return held;
+}
 }
 
 /// The reason; and what holds the nodes of the worst cell, if the surface takes part.
@@ -57,19 +69,21 @@ std::string describeStop(const Report& report)
     list += number == 0 ? "" : (list.empty() ? "" : ", ") + std::to_string(number) + " " + place;
   }
   // Where the target is reached, nothing holds the worst cell.
-  if (list.empty() || report.stopReason == StopReason::TargetReached)
+  if (report.stopReason == StopReason::TargetReached)
   {
     return text;
   }
-  text += "; nodes of the worst one: " + list;
-  // Only of a surface that stays the same set of points: with a tolerance no bound is known.
-  if (report.bound < 1.0 && report.worstAfter > HeldByBound * report.bound)
+  // Without nodes the surface was kept. How far a run is from what it allows, its user wants to
+  // know where nothing else says so.
+  if (list.empty())
   {
-    char held[96];
-    std::snprintf(held, sizeof held,
-      "; held by the angles of ridges and corners: they allow no more than %.4f", report.bound);
-    text += held;
+    const bool isStuck = report.stopReason == StopReason::NoFurtherGain ||
+      report.stopReason == StopReason::GrowthLimit;
+    return text + (isStuck ? describeBound(report, "; what is kept allows no more than %.3g") : "");
   }
-  return text;
+  // Only of a surface that stays the same set of points: with a tolerance no bound is known.
+  return text + "; nodes of the worst one: " + list +
+    describeBound(
+      report, "; held by the angles of ridges and corners: they allow no more than %.4f");
 }
 }

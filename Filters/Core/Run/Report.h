@@ -86,8 +86,8 @@ struct Report
   double seconds = 0.0;
 };
 
-/// Why the run stopped, as a sentence for the user; if the surface takes part in space, also where
-/// the worst cell is.
+/// Why the run stopped, as a sentence for the user; also what the kept surface allows, if the worst
+/// cell is near that, and where that cell is if the surface takes part in space.
 std::string describeStop(const Report& report);
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 using namespace meshopt;
@@ -28,6 +29,30 @@ TEST(Report, EachReasonHasASentenceOfItsOwn)
   }
   EXPECT_EQ(sentences.size(), static_cast<std::size_t>(StopReason::GrowthLimit) + 1);
   EXPECT_EQ(sentences.count(""), 0u);
+}
+
+TEST(Report, SaysHowNearTheBoundIsWhereTheSurfaceWasKept)
+{
+  Report report;
+  report.worstAfter = 0.079;
+  for (const auto& [reason, sentence] : std::map<StopReason, std::string>{
+         { StopReason::NoFurtherGain, "no operation improves the worst cells any more" },
+         { StopReason::GrowthLimit, "growth budget used up: what would help needs more cells" } })
+  {
+    report.stopReason = reason;
+    report.bound = 1.0; // nothing is known
+    EXPECT_EQ(describeStop(report), sentence);
+    report.bound = 0.09; // too far away to be what holds it
+    EXPECT_EQ(describeStop(report), sentence);
+    report.bound = 0.08;
+    EXPECT_EQ(describeStop(report), sentence + "; what is kept allows no more than 0.08");
+  }
+  // Where another reason ended the run, the bound is not it.
+  for (const StopReason reason : { StopReason::TimeLimit, StopReason::CappedBySurface })
+  {
+    report.stopReason = reason;
+    EXPECT_EQ(describeStop(report).find("allows"), std::string::npos);
+  }
 }
 
 TEST(Report, SaysWhereTheWorstCellIsIfTheSurfaceTookPart)
