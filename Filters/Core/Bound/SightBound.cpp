@@ -18,7 +18,8 @@ namespace
 {
 /// Most sides that are looked at: those with the worst cells.
 constexpr std::size_t MostSides = 1000;
-constexpr long FewestSteps = 2000, CellsPerStep = 20;
+/// Of stepsInSight(). A step takes some 20 us: the most make less than half a second.
+constexpr long FewestSteps = 2000, MostSteps = 20000, CellsPerStep = 20;
 
 /// From where a facet is looked at: the weights of its corners. From the middle most is seen; what
 /// lies near its ends is in the way of places near these only.
@@ -360,5 +361,5 @@ double boundInSight(
   return bound;
 }
 
-long stepsInSight(long cells) { return FewestSteps + cells / CellsPerStep; }
+long stepsInSight(long cells) { return std::min(FewestSteps + cells / CellsPerStep, MostSteps); }
 }

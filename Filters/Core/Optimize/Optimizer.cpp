@@ -307,9 +307,11 @@ void lowerBoundInSight(const Run<3>& run)
 {
   Report& report = run.report;
   const double worst = report.worstAfter;
-  if (infoOf(run.options.measure).bound == FacetBound::BestApex && run.metric.isTrivial() &&
-    !run.surface && !run.mesh().hasBorder() && 0.0 < worst && worst < run.options.targetQuality &&
-    worst < CapReached * report.bound)
+  const bool isKnown = infoOf(run.options.measure).bound == FacetBound::BestApex &&
+    run.metric.isTrivial() && !run.surface && !run.mesh().hasBorder();
+  const bool isWanted = 0.0 < worst && worst < run.options.targetQuality &&
+    worst < CapReached * report.bound && !run.clock.hasStopped();
+  if (isKnown && isWanted)
   {
     const KeptSurface<3> surface(run.mesh());
     report.bound = boundInSight(surface.points.data(), surface.sides, report.bound,
