@@ -41,6 +41,17 @@ def shape(facet, x):
     return 6 * np.sqrt(2) * volume / (edges / 6) ** 3
 
 
+def surface_of(grid):
+    """The surface, and a locator of its triangles."""
+    surface = vtkGeometryFilter()
+    surface.SetInputData(grid)
+    surface.Update()
+    locator = vtkStaticCellLocator()
+    locator.SetDataSet(surface.GetOutput())
+    locator.BuildLocator()
+    return surface.GetOutput(), locator
+
+
 def sees(locator, a, b):
     """True if nothing of the surface lies between a, on it, and b."""
     t, sub, x, pc = mutable(0.0), mutable(0), [0.0] * 3, [0.0] * 3
@@ -158,12 +169,7 @@ def main():
     grid = reader.GetOutput()
     points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
     cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
-    surface = vtkGeometryFilter()
-    surface.SetInputData(grid)
-    surface.Update()
-    locator = vtkStaticCellLocator()
-    locator.SetDataSet(surface.GetOutput())
-    locator.BuildLocator()
+    shown, locator = surface_of(grid)
 
     def width(entry):
         p = points[entry[0]]
@@ -172,7 +178,6 @@ def main():
 
     facets = sorted(boundary(cells), key=width)[:arguments.facets]
     if arguments.prove:
-        shown = surface.GetOutput()
         corners = vtk_to_numpy(shown.GetPoints().GetData()).astype(float)
         triangles = corners[vtk_to_numpy(shown.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
         for facet, fourth in facets[:arguments.listed]:

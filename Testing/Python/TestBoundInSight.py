@@ -7,13 +7,11 @@ import pathlib
 import sys
 
 import numpy as np
-from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
-from vtkmodules.vtkCommonDataModel import vtkStaticCellLocator
 
 from meshoptimize import vtkMeshOptimizeFilter, vtkMeshQualityMinMax
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Benchmarks"))
-from caps_in_sight import best, boundary  # noqa: E402
+from caps_in_sight import best, boundary, surface_of  # noqa: E402
 from hard import random_mesh  # noqa: E402
 from invariance import grid_of  # noqa: E402
 
@@ -33,12 +31,7 @@ optimize.SetEffortToQuick()
 optimize.Update()
 bound, worst = optimize.GetQualityBound(), optimize.GetWorstQualityAfter()
 
-surface = vtkGeometryFilter()
-surface.SetInputData(grid)
-surface.Update()
-locator = vtkStaticCellLocator()
-locator.SetDataSet(surface.GetOutput())
-locator.BuildLocator()
+_, locator = surface_of(grid)
 random = np.random.default_rng(1)
 
 
