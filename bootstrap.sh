@@ -89,7 +89,7 @@ configure() {
   local log=$build_dir/configure.log
   mkdir -p "$build_dir"
   cmake -G Ninja -S "$source_dir" -B "$build_dir" -DCMAKE_BUILD_TYPE=Release \
-    -DMESHOPTIMIZE_PRECOMPILED_HEADERS=ON "$@" > "$log" 2>&1 \
+    -DMESHOPTIMIZE_COMPILE_TOGETHER=ON "$@" > "$log" 2>&1 \
     || { tail -n 40 "$log"; return 1; }
 }
 

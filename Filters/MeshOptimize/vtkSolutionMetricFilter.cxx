@@ -27,7 +27,7 @@
 vtkStandardNewMacro(vtkSolutionMetricFilter);
 vtkCxxSetObjectMacro(vtkSolutionMetricFilter, Controller, vtkMultiProcessController);
 
-namespace bridge = vtkSolutionMetricBridge;
+namespace solution = vtkSolutionMetricBridge;
 
 //------------------------------------------------------------------------------
 vtkSolutionMetricFilter::vtkSolutionMetricFilter()
@@ -125,7 +125,7 @@ namespace
 /**
  * Fills in both criteria, whichever is chosen: the options of the other one are not read.
  */
-bridge::Request MakeRequest(vtkSolutionMetricFilter* filter)
+solution::Request MakeRequest(vtkSolutionMetricFilter* filter)
 {
   // Both criteria have the same limits.
   meshopt::SizeLimits limits;
@@ -133,7 +133,7 @@ bridge::Request MakeRequest(vtkSolutionMetricFilter* filter)
   limits.maximumSize = filter->GetMaximumSize();
   limits.maximumAnisotropy = filter->GetMaximumAnisotropy();
   limits.gradation = filter->GetGradation();
-  bridge::Request request;
+  solution::Request request;
   request.UseErrors = filter->GetCriterion() == vtkSolutionMetricFilter::ErrorIndicator;
   request.ComputeSizeTensor = filter->GetComputeSizeTensor();
   meshopt::SolutionMetricOptions& metric = request.Metric;
@@ -155,17 +155,17 @@ bridge::Request MakeRequest(vtkSolutionMetricFilter* filter)
  * Adds the arrays to a grid; with a controller to the mesh of which it is this rank's piece.
  */
 std::string Compute(vtkSolutionMetricFilter* filter, vtkMultiProcessController* controller,
-  vtkUnstructuredGrid* grid, bridge::Outcome& outcome)
+  vtkUnstructuredGrid* grid, solution::Outcome& outcome)
 {
-  bridge::Request request = MakeRequest(filter);
+  solution::Request request = MakeRequest(filter);
   if (controller)
   {
-    return bridge::AddArraysOnRanks(controller, filter, grid, request, outcome);
+    return solution::AddArraysOnRanks(controller, filter, grid, request, outcome);
   }
   try
   {
-    const std::string error = bridge::FindArray(filter, grid, request);
-    return error.empty() ? bridge::AddArrays(grid, request, outcome) : error;
+    const std::string error = solution::FindArray(filter, grid, request);
+    return error.empty() ? solution::AddArrays(grid, request, outcome) : error;
   }
   catch (const std::bad_alloc&)
   {
@@ -176,7 +176,8 @@ std::string Compute(vtkSolutionMetricFilter* filter, vtkMultiProcessController* 
 /**
  * What is no error, but hardly what the caller wanted.
  */
-void Warn(vtkSolutionMetricFilter* filter, const std::string& title, const bridge::Outcome& outcome)
+void Warn(
+  vtkSolutionMetricFilter* filter, const std::string& title, const solution::Outcome& outcome)
 {
   if (outcome.IsEven)
   {
@@ -249,7 +250,7 @@ int vtkSolutionMetricFilter::RequestData(
   {
     vtkErrorMacro(<< error);
   }
-  bridge::Outcome outcome;
+  solution::Outcome outcome;
   for (std::size_t i = 0; i < blocks.size() && error.empty(); ++i)
   {
     const vtkMeshBridge::Block& block = blocks[i];
@@ -258,7 +259,7 @@ int vtkSolutionMetricFilter::RequestData(
     {
       block.Output->ShallowCopy(block.Input);
     }
-    outcome = bridge::Outcome();
+    outcome = solution::Outcome();
     const std::string title = vtkMeshBridge::TitleOf(input, block);
     const std::string problem = Compute(
       this, areMany ? this->Controller : nullptr, block.Output, outcome);
@@ -271,7 +272,7 @@ int vtkSolutionMetricFilter::RequestData(
         vtkErrorMacro(<< title << problem);
       }
       block.Output->Initialize();
-      outcome = bridge::Outcome();
+      outcome = solution::Outcome();
     }
     if (!isTold)
     {

@@ -3,6 +3,7 @@
 #include "Bound/AngleBound.h"
 
 #include "Bound/ApexBound.h"
+#include "Mesh/SimplexGeometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,6 @@ namespace meshopt
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double third = 1.0 / 3.0;
 
 /// sqrt(2) sin(phi) / (1 + sin(phi / 2)^2): the edge has length 1, and the distance r of the other
@@ -69,7 +69,7 @@ double filled(double angle, double best, double slack, double regular, Cap&& cap
   {
     const double low = (angle - slack) / n, high = (angle + slack) / n;
     // No cell has an angle of 180 degrees or more.
-    if (high < pi)
+    if (high < Pi)
     {
       // An interval that contains the best angle proves nothing.
       most = std::max(most, high < best ? cap(high) : low > best ? cap(low) : regular);
@@ -105,7 +105,7 @@ double dihedralCap(Measure measure, double phi)
       break;
     case Measure::WarpedSine:
       // As the measure has it: sines of obtuse angles count three quarters.
-      cap = (phi > 0.5 * pi ? 0.75 : 1.0) * std::sin(phi);
+      cap = (phi > 0.5 * Pi ? 0.75 : 1.0) * std::sin(phi);
       break;
     default: // nothing is known of other measures
       break;
@@ -140,7 +140,7 @@ double faceAngleCap(Measure measure, double alpha)
 double angleBound(Measure measure, const AnglesToFill& angles)
 {
   const double regular = regularValue<3>(measure);
-  const double dihedral = std::acos(third), facial = pi / 3.0; // of the regular tetrahedron
+  const double dihedral = std::acos(third), facial = Pi / 3.0; // of the regular tetrahedron
   double bound = regular;
   for (double angle : angles.dihedral)
   {

@@ -5,6 +5,7 @@
 #include "Bound/ApexBound.h"
 
 #include "Bound/PairBound.h"
+#include "Mesh/SimplexGeometry.h"
 #include "Quality/Shape.h"
 
 #include <Eigen/Cholesky>
@@ -16,7 +17,6 @@ namespace meshopt
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 constexpr double shapeConstant = MeanEdgeShape<3>::constant;
 
 /// The dihedral angle of the regular tetrahedron.
@@ -67,8 +67,6 @@ constexpr double FarBelow = 0.1, FallByFactor = 0.3;
 /// False position keeps this part of the interval away from both its ends. With less, an end that
 /// is almost right leaves the other one where it is; with more, good guesses are cut off.
 constexpr double LeastPart = 0.02;
-
-double cubed(double x) { return x * x * x; }
 
 /// Maximizes z^(1/3) / P(p). Here z > 0 is the last coordinate of p, and P(p) = base + sum_i of
 /// sqrt(|p - pole_i|^2 + offset_i): three edges lead from the free node to given ones. The given
@@ -302,7 +300,7 @@ double lowestAngle(double c, double width)
 
 double highestAngle(double c, double width)
 {
-  return crossing(pi, 0.0, bestAngle, 1.0, c, width, angleCap);
+  return crossing(Pi, 0.0, bestAngle, 1.0, c, width, angleCap);
 }
 
 /// In units of the edge, which both facets there share.
@@ -365,7 +363,7 @@ double EdgeView::limit(double c, double end, double width) const
 }
 
 double EdgeView::lowest(double c, double width) const { return this->limit(c, 0.0, width); }
-double EdgeView::highest(double c, double width) const { return this->limit(c, pi, width); }
+double EdgeView::highest(double c, double width) const { return this->limit(c, Pi, width); }
 
 namespace
 {
@@ -374,9 +372,9 @@ namespace
 bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& last)
 {
   const auto between = [c](double angle, int n)
-  { return angle > 0.0 && angle < n * pi && angleCap(angle / n) >= c; };
+  { return angle > 0.0 && angle < n * Pi && angleCap(angle / n) >= c; };
   const auto ends = [c, &first, &last](double angle)
-  { return angle < pi && first.cap(angle, c) >= c && last.cap(angle, c) >= c; };
+  { return angle < Pi && first.cap(angle, c) >= c && last.cap(angle, c) >= c; };
   const int most = std::max(
     3, static_cast<int>(theta) + 1); // with more, each has less than 57 degrees
   for (int k = most; k >= 3 && k >= most - 2; --k)

@@ -3,6 +3,7 @@
 // is left to 1, the weight of the tip.
 #include "Bound/ApexInCone.h"
 
+#include "Mesh/SimplexGeometry.h"
 #include "Quality/Shape.h"
 
 #include <Eigen/Cholesky>
@@ -16,9 +17,7 @@ namespace meshopt
 {
 namespace
 {
-constexpr double cubed(double x) { return x * x * x; }
-
-constexpr int MostSteps = 40, MostHalvings = 20;
+constexpr int MostConeSteps = 40, MostConeHalvings = 20;
 /// A step ends at this part of the way to the nearest face: on the face the barrier is infinite.
 constexpr double OffFaces = 0.9;
 /// The barrier at first, as a part of V^(1/3), and by what it falls after a long or a short step.
@@ -92,7 +91,7 @@ ApexInCone::Best ApexInCone::best(const Cone& cone, double atLeast) const
   result.bound = 1.0;
   result.place = ends * w;
   double reached = 0.0, barrier = -1.0;
-  for (int step = 0; step < MostSteps; ++step)
+  for (int step = 0; step < MostConeSteps; ++step)
   {
     const Vec<3> place = ends * w;
     const double z = heights.dot(w);
@@ -145,11 +144,11 @@ ApexInCone::Best ApexInCone::best(const Cone& cone, double atLeast) const
     };
     const double now = barrier * std::log(w.prod() * left);
     int halvings = 0;
-    for (; halvings < MostHalvings && !(value(w + t * way) >= now); ++halvings)
+    for (; halvings < MostConeHalvings && !(value(w + t * way) >= now); ++halvings)
     {
       t *= 0.5;
     }
-    w += halvings < MostHalvings ? Vec<3>(t * way) : Vec<3>::Zero();
+    w += halvings < MostConeHalvings ? Vec<3>(t * way) : Vec<3>::Zero();
     barrier *= t > 0.5 ? Falls : FallsSlowly;
   }
   return result;

@@ -19,10 +19,10 @@ namespace
 constexpr double StartAway = 0.13;
 /// Newton steps for one weight (about ten are taken), and tries of weights (some pairs use up all).
 /// With fewer the bound is still valid, but too high.
-constexpr int MostSteps = 40, MostWeights = 40;
+constexpr int MostPairSteps = 40, MostWeights = 40;
 /// Halvings of a step: the shortest is 1e-12 of it, and moves the node by little more than rounding
 /// does.
-constexpr int MostHalvings = 40;
+constexpr int MostPairHalvings = 40;
 /// How exactly the maximum for one weight has to be known, as a part of the tolerance for the cap.
 /// What is left is added to the bound: with a larger part the tolerance might not be reached
 /// (three times this part is spent), a smaller one takes more steps. Under the least precision
@@ -30,7 +30,7 @@ constexpr int MostHalvings = 40;
 constexpr double PartOfTolerance = 0.03, LeastPrecision = 1e-11;
 /// The next weight keeps this part of the interval away from both its ends. With less, an end that
 /// is almost right leaves the other one where it is; with more, good guesses are cut off.
-constexpr double LeastPart = 0.01;
+constexpr double LeastPairPart = 0.01;
 
 /// One of the two tetrahedra; p is the free node. The common edge goes from 0 to (1, 0, 0).
 struct Half
@@ -117,7 +117,7 @@ public:
   {
     double lambda = this->mean(p, weight);
     double rest = 0.0;
-    for (int iteration = 0; iteration < MostSteps; ++iteration)
+    for (int iteration = 0; iteration < MostPairSteps; ++iteration)
     {
       Vec<3> g = Vec<3>::Zero();
       Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
@@ -142,7 +142,7 @@ private:
   bool advance(const Vec<3>& step, double weight, Vec<3>& p, double& lambda) const
   {
     double t = 1.0;
-    for (int halving = 0; halving < MostHalvings; ++halving, t *= 0.5)
+    for (int halving = 0; halving < MostPairHalvings; ++halving, t *= 0.5)
     {
       const Vec<3> next = p + t * step;
       const double value = this->isInside(next) ? this->mean(next, weight) : 0.0;
@@ -194,8 +194,9 @@ double pairCap(
     }
     // Until both signs are known, by halving.
     const bool isBetween = atLow < 0.0 && atHigh > 0.0;
-    const double part = isBetween ? std::clamp(atLow / (atLow - atHigh), LeastPart, 1.0 - LeastPart)
-                                  : 0.5;
+    const double part = isBetween
+      ? std::clamp(atLow / (atLow - atHigh), LeastPairPart, 1.0 - LeastPairPart)
+      : 0.5;
     weight = low + part * (high - low);
     bound = std::min(bound, pair.maximize(weight, precision, p));
   }

@@ -3,6 +3,7 @@
 #include "Bound/SightBound.h"
 
 #include "Bound/ApexBound.h"
+#include "Mesh/SimplexGeometry.h"
 
 #include <Eigen/Geometry>
 
@@ -19,7 +20,7 @@ namespace
 /// Most sides that are looked at: those with the worst cells.
 constexpr std::size_t MostSides = 1000;
 /// Of stepsInSight(). A step takes some 20 us: the most make less than half a second.
-constexpr long FewestSteps = 2000, MostSteps = 20000, CellsPerStep = 20;
+constexpr long FewestSightSteps = 2000, MostSightSteps = 20000, CellsPerStep = 20;
 
 /// From where a facet is looked at: the weights of its corners. From the middle most is seen; what
 /// lies near its ends is in the way of places near these only.
@@ -169,7 +170,7 @@ void Sight::Search::lookEverywhere()
   {
     const auto end = [&](int i) -> Vec<3>
     {
-      const double angle = 2.0 * EIGEN_PI / 3.0 * i;
+      const double angle = 2.0 * Pi / 3.0 * i;
       return far * (std::cos(angle) * x + std::sin(angle) * y);
     };
     this->add({ end(k), end(k + 1), far * n });
@@ -361,5 +362,8 @@ double boundInSight(
   return bound;
 }
 
-long stepsInSight(long cells) { return std::min(FewestSteps + cells / CellsPerStep, MostSteps); }
+long stepsInSight(long cells)
+{
+  return std::min(FewestSightSteps + cells / CellsPerStep, MostSightSteps);
+}
 }

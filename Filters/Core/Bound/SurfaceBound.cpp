@@ -4,6 +4,7 @@
 #include "Bound/SurfaceBound.h"
 
 #include "Bound/ApexBound.h"
+#include "Mesh/SimplexGeometry.h"
 #include "Quality/Shape.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace meshopt
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
-
 /// The error of an angle between facets that are no needles, in rounding errors. Rounded up: about
 /// ten operations lead to it, and a smaller one would not be certain.
 constexpr double AngleRoundings = 16.0;
@@ -103,13 +102,13 @@ struct Angle
     , error(AngleRoundings * std::numeric_limits<double>::epsilon() * blur)
   {
     // 0 becomes a full turn. Both are as uncertain: see known().
-    this->value += this->value > 0.0 ? 0.0 : 2.0 * pi;
+    this->value += this->value > 0.0 ? 0.0 : 2.0 * Pi;
   }
   /// False if it may be 0 as well as 2 pi, or if nothing is known.
   bool known() const
   {
     return this->error<MostAngleError&& this->value> this->error &&
-      this->value < 2.0 * pi - this->error;
+      this->value < 2.0 * Pi - this->error;
   }
   bool isBelow(const Angle& other) const
   {
@@ -241,7 +240,7 @@ bool BoundBuilder<D>::findWedge(
   // A facet's own back side is behind all others, at exactly 2 pi: computing it could only blur
   // that.
   Angle back;
-  back.value = 2.0 * pi;
+  back.value = 2.0 * Pi;
   for (const Rim* rim = begin; rim != end; ++rim)
   {
     if (rim->forward)
@@ -384,11 +383,11 @@ double BoundBuilder<2>::wedgeCap(
   const Vec<2>& b = this->points_[this->result_.sides[from.side].nodes[1]];
   const Vec<2>& c = this->points_[this->result_.sides[to.side].nodes[0]];
   const double theta = angle.value;
-  double cap = theta < pi ? MeanEdgeShape<2>::value({ x, b, c }) : 0.0;
+  double cap = theta < Pi ? MeanEdgeShape<2>::value({ x, b, c }) : 0.0;
   const int last = 2 + static_cast<int>(theta); // angles under 60 degrees only get worse
   for (int k = 2; k <= last && cap < below; ++k)
   {
-    if (theta / k < pi)
+    if (theta / k < Pi)
     {
       cap = std::max(cap, angleCap2(theta / k));
     }
@@ -403,7 +402,7 @@ double BoundBuilder<3>::wedgeCap(
   const double theta = angle.value, slack = angle.error;
   const Vec<3>&a = this->points_[from.low], &b = this->points_[from.high];
   const Vec<3>&c = this->points_[this->tip(from)], &d = this->points_[this->tip(to)];
-  const double spanned = theta < pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + SpannedError
+  const double spanned = theta < Pi + slack ? MeanEdgeShape<3>::value({ a, b, c, d }) + SpannedError
                                             : 0.0;
   const FacetWedge wedge{ theta, { a, b, c, this->apexes_[from.side] },
     { a, b, d, this->apexes_[to.side] }, spanned, slack };

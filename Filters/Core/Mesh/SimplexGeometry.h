@@ -62,6 +62,11 @@ inline Eigen::Matrix<double, D, 1, Eigen::DontAlign> sumOfDifferences(
   return s;
 }
 
+/// Eigen has a long double.
+inline constexpr double Pi = 3.14159265358979323846;
+
+constexpr double cubed(double x) { return x * x * x; }
+
 /// Cube root. If x is scaled by a power of eight, the result keeps its bits: std::cbrt() does not.
 inline double cubeRoot(double x)
 {

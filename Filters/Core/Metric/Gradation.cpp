@@ -14,22 +14,22 @@ namespace meshopt
 namespace
 {
 /// The fraction of a metric that may be missing: without it the last digits would never settle.
-constexpr double slack = 1e-3;
+constexpr double gradationSlack = 1e-3;
 /// Never reached in practice: one sweep carries a change through the mesh.
 constexpr int maximumNumberOfSweeps = 1000;
 
-/// True if a (1 + slack) - b is positive definite. Cholesky by hand, since most edges pass this
-/// test.
+/// True if a (1 + gradationSlack) - b is positive definite. Cholesky by hand, since most edges pass
+/// this test.
 bool isAtLeast(const Tensor<2>& a, const Tensor<2>& b)
 {
-  const Tensor<2> d = (1.0 + slack) * a - b;
+  const Tensor<2> d = (1.0 + gradationSlack) * a - b;
   return d(0, 0) > 0.0 && d(0, 0) * d(1, 1) > d(0, 1) * d(0, 1);
 }
 
 /// All pivots of the factorization must be positive.
 bool isAtLeast(const Tensor<3>& a, const Tensor<3>& b)
 {
-  const Tensor<3> d = (1.0 + slack) * a - b;
+  const Tensor<3> d = (1.0 + gradationSlack) * a - b;
   if (!(d(0, 0) > 0.0))
   {
     return false;

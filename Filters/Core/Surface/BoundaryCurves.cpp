@@ -10,8 +10,6 @@ namespace meshopt
 {
 namespace
 {
-/// Degrees: corners are then found by the number of lines only, and where the line turns back.
-constexpr double TurnsNever = 180.0;
 /// How far the curve may be from a new edge of the boundary, as a fraction of the edge's length.
 constexpr double Sagitta = 0.1;
 

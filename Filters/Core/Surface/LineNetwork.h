@@ -33,6 +33,8 @@ LineNetwork keptLines(const SimplexMesh<2>& mesh);
 /// Marks as corners: points where not exactly two lines meet, points where the line turns by more
 /// than cornerAngle (degrees; at most 179), and the ends of lines of almost no length.
 void markCorners(LineNetwork& network, double cornerAngle);
+/// With this angle corners are found by the number of lines only, and where the line turns back.
+inline constexpr double TurnsNever = 180.0;
 
 /// Marks the points where the line turns by more than 10 degrees while it does not at the
 /// neighbours. These are not samples of a curve, but corners, if not sharp ones.

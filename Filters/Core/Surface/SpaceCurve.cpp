@@ -11,7 +11,7 @@ namespace meshopt
 {
 namespace
 {
-constexpr double Rounding = 1e-12; ///< of a length
+constexpr double LengthRounding = 1e-12; ///< of a length
 }
 
 /// A closed curve has its first point again at the end: then each line has a knot at both ends.
@@ -164,7 +164,7 @@ bool SpaceCurve::forBetween(double from, double to, Vec<3> a, Vec<3> b, F&& f) c
     return !(high > low);
   }
   // Rounding, at points that lie at an end of the chord.
-  const double slack = Rounding * l;
+  const double slack = LengthRounding * l;
   // Knots are within the first turn: they are shifted to that of the span.
   double last = (this->at(low) - a).dot(line) / l;
   const double end = (this->at(high) - a).dot(line) / l;

@@ -16,7 +16,6 @@ namespace meshopt
 {
 namespace
 {
-constexpr double pi = 3.14159265358979323846;
 /// An angle by the planes and the sum of those of its cells (or facets) must agree up to this.
 constexpr double Agreement = 1e-3;
 
@@ -277,10 +276,10 @@ private:
   /// `angle` is in [0, pi]; the sum tells whether it or the rest of 2 pi is meant.
   static void add(double angle, double sum, std::vector<double>& list)
   {
-    const double meant = sum > pi ? 2.0 * pi - angle : angle;
+    const double meant = sum > Pi ? 2.0 * Pi - angle : angle;
     // An angle that rounding could make 0, or a full turn, has no certain bound.
     if (std::fabs(meant - sum) < Agreement && meant > 2.0 * SurfaceAngles::slack &&
-      meant < 2.0 * (pi - SurfaceAngles::slack))
+      meant < 2.0 * (Pi - SurfaceAngles::slack))
     {
       list.push_back(meant);
     }

@@ -15,8 +15,6 @@ namespace meshopt
 namespace
 {
 constexpr double Tolerance = 1e-3; ///< of the diagonal of the mesh
-/// Degrees: corners are then found by the number of lines only, and where the line turns back.
-constexpr double TurnsNever = 180.0;
 
 /// See PlaneCurve::mostCurvedSegment(): the share of a circle whose polygon turns by `angle`
 /// (degrees) at each point, with a margin.

@@ -51,7 +51,7 @@ std::vector<vtkIdType> Grow(const Part& part, Reach& reach)
 /**
  * A point that is in reach of `Rank`.
  */
-struct Notice
+struct NearPoint
 {
   vtkIdType Id;
   int Rank;
@@ -98,7 +98,7 @@ std::vector<Reach> FindReaches(
         {
           if (third != r)
           {
-            Put(out[third], Notice{ part.PointIds[p], r });
+            Put(out[third], NearPoint{ part.PointIds[p], r });
           }
         }
       }
@@ -107,7 +107,7 @@ std::vector<Reach> FindReaches(
     {
       for (Reader reader(bytes); !reader.IsAtEnd();)
       {
-        const Notice notice = reader.Take<Notice>();
+        const NearPoint notice = reader.Take<NearPoint>();
         start(notice.Rank);
         // A point of a cell in reach of that rank, but on a third one's border.
         reaches[notice.Rank].Points[IndexOf(part, notice.Id)] = 1;
