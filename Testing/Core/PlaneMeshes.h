@@ -4,6 +4,7 @@
 #ifndef meshopt_Testing_PlaneMeshes_h
 #define meshopt_Testing_PlaneMeshes_h
 
+#include "Mesh/SimplexGeometry.h"
 #include "Surface/BoundaryCurves.h"
 #include "TestMeshes.h"
 
@@ -12,8 +13,6 @@
 
 namespace meshopt
 {
-inline const double Pi = std::acos(-1.0);
-
 inline CurveOptions curveOptions(double cornerAngle, bool splines)
 {
   CurveOptions result;
