@@ -23,7 +23,7 @@ constexpr double RoomOfGaps = 0.25;
 }
 
 void ReferenceSurface::add(
-  const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, bool isThin)
+  const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, double thickness)
 {
   Facet f;
   // The longest edge first: the frame is then as exact as it can be.
@@ -49,7 +49,7 @@ void ReferenceSurface::add(
   f.patch = patch;
   f.isSigned = isSigned;
   f.isOuter = isOuter;
-  f.isThin = isThin;
+  f.thickness = thickness;
   f.x = x;
   this->facets_.push_back(f);
 }
@@ -143,7 +143,7 @@ std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
 {
   constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
   const double reach = this->tolerance_ / RoomOfWalls;
-  std::vector<int> near;
+  std::vector<int> near, thin;
   findNear(this->all_, BoxTree::widened(Box(Eigen::Vector3d(x)), reach), near);
   std::vector<RoomLimit> limits;
   for (int k : near)
@@ -156,7 +156,25 @@ std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
     {
       const bool isGap = f.isOuter && along < 0.0;
       const double share = isGap ? RoomOfGaps : RoomOfWalls;
-      limits.push_back({ way, share * way.squaredNorm(), f.isThin && !isGap });
+      limits.push_back({ way, share * way.squaredNorm(), f.isThin() && !isGap });
+    }
+    if (!isApart && f.isThin())
+    {
+      thin.push_back(k);
+    }
+  }
+  // A feather edge: the nearer to it, the closer is the other sheet, and at it there is none.
+  for (int k : thin)
+  {
+    const Vec<3> way = this->facets_[k].thickness * this->facets_[k].normal;
+    const auto isOther = [&](int o)
+    {
+      const Vec<3> out = this->facets_[o].thickness * this->facets_[o].normal;
+      return way.dot(out) < -faces * way.norm() * out.norm();
+    };
+    if (std::any_of(thin.begin(), thin.end(), isOther))
+    {
+      limits.push_back({ way, RoomOfWalls * way.squaredNorm(), true });
     }
   }
   return limits;

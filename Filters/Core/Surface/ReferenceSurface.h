@@ -12,6 +12,7 @@
 #include "Surface/RoomLimit.h"
 #include "Surface/SurfaceChange.h"
 
+#include <limits>
 #include <vector>
 
 namespace meshopt
@@ -41,13 +42,14 @@ class ReferenceSurface
 {
 public:
   using Piece = SurfacePiece<3>;
+  static constexpr double Thick = std::numeric_limits<double>::infinity();
 
   /// Adds a facet: corners in order, seen from outside counter-clockwise. `patch`: a number >= 0.
   /// `isSigned` is false if outside cannot be told from inside, as with a facet within one region;
-  /// `isOuter` is true if there is nothing outside; `isThin` if it bounds a region whose volume
-  /// could change by much.
-  void add(
-    const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter, bool isThin = false);
+  /// `isOuter` is true if there is nothing outside. `thickness`: the mean one of the region
+  /// behind it, if the volume of that could change by much; less than 0: of that before it.
+  void add(const std::array<Vec<3>, 3>& x, Index patch, bool isSigned, bool isOuter,
+    double thickness = Thick);
   /// To be called once, after the last facet. `tolerance`: a length; `least`: that of rounding. No
   /// facet may use more of the tolerance than a seventh of the thickness of the wall that it is a
   /// side of, and a quarter of the gap in front of it: no wall is pressed flat, and no gap closed.
@@ -58,6 +60,8 @@ public:
   int project(Index patch, const Vec<3>& x, Vec<3>& there) const;
 
   /// What the sheets that face point x of the surface leave it: the same parts of their distance.
+  /// Where two sides of a thin region meet at an acute angle, none faces x: there the same part of
+  /// the mean thickness.
   std::vector<RoomLimit> limits(const Vec<3>& x) const;
   /// The farthest point on the way from x, a point of the surface, to `to`, that keeps these limits
   /// and is at most `most` away from x.
@@ -93,8 +97,10 @@ private:
     Vec<3> origin, along, across, normal; ///< a frame: the corners are (0, 0), (l, 0), (p, q)
     double l, p, q;
     Index patch;
-    bool isSigned, isOuter, isThin;
+    bool isSigned, isOuter;
+    double thickness; ///< Thick; otherwise `normal` times it points out of the thin region
     std::array<Vec<3>, 3> x;
+    bool isThin() const { return this->thickness < Thick; }
     double tolerance = 0.0; ///< its own
   };
   struct Heights

@@ -15,8 +15,8 @@
 #include "Surface/SurfaceDivision.h"
 
 #include <atomic>
+#include <map>
 #include <memory>
-#include <set>
 
 namespace meshopt
 {
@@ -126,9 +126,9 @@ private:
   void prepareRelease(MeshEditor<3>& editor, const SurfaceOptions& options);
   Place released(const Place& place) const;
   void addPatches(
-    MeshEditor<3>& editor, const SurfaceDivision& division, const std::set<Index>& thin);
-  void addRooms(
-    const SimplexMesh<3>& mesh, const SurfaceDivision& division, const std::set<Index>& thin);
+    MeshEditor<3>& editor, const SurfaceDivision& division, const std::map<Index, double>& thin);
+  void addRooms(const SimplexMesh<3>& mesh, const SurfaceDivision& division,
+    const std::map<Index, double>& thin);
   void addCurves(MeshEditor<3>& editor, const SurfaceDivision& division);
   void addSets(const MeshEditor<3>& editor, const SurfaceDivision& division,
     const std::vector<std::uint32_t>& sets);

@@ -18,18 +18,21 @@ double areaOf(const SimplexMesh<3>& mesh, const SurfaceDivision::KeptFacet& face
   return 0.5 * (mesh.point(facet.nodes[1]) - a).cross(mesh.point(facet.nodes[2]) - a).norm();
 }
 
-/// The regions whose volume would change by a quarter if their surface moved by a quarter of the
-/// tolerance, on average.
-std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
+/// The mean thickness of each region whose volume would change by a quarter if its surface moved by
+/// a quarter of the tolerance, on average.
+std::map<Index, double> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& division)
 {
   constexpr double most = 0.25, farthest = 0.25; // of the volume; of the tolerance
-  std::map<Index, double> left;
+  struct Size
+  {
+    double volume = 0.0, area = 0.0;
+  };
+  std::map<Index, Size> sizes;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     if (mesh.isAlive(c))
     {
-      // What is left of the share of the volume when all of its surface has moved. Below 0: thin.
-      left[mesh.region(c)] += most * std::fabs(signedVolume(mesh.corners(c)));
+      sizes[mesh.region(c)].volume += std::fabs(signedVolume(mesh.corners(c)));
     }
   }
   for (const SurfaceDivision::KeptFacet& facet : division.facets)
@@ -40,16 +43,16 @@ std::set<Index> thinRegions(const SimplexMesh<3>& mesh, const SurfaceDivision& d
     {
       if (region != None)
       {
-        left[region] -= area * farthest * division.tolerance;
+        sizes[region].area += area;
       }
     }
   }
-  std::set<Index> thin;
-  for (const auto& [region, volume] : left)
+  std::map<Index, double> thin;
+  for (const auto& [region, size] : sizes)
   {
-    if (volume < 0.0)
+    if (most * size.volume < farthest * division.tolerance * size.area)
     {
-      thin.insert(region);
+      thin[region] = 2.0 * size.volume / size.area;
     }
   }
   return thin;
@@ -82,7 +85,7 @@ void SlidingSurface::divide(MeshEditor<3>& editor, const SurfaceOptions& options
   // Angles exist only where the surface stays the same set of points: see surfaceAngles().
   this->angles_ = surfaceAngles(editor.mesh(), division);
   // First the patches: curves ask the reference how much room they have.
-  const std::set<Index> thin = thinRegions(editor.mesh(), division);
+  const std::map<Index, double> thin = thinRegions(editor.mesh(), division);
   this->addPatches(editor, division, thin);
   this->addCurves(editor, division);
   for (const auto& [a, b] : division.bentEdges)
@@ -120,7 +123,7 @@ void SlidingSurface::divide(MeshEditor<3>& editor, const SurfaceOptions& options
 
 /// Facets go into the reference as they are now. From here on it does not change.
 void SlidingSurface::addPatches(
-  MeshEditor<3>& editor, const SurfaceDivision& division, const std::set<Index>& thin)
+  MeshEditor<3>& editor, const SurfaceDivision& division, const std::map<Index, double>& thin)
 {
   const SimplexMesh<3>& mesh = editor.mesh();
   this->patches_.resize(division.numberOfPatches);
@@ -147,10 +150,13 @@ void SlidingSurface::addPatches(
     // With the same region on both sides, neither of them is the outer one.
     patch.isSigned = facet.region != facet.other;
     patch.label = facet.label;
+    const auto behind = thin.find(facet.region), before = thin.find(facet.other);
+    const double thickness = behind != thin.end() ? behind->second
+      : before != thin.end()                      ? -before->second
+                                                  : ReferenceSurface::Thick;
     this->reference_.add(
       { mesh.point(facet.nodes[0]), mesh.point(facet.nodes[1]), mesh.point(facet.nodes[2]) },
-      facet.patch, patch.isSigned, facet.other == None,
-      thin.count(facet.region) + thin.count(facet.other) > 0);
+      facet.patch, patch.isSigned, facet.other == None, thickness);
     // For inputFacet(): the reference knows facets by the order in which they were added.
     this->inputFacets_.push_back(sortedIds(facet.nodes));
   }
@@ -263,7 +269,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
 /// As far as CurveShare says; but beside a thin region that is narrow, too, only so far that its
 /// volume changes by a tenth if all its curves move sideways.
 void SlidingSurface::addRooms(
-  const SimplexMesh<3>& mesh, const SurfaceDivision& division, const std::set<Index>& thin)
+  const SimplexMesh<3>& mesh, const SurfaceDivision& division, const std::map<Index, double>& thin)
 {
   constexpr double most = 0.1; // of the volume
   struct Size

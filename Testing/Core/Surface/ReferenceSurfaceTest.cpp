@@ -259,11 +259,36 @@ TEST(ReferenceSurface, RoomIsKeptTowardsSheetsThatFaceThePoint)
   ReferenceSurface thin;
   for (const Piece& piece : two)
   {
-    thin.add(piece.x, piece.patch, true, true, true);
+    thin.add(piece.x, piece.patch, true, true, 0.04);
   }
   thin.finish(0.1, 1e-15);
   EXPECT_NEAR(thin.withinRoom(x, up, 0.1)[2], 0.04 / 7.0, 1e-15);
   EXPECT_EQ(thin.withinRoom(x, along, 0.1), along);
+}
+
+TEST(ReferenceSurface, AtAFeatherEdgeOfAThinRegionOnlyAPartOfItsThicknessMayBeUsed)
+{
+  // A wedge over the unit square, of height 0.04 at x = 1, and mean thickness 0.02.
+  const auto wedge = [](double thickness)
+  {
+    ReferenceSurface result;
+    for (const Piece& piece : sheet(4, [](double x, double) { return 0.04 * x; }))
+    {
+      result.add(piece.x, 0, true, true, thickness);
+    }
+    for (Piece piece : sheet(4, [](double, double) { return 0.0; }))
+    {
+      std::swap(piece.x[1], piece.x[2]);
+      result.add(piece.x, 1, true, true, thickness);
+    }
+    result.finish(0.1, 1e-15);
+    return result;
+  };
+  const Vec<3> edge(0.0, 0.6, 0.0), up(0.0, 0.6, 0.05), along(0.0, 0.65, 0.0);
+  const ReferenceSurface thin = wedge(0.02), other = wedge(ReferenceSurface::Thick);
+  EXPECT_EQ(other.withinRoom(edge, up, 0.1), up);
+  EXPECT_NEAR(thin.withinRoom(edge, up, 0.1)[2], 0.02 / 7.0, 1e-15);
+  EXPECT_EQ(thin.withinRoom(edge, along, 0.1), along);
 }
 
 TEST(ReferenceSurface, WhatWasHighMayBeReplacedByWhatIsAsHigh)
