@@ -62,7 +62,7 @@ inline Eigen::Matrix<double, D, 1, Eigen::DontAlign> sumOfDifferences(
   return s;
 }
 
-/// Eigen has a long double.
+/// Not EIGEN_PI, which is a long double.
 inline constexpr double Pi = 3.14159265358979323846;
 
 constexpr double cubed(double x) { return x * x * x; }

@@ -269,7 +269,8 @@ TEST(ReferenceSurface, RoomIsKeptTowardsSheetsThatFaceThePoint)
 TEST(ReferenceSurface, AtAFeatherEdgeOfAThinRegionOnlyAPartOfItsThicknessMayBeUsed)
 {
   // A wedge over the unit square, of height 0.04 at x = 1, and mean thickness 0.02.
-  const auto wedge = [](double thickness)
+  // `isBehind`: whether its base is seen from outside, or belongs to the region below.
+  const auto wedge = [](double thickness, bool isBehind)
   {
     ReferenceSurface result;
     for (const Piece& piece : sheet(4, [](double x, double) { return 0.04 * x; }))
@@ -278,17 +279,23 @@ TEST(ReferenceSurface, AtAFeatherEdgeOfAThinRegionOnlyAPartOfItsThicknessMayBeUs
     }
     for (Piece piece : sheet(4, [](double, double) { return 0.0; }))
     {
-      std::swap(piece.x[1], piece.x[2]);
-      result.add(piece.x, 1, true, true, thickness);
+      if (isBehind)
+      {
+        std::swap(piece.x[1], piece.x[2]);
+      }
+      result.add(piece.x, 1, true, isBehind, isBehind ? thickness : -thickness);
     }
     result.finish(0.1, 1e-15);
     return result;
   };
   const Vec<3> edge(0.0, 0.6, 0.0), up(0.0, 0.6, 0.05), along(0.0, 0.65, 0.0);
-  const ReferenceSurface thin = wedge(0.02), other = wedge(ReferenceSurface::Thick);
-  EXPECT_EQ(other.withinRoom(edge, up, 0.1), up);
-  EXPECT_NEAR(thin.withinRoom(edge, up, 0.1)[2], 0.02 / 7.0, 1e-15);
-  EXPECT_EQ(thin.withinRoom(edge, along, 0.1), along);
+  EXPECT_EQ(wedge(ReferenceSurface::Thick, true).withinRoom(edge, up, 0.1), up);
+  for (const bool isBehind : { true, false })
+  {
+    const ReferenceSurface thin = wedge(0.02, isBehind);
+    EXPECT_NEAR(thin.withinRoom(edge, up, 0.1)[2], 0.02 / 7.0, 1e-15);
+    EXPECT_EQ(thin.withinRoom(edge, along, 0.1), along);
+  }
 }
 
 TEST(ReferenceSurface, WhatWasHighMayBeReplacedByWhatIsAsHigh)
