@@ -2,10 +2,11 @@
 """What the time of Mesh Optimize goes to, by operation; a Markdown table.
 
     eval "$(./bootstrap.sh env)"
-    /usr/bin/python3 Testing/Benchmarks/profile_operations.py MESH ... [--effort NAME] [--frequency HZ]
+    /usr/bin/python3 Testing/Benchmarks/profile_operations.py MESH ... [--effort NAME] [--tolerance T] [--frequency HZ]
 
     MESH             a file of VTK, or KIND:POINTS, one of the random meshes of hard.py, as cube:3000
     --effort NAME    quick, default or best (default: default)
+    --tolerance T    the surface takes part, with this tolerance (default: it is kept)
     --frequency HZ   samples of the stack per second of processor time (default: 499)
 
 One thread; needs `perf` (Debian: linux-perf) and the right to use it. A sample counts for the outermost operation on its
@@ -33,12 +34,14 @@ ROWS = {
     "surface motion": ["SurfaceMotion<"],
     "look-ahead": ["LookAhead<"],
     "untangling": ["optimizePaper1996<"],
+    "division of long edges": ["divideLongEdges", "LongEdges::"],
+    "coarsening": ["coarsen", "Coarsening::"],
     "bound": ["Caps<", "surfaceBound<"],
 }
 FILTER, ENGINE = "vtkMeshOptimizeFilter::RequestData", "worstfirst::"
 
 
-def run(path, effort):
+def run(path, effort, tolerance):
     """The process that is looked at."""
     from hard import random_mesh
     from invariance import grid_of, read
@@ -50,6 +53,9 @@ def run(path, effort):
     f.SetInputData(grid_of(points, cells))
     f.SetEffort(EFFORTS[effort])
     f.SetNumberOfThreads(1)
+    if tolerance is not None:
+        f.SetBoundaryModeToSlide()
+        f.SetSurfaceTolerance(tolerance)
     f.Update()
 
 
@@ -67,10 +73,11 @@ def row_of(stack):
 
 def profile(path, opt):
     """Samples by row; those of the library that have no whole stack; samples per second."""
+    slides = [] if opt.tolerance is None else ["--tolerance", str(opt.tolerance)]
     with tempfile.TemporaryDirectory() as folder:
         data = f"{folder}/perf.data"
         subprocess.run(["perf", "record", "--call-graph", "dwarf,16384", "-e", "cpu-clock:u", "-F", str(opt.frequency), "-o", data,
-                        sys.executable, __file__, path, "--effort", opt.effort, "--run"],
+                        sys.executable, __file__, path, "--effort", opt.effort, *slides, "--run"],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         text = subprocess.run(["perf", "script", "--no-inline", "-i", data, "-F", "ip,sym"],
                               check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
@@ -89,11 +96,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mesh", nargs="+")
     parser.add_argument("--effort", choices=("quick", "default", "best"), default="default")
+    parser.add_argument("--tolerance", type=float)
     parser.add_argument("--frequency", type=int, default=499)
     parser.add_argument("--run", action="store_true", help=argparse.SUPPRESS)
     opt = parser.parse_args()
     if opt.run:
-        return run(opt.mesh[0], opt.effort)
+        return run(opt.mesh[0], opt.effort, opt.tolerance)
     found = {path: profile(path, opt) for path in opt.mesh}
     used = [row for row in [*ROWS, "schedule", "tables"] if any(rows[row] for rows, _ in found.values())]
     print("| seconds | " + " | ".join(path.rsplit("/", 1)[-1].removesuffix(".vtu") for path in found) + " |")
