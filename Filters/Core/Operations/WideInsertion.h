@@ -9,6 +9,9 @@
 
 #include "Operations/NodeInsertion.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace meshopt
 {
 template <int D, class Shape>
@@ -25,17 +28,22 @@ public:
     {
       return false;
     }
+    const double side = std::cbrt(judge.mesh().numberOfCellSlots());
+    this->mostCells_ = static_cast<int>(
+      std::clamp<double>(CellsPerFace * side * side, FewestCells, MostCells));
     this->findCells(judge.editor(), t);
     this->findSeeds(judge.mesh());
     CavityLimits limits;
-    limits.cells = limits.detour = MostCells;
+    limits.cells = limits.detour = this->mostCells_;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
     return !this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits);
   }
 
 private:
-  /// Of a cavity. Flat cells can lie in tens of layers.
-  static constexpr int MostCells = 400;
+  /// The most cells of a cavity: CellsPerFace times the number of those on a face of a cube, if the
+  /// mesh were one, between FewestCells and MostCells. Flat cells can lie in tens of layers, and be
+  /// as long as the mesh is wide.
+  static constexpr double CellsPerFace = 1.15, FewestCells = 400, MostCells = 10000;
   /// Cells that give seeds: BestCells of the first FirstCells around, and of each next group, which
   /// has twice as many cells as all before it and FirstCells more.
   static constexpr std::size_t BestCells = 2, FirstCells = 8;
@@ -50,7 +58,8 @@ private:
     const std::uint32_t mark = editor.newMark();
     editor.setMark(t, mark);
     this->cells_ = { t };
-    for (std::size_t k = 0; k < this->cells_.size() && this->cells_.size() < MostCells; ++k)
+    const auto most = static_cast<std::size_t>(this->mostCells_);
+    for (std::size_t k = 0; k < this->cells_.size() && this->cells_.size() < most; ++k)
     {
       for (int i = 0; i <= D; ++i)
       {
@@ -98,6 +107,7 @@ private:
     return sum / (D + 1);
   }
 
+  int mostCells_ = 0;
   NodeInsertion<D, Shape> insertion_;
   std::vector<Index> cells_;
   std::vector<typename NodeInsertion<D, Shape>::Seed> seeds_;

@@ -10,6 +10,7 @@
 #include "WorstFirst/Task.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace meshopt
@@ -66,12 +67,13 @@ public:
   /// From now on passes that lift may use the reserve, too.
   void openReserve() { this->reserve_ = 0; }
   /// The most nodes that may vanish in one wide insertion. `nodes`: the part of the input's nodes
-  /// that is left.
-  int mostSwallowed(double nodes) const
+  /// that is left. `shrink`: WideShrink or WideShrinkOfWorst.
+  int mostSwallowed(double nodes, long shrink) const
   {
-    const bool many = this->countsNodes_ ? nodes > 1.0 - WideShrink * ShrinkBudget
+    const bool many = this->countsNodes_ ? nodes > 1.0 - shrink * ShrinkBudget
                                          : this->left_ < this->lean_;
-    return many ? MostSwallowed : FewestSwallowed;
+    const auto most = static_cast<int>(SwallowedPerSide * std::cbrt(this->cells_));
+    return many ? std::max(MostSwallowed, most) : FewestSwallowed;
   }
   /// Whether changes were left out because nothing is left. A small rest counts as nothing: hardly
   /// any change fits into it.

@@ -168,7 +168,8 @@ void Pass<D, Shape>::instruct(const Task& task)
   orders.growth = this->budget_.share(task.phase, n, task.target > Stages[0] ? 0.0 : nodes);
   orders.guard = task.polishes() ? -1.0 : many ? task.target : Stages[0];
   orders.guardsAll = workpiece.model().weights || many;
-  orders.wide = wide ? this->budget_.mostSwallowed(nodes) : None;
+  orders.wide = wide ? this->budget_.mostSwallowed(nodes, WideShrink) : None;
+  orders.wideOfWorst = wide ? this->budget_.mostSwallowed(nodes, WideShrinkOfWorst) : None;
   orders.tries = onTheWay && task.level == Level::LookAhead ? few / n : any;
   orders.looks = polishesOnTheWay ? this->allowance_.looks(n) : any;
   orders.evaluations = this->allowance_.evaluations(task.phase) / n;

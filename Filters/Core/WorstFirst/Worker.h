@@ -19,6 +19,7 @@ struct Orders
   double guard;       ///< see Judge::setGuard()
   bool guardsAll;     ///< the same
   int wide;           ///< see Judge::setWide()
+  int wideOfWorst;    ///< the same for the worst cell
   long tries;         ///< the most above the lowest level
   long looks;         ///< the most look-aheads
   double evaluations; ///< the most, beside those that it earns
@@ -141,6 +142,8 @@ void Worker<D, Shape>::work()
     this->queue.pop();
     level = this->patientLevel(level);
     this->judge().setLooksAhead(this->mayLookAhead());
+    this->judge().setWide(
+      q > this->workpiece_.worst() ? this->orders_.wide : this->orders_.wideOfWorst);
     // The queue is not updated when a quality changes: an entry with another quality is out of
     // date. Cells without hope are skipped before they count as a try.
     if (!mesh.isAlive(c) || mesh.quality(c) != q ||

@@ -15,11 +15,11 @@ TYPED_TEST_SUITE(InsertingFarAway, TestDimensions);
 namespace
 {
 /// A simplex of edge 1 with points on its axis, the first close to the facet opposite to corner D
-/// and each 1.2 times as high above it as the one before: the cells between are flat.
+/// and each `ratio` times as high above it as the one before: the cells between are flat.
 template <int D>
-MeshInput<D> layers(int count)
+MeshInput<D> layers(int count, double ratio = 1.2)
 {
-  constexpr double lowest = 1e-4, ratio = 1.2;
+  constexpr double lowest = 1e-4;
   MeshInput<D> in;
   Vec<D> foot = Vec<D>::Zero();
   for (int i = 0; i < D; ++i)
@@ -109,6 +109,37 @@ TYPED_TEST(InsertingFarAway, ANodeNearbyIsOfLittleUse)
   b.judge.start();
   near.improve(b.judge, 0, Level::Insertion);
   EXPECT_LT(b.worst(), 0.1 * bestWithOneNode<D>());
+}
+
+/// In a small mesh a cavity may have fewer cells than these layers.
+TYPED_TEST(InsertingFarAway, MoreLayersVanishInALargeMesh)
+{
+  constexpr int D = TypeParam::dimension;
+  constexpr int many = 250, others = 30000;
+  for (const bool isLarge : { false, true })
+  {
+    MeshInput<D> in = layers<D>(many, 1.015);
+    const MeshInput<D> apart = layers<D>(0);
+    for (int k = 1; isLarge && k <= others; ++k)
+    {
+      Simplex<D> cell = apart.cells.front();
+      for (int i = 0; i <= D; ++i)
+      {
+        cell[i] += static_cast<Index>(in.points.size());
+      }
+      for (const Vec<D>& x : apart.points)
+      {
+        in.points.push_back(x + 2.0 * k * Vec<D>::Unit(0));
+      }
+      in.cells.push_back(cell);
+    }
+    Bench<D> b(in);
+    WideInsertion<D, MeanEdgeShape<D>> wide;
+    b.judge.setWide(many);
+    b.judge.start();
+    wide.improve(b.judge, 0, Level::LongLookAhead);
+    EXPECT_EQ(b.worst() > 0.9 * bestWithOneNode<D>(), isLarge);
+  }
 }
 
 TYPED_TEST(InsertingFarAway, NeedsToBeSwitchedOn)

@@ -12,6 +12,7 @@ using worstfirst::GrowthBudget;
 using worstfirst::Phase;
 
 constexpr long Allowed = 1000, Reserve = Allowed / worstfirst::ReservedPart, Cells = 500;
+constexpr long Usual = worstfirst::WideShrink;
 
 GrowthBudget budget(long mostShrink = -1, bool followsSizes = false)
 {
@@ -88,18 +89,36 @@ TEST(GrowthBudget, IsUsedUpOnlyIfAChangeWasLeftOut)
 
 TEST(GrowthBudget, LetsFewerNodesVanishWhenManyAreGone)
 {
-  const double least = 1.0 - worstfirst::WideShrink * worstfirst::ShrinkBudget;
-  EXPECT_EQ(budget().mostSwallowed(least + 0.01), worstfirst::MostSwallowed);
-  EXPECT_EQ(budget().mostSwallowed(least - 0.01), worstfirst::FewestSwallowed);
+  const double least = 1.0 - Usual * worstfirst::ShrinkBudget;
+  EXPECT_EQ(budget().mostSwallowed(least + 0.01, Usual), worstfirst::MostSwallowed);
+  EXPECT_EQ(budget().mostSwallowed(least - 0.01, Usual), worstfirst::FewestSwallowed);
+}
+
+TEST(GrowthBudget, LetsMoreNodesVanishForTheWorstCell)
+{
+  constexpr long ofWorst = worstfirst::WideShrinkOfWorst;
+  const double least = 1.0 - ofWorst * worstfirst::ShrinkBudget;
+  ASSERT_LT(least, 1.0 - Usual * worstfirst::ShrinkBudget);
+  EXPECT_EQ(budget().mostSwallowed(least + 0.01, ofWorst), worstfirst::MostSwallowed);
+  EXPECT_EQ(budget().mostSwallowed(least - 0.01, ofWorst), worstfirst::FewestSwallowed);
+}
+
+TEST(GrowthBudget, LetsMoreNodesVanishInALargeMesh)
+{
+  const auto most = [](long cells)
+  { return GrowthBudget(Options(), Allowed, cells, false).mostSwallowed(1.0, Usual); };
+  EXPECT_EQ(most(1000), worstfirst::MostSwallowed);
+  EXPECT_GT(most(1000000), 2 * worstfirst::MostSwallowed);
+  EXPECT_NEAR(most(8000000), 2 * most(1000000), 2); // as the sides of a cube
 }
 
 TEST(GrowthBudget, LetsFewerNodesVanishInAPartWhenManyCellsAreGone)
 {
   GrowthBudget b = budget(100);
-  EXPECT_EQ(b.mostSwallowed(0.0), worstfirst::MostSwallowed);
-  b.takeBack(Phase::Polishing, Allowed + worstfirst::WideShrink * 100 - 1, false);
-  EXPECT_EQ(b.mostSwallowed(0.0), worstfirst::MostSwallowed);
-  b.takeBack(Phase::Polishing, Allowed + worstfirst::WideShrink * 100, false);
-  EXPECT_EQ(b.mostSwallowed(1.0), worstfirst::FewestSwallowed);
+  EXPECT_EQ(b.mostSwallowed(0.0, Usual), worstfirst::MostSwallowed);
+  b.takeBack(Phase::Polishing, Allowed + Usual * 100 - 1, false);
+  EXPECT_EQ(b.mostSwallowed(0.0, Usual), worstfirst::MostSwallowed);
+  b.takeBack(Phase::Polishing, Allowed + Usual * 100, false);
+  EXPECT_EQ(b.mostSwallowed(1.0, Usual), worstfirst::FewestSwallowed);
 }
 }

@@ -23,7 +23,7 @@ struct WorkerBench : EngineBench<D>
     : EngineBench<D>(in, wanted, surface)
     , worker(this->workpiece, this->allowance, this->failures)
   {
-    this->orders = { Growth(), -1.0, false, None, Any, Any, AnyCost };
+    this->orders = { Growth(), -1.0, false, None, None, Any, Any, AnyCost };
   }
   /// `below`: how many cells are said to be bad.
   void begin(Phase phase, double target, int level, long below)
@@ -360,6 +360,22 @@ TEST(Worker, OrdersReachTheJudge)
 }
 
 /// Each try on a regular grid costs evaluations and fails.
+TEST(Worker, MoreNodesMayVanishForTheWorstCell)
+{
+  Frozen bench;
+  bench.orders.wide = 7;
+  bench.orders.wideOfWorst = 9;
+  const std::vector<Index> cells = bench.worst(2);
+  ASSERT_LT(bench.mesh.quality(cells[0]), bench.mesh.quality(cells[1]));
+  for (const std::size_t k : { 0, 1 })
+  {
+    bench.begin(Phase::Polishing, 0.6, Level::Topology, 1);
+    bench.give({ cells[k] });
+    bench.worker.work();
+    EXPECT_EQ(bench.worker.judge().wide(), k == 0 ? 9 : 7);
+  }
+}
+
 TEST(Worker, StopsWhenAllIsSpent)
 {
   for (const double most : { -1.0, 0.0, AnyCost })
