@@ -86,14 +86,14 @@ inline constexpr long PatientPart = 5;
 /// bad cells get rid of nodes until this fraction of the nodes is gone, too: swaps alone can remove
 /// that many cells.
 inline constexpr double ShrinkBudget = 0.12;
-/// The most nodes that may vanish in one wide insertion: SwallowedPerSide times the cube root of
-/// the number of cells, since a needle of the surface can be as long as the mesh is wide, but at
-/// least MostSwallowed. With 30 in all of them, the worst cells of some lattices of 30 000 points
-/// end at a third. Only FewestSwallowed once WideShrink times that fraction of the nodes is gone
+/// The most nodes that may vanish in one wide insertion: SwallowedPerEdge for each mean edge that
+/// the mesh is wide, since needles of the surface can be as long as that, but at least
+/// MostSwallowed. With 30 in all of them, the worst cells of some lattices of 30 000 points end at
+/// a third. Only FewestSwallowed once WideShrink times that fraction of the nodes is gone
 /// (in a part of a mesh: of the cells), for the worst cell WideShrinkOfWorst times: otherwise half
 /// of the cells of a thin slab vanish, or others take the nodes that the worst cell needs.
 inline constexpr int MostSwallowed = 30, FewestSwallowed = 1;
-inline constexpr double SwallowedPerSide = 2.2;
+inline constexpr double SwallowedPerEdge = 3.0;
 inline constexpr long WideShrink = 2, WideShrinkOfWorst = 3;
 /// 1 in ReservedPart of the growth budget is reserved for polishing.
 inline constexpr long ReservedPart = 10;

@@ -10,7 +10,6 @@
 #include "WorstFirst/Task.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace meshopt
@@ -22,13 +21,14 @@ namespace worstfirst
 class GrowthBudget
 {
 public:
-  /// `growth`: net number of cells that may come. `cells`: of the mesh. `followsSizes`: then any
-  /// number of cells may vanish.
-  GrowthBudget(const Options& options, long growth, long cells, bool followsSizes)
+  /// `growth`: net number of cells that may come. `cells`: of the mesh. `width`: of it, in its
+  /// mean edges. `followsSizes`: then any number of cells may vanish.
+  GrowthBudget(const Options& options, long growth, long cells, double width, bool followsSizes)
     : left_(growth)
     , allowed_(growth)
     , reserve_(growth / ReservedPart)
     , cells_(static_cast<double>(cells))
+    , mostSwallowed_(std::max(MostSwallowed, static_cast<int>(SwallowedPerEdge * width)))
   {
     const long shrink = options.mostShrink >= 0
       ? options.mostShrink
@@ -72,8 +72,7 @@ public:
   {
     const bool many = this->countsNodes_ ? nodes > 1.0 - shrink * ShrinkBudget
                                          : this->left_ < this->lean_;
-    const auto most = static_cast<int>(SwallowedPerSide * std::cbrt(this->cells_));
-    return many ? std::max(MostSwallowed, most) : FewestSwallowed;
+    return many ? this->mostSwallowed_ : FewestSwallowed;
   }
   /// Whether changes were left out because nothing is left. A small rest counts as nothing: hardly
   /// any change fits into it.
@@ -91,6 +90,7 @@ private:
   long allowed_;         ///< left_ at the start
   long reserve_;         ///< part of the growth reserved for polishing
   double cells_;         ///< at the start
+  int mostSwallowed_;    ///< in one wide insertion
   bool countsNodes_;     ///< not in a part of a mesh, whose caller counts cells
   bool isShort_ = false; ///< a change was left out for lack of growth
 };

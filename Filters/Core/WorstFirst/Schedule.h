@@ -23,7 +23,8 @@ public:
   Schedule(Run<D>& run, const Shape& shape)
     : begin_(run.clock.seconds())
     , workpiece_(run, shape)
-    , budget_(run.options, run.growth, run.mesh().countCells(), !this->workpiece_.model().plain)
+    , budget_(run.options, run.growth, run.mesh().countCells(), this->workpiece_.widthInEdges(),
+        !this->workpiece_.model().plain)
     , allowance_(this->workpiece_)
     , reporter_(this->workpiece_, this->begin_)
     , pass_(this->workpiece_, this->allowance_, this->budget_, this->reporter_)

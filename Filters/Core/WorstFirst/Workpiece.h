@@ -79,6 +79,8 @@ public:
     const long cells = this->mesh().numberOfCellSlots();
     return std::max({ FewestCells, std::min(FewCells, cells / FewCellsPart), cells / FewOfMany });
   }
+  /// The diagonal of the mesh in its mean edges. About: by one cell in many.
+  double widthInEdges() const;
   /// Whether the cell is at the border of a part, and better off in another run.
   bool isLeft(Index c) const
   {
@@ -137,6 +139,32 @@ private:
   Weights<D, Shape> weights_;
   double worst_;
 };
+
+template <int D, class Shape>
+double Workpiece<D, Shape>::widthInEdges() const
+{
+  constexpr Index sampled = 1000;
+  const SimplexMesh<D>& mesh = this->mesh();
+  const Index step = 1 + mesh.numberOfCellSlots() / sampled;
+  Eigen::AlignedBox<double, D> box;
+  double sum = 0.0;
+  long edges = 0;
+  for (Index c = 0; c < mesh.numberOfCellSlots(); c += step)
+  {
+    for (const auto& e : Local<D>::edges)
+    {
+      if (mesh.isAlive(c))
+      {
+        const Vec<D> a = mesh.point(mesh.nodes(c)[e[0]]), b = mesh.point(mesh.nodes(c)[e[1]]);
+        box.extend(a);
+        box.extend(b);
+        sum += (a - b).norm();
+        ++edges;
+      }
+    }
+  }
+  return sum > 0.0 ? box.diagonal().norm() * static_cast<double>(edges) / sum : 0.0;
+}
 }
 }
 

@@ -41,8 +41,8 @@ struct EngineBench
     , metric(wanted.desiredSize)
     , run(this->start(surface))
     , workpiece(this->run, {})
-    , budget(
-        this->options, this->run.growth, this->mesh.countCells(), !this->workpiece.model().plain)
+    , budget(this->options, this->run.growth, this->mesh.countCells(),
+        this->workpiece.widthInEdges(), !this->workpiece.model().plain)
     , allowance(this->workpiece)
     , reporter(this->workpiece, 0.0)
     , pass(this->workpiece, this->allowance, this->budget, this->reporter)
