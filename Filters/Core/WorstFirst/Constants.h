@@ -88,12 +88,13 @@ inline constexpr long PatientPart = 5;
 inline constexpr double ShrinkBudget = 0.12;
 /// The most nodes that may vanish in one wide insertion: SwallowedPerEdge for each mean edge that
 /// the mesh is wide, since needles of the surface can be as long as that, but at least
-/// MostSwallowed. With 30 in all of them, the worst cells of some lattices of 30 000 points end at
+/// MostSwallowed; parts that lie far from each other make a mesh wide, too, so that there is a most
+/// of all. With 30 in all of them, the worst cells of some lattices of 30 000 points end at
 /// a third. Only FewestSwallowed once WideShrink times that fraction of the nodes is gone
 /// (in a part of a mesh: of the cells), for the worst cell WideShrinkOfWorst times: otherwise half
 /// of the cells of a thin slab vanish, or others take the nodes that the worst cell needs.
 inline constexpr int MostSwallowed = 30, FewestSwallowed = 1;
-inline constexpr double SwallowedPerEdge = 3.0;
+inline constexpr double SwallowedPerEdge = 3.0, MostSwallowedAtAll = 1000.0;
 inline constexpr long WideShrink = 2, WideShrinkOfWorst = 3;
 /// 1 in ReservedPart of the growth budget is reserved for polishing.
 inline constexpr long ReservedPart = 10;

@@ -28,7 +28,8 @@ public:
     , allowed_(growth)
     , reserve_(growth / ReservedPart)
     , cells_(static_cast<double>(cells))
-    , mostSwallowed_(std::max(MostSwallowed, static_cast<int>(SwallowedPerEdge * width)))
+    , mostSwallowed_(std::max(
+        MostSwallowed, static_cast<int>(std::min(MostSwallowedAtAll, SwallowedPerEdge * width))))
   {
     const long shrink = options.mostShrink >= 0
       ? options.mostShrink

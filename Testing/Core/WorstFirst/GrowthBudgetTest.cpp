@@ -110,6 +110,9 @@ TEST(GrowthBudget, LetsMoreNodesVanishInAWideMesh)
   EXPECT_EQ(most(1.0), worstfirst::MostSwallowed);
   EXPECT_GT(most(50.0), 4 * worstfirst::MostSwallowed);
   EXPECT_NEAR(most(200.0), 4 * most(50.0), 2);
+  // Parts far from each other; lengths that overflow.
+  EXPECT_EQ(most(1e15), worstfirst::MostSwallowedAtAll);
+  EXPECT_EQ(most(std::numeric_limits<double>::quiet_NaN()), worstfirst::MostSwallowedAtAll);
 }
 
 TEST(GrowthBudget, LetsFewerNodesVanishInAPartWhenManyCellsAreGone)
