@@ -93,10 +93,12 @@ public:
   void demand(Proposal<D>& p) const { this->demand(p, p.oldWorst); }
   /// What a search for better places of nodes is to reach from the worst quality q. It may stop
   /// where anything above is not worth its cost, and ends where a step promises half of the least
-  /// gain.
+  /// gain. Where the surface takes part, flat elements have ways out of their own: there FlatScale
+  /// took longer on surfaces of needles, and they ended no higher.
   SearchGoal goal(double q, int steps = StarSteps) const
   {
-    return { this->enough(q), 0.5 * this->gain(q), steps };
+    return { this->enough(q), 0.5 * this->gain(q), steps,
+      this->slides() ? 0.0 : TrustRegion::Flat };
   }
   /// A search for better places of nodes may stop at this quality: anything above is not worth its
   /// cost.
@@ -128,8 +130,14 @@ public:
   bool looksAhead() const { return this->looksAhead_; }
   /// Switches wide insertions on (WideInsertion.h): the most nodes that may vanish in one. None:
   /// off.
-  void setWide(int mostSwallowed) { this->wide_ = mostSwallowed; }
+  /// `patiently`: many places are tried.
+  void setWide(int mostSwallowed, bool patiently = false)
+  {
+    this->wide_ = mostSwallowed;
+    this->widePatiently_ = patiently;
+  }
   int wide() const { return this->wide_; }
+  bool isWidePatient() const { return this->widePatiently_; }
   /// The least gain of a change, and how many steps the search for the best place of a node may
   /// take.
   void setGain(double gain, int steps = StarSteps)
@@ -314,6 +322,7 @@ private:
   bool guardsAll_ = false, stampsStars_ = true, isThorough_ = true;
   bool looksAhead_ = true;
   int wide_ = None; ///< see setWide()
+  bool widePatiently_ = false;
   std::uint32_t failuresSince_ = 0;
   long bad_ = 0; ///< badness() of all cells made, minus that of those removed
   bool tangled_ = false, inverted_ = false;

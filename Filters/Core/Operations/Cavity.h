@@ -35,6 +35,8 @@ struct CavityLimits
   /// Growth ends after a detour: that many cells, and as many as the best prefix has, without a
   /// better one.
   int detour = 12;
+  /// Growth also ends once a facet that cannot be opened makes an element of at most this quality.
+  double hopeless = -std::numeric_limits<double>::infinity();
 };
 
 template <int D, class Shape>
@@ -120,6 +122,7 @@ private:
   Vec<D> x_;
   int swallowed_ = 0;
   double oldWorst_ = 0.0;
+  double worstWall_ = 0.0; ///< of the elements on facets that cannot be opened
 };
 
 /// The quality of the element that joins facet i of cell c to the new node; `numbers` are those of
@@ -282,8 +285,13 @@ bool Cavity<D, Shape>::take(
     {
       ++this->points_[k].facets;
     }
-    this->heap_.push_back({ this->quality(model, mesh, c, i, numbers), c, i });
+    const double q = this->quality(model, mesh, c, i, numbers);
+    this->heap_.push_back({ q, c, i });
     std::push_heap(this->heap_.begin(), this->heap_.end());
+    if (q < this->worstWall_ && this->isWall(editor, c, i))
+    {
+      this->worstWall_ = q;
+    }
   }
   if (enclosesKeptEdge(mesh, c,
         [&](Index other) { return editor.owns(other) && editor.isMarked(other, this->mark_); }))
@@ -322,6 +330,7 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
   this->swallowed_ = 0;
   double best = -std::numeric_limits<double>::infinity();
   std::size_t bestSize = 0;
+  this->worstWall_ = std::numeric_limits<double>::infinity();
   bool more = this->take(editor, model, seed, limits.swallowed);
   while (more)
   {
@@ -345,7 +354,7 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
       bestSize = this->cells_.size();
     }
     // If the worst facet cannot be opened, no larger cavity can be better than the best so far.
-    if (this->isWall(editor, top.cell, top.facet) ||
+    if (this->isWall(editor, top.cell, top.facet) || this->worstWall_ <= limits.hopeless ||
       static_cast<int>(this->cells_.size()) >= limits.cells ||
       this->cells_.size() > 2 * bestSize + limits.detour)
     {

@@ -202,7 +202,7 @@ void NodeInsertion<D, Shape>::rank(Judge<D, Shape>& judge, Index t, Index p)
   {
     const double q = this->grow(judge, t, p, this->seeds_[k]);
     const double promise = q / std::max(this->cavity_.oldWorst(), tiny);
-    if (promise > (judge.isThorough() ? 0.0 : Promising))
+    if (q > this->limits_.hopeless && promise > (judge.isThorough() ? 0.0 : Promising))
     {
       this->ranking_.push_back({ -promise, k });
     }

@@ -32,10 +32,11 @@ public:
     this->mostCells_ = static_cast<int>(
       std::clamp<double>(CellsPerFace * side * side, FewestCells, MostCells));
     this->findCells(judge.editor(), t);
-    this->findSeeds(judge.mesh());
+    this->findSeeds(judge.mesh(), judge.isWidePatient() ? BestCellsPatiently : BestCells);
     CavityLimits limits;
     limits.cells = limits.detour = this->mostCells_;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
+    limits.hopeless = Hopeless * judge.mesh().quality(t);
     return !this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits);
   }
 
@@ -45,11 +46,15 @@ private:
   /// as long as the mesh is wide.
   static constexpr double CellsPerFace = 1.15, FewestCells = 400, MostCells = 10000;
   /// Cells that give seeds: BestCells of the first FirstCells around, and of each next group, which
-  /// has twice as many cells as all before it and FirstCells more.
-  static constexpr std::size_t BestCells = 2, FirstCells = 8;
+  /// has twice as many cells as all before it and FirstCells more. Most seeds are in vain: of the
+  /// places around a cell that was left as the worst of a mesh of random points, one in fifty.
+  static constexpr std::size_t BestCells = 2, BestCellsPatiently = 32, FirstCells = 8;
   /// Where the seeds of a cell lie on the way to it from the bad one. The nearer ones need smaller
   /// cavities, in which fewer nodes vanish.
   static constexpr double Parts[] = { 1.0, 0.5, 0.25 };
+  /// A seed is given up where what is kept holds it under this part of the cell's quality: such
+  /// seeds hardly ever gain when the node moves.
+  static constexpr double Hopeless = 0.3;
 
   /// The cells around cell t, the nearest first, as far as the chunk reaches.
   void findCells(MeshEditor<D>& editor, Index t)
@@ -74,7 +79,7 @@ private:
     }
   }
 
-  void findSeeds(const SimplexMesh<D>& mesh)
+  void findSeeds(const SimplexMesh<D>& mesh, std::size_t best)
   {
     this->seeds_.clear();
     const Vec<D> start = barycentre(mesh, this->cells_[0]);
@@ -82,7 +87,7 @@ private:
     {
       to = std::min(this->cells_.size(), 2 * from + FirstCells);
       const auto first = this->cells_.begin() + from;
-      const auto last = first + std::min(BestCells, to - from);
+      const auto last = first + std::min(best, to - from);
       std::partial_sort(first, last, this->cells_.begin() + to,
         [&](Index a, Index b)
         { return std::pair(-mesh.quality(a), a) < std::pair(-mesh.quality(b), b); });

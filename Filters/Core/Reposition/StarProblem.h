@@ -14,6 +14,7 @@
 #include "Quality/ElementQuality.h"
 #include "Quality/Evaluations.h"
 #include "Reposition/Directions.h"
+#include "Reposition/FlatScale.h"
 #include "Reposition/ProximalStep.h"
 #include "Reposition/TrustRegion.h"
 
@@ -130,7 +131,10 @@ public:
   double maximize(Vec<D>& x, const SearchGoal& goal)
   {
     Ascent ascent{ *this, x };
-    const double worst = ascend(ascent, this->evaluate(x), this->firstTau(x), goal);
+    const double start = this->evaluate(x);
+    this->isFlat_ = 0.0 < start && start < goal.flat;
+    const double tau = this->isFlat_ ? TrustRegion::FirstOfFlat : this->firstTau(x);
+    const double worst = ascend(ascent, start, tau, goal);
     // The last step may have been refused: values() are then those of its place.
     return ascent.isAtX ? worst : this->evaluate(x);
   }
@@ -151,7 +155,12 @@ private:
     void linearize(double worst) { this->star.linearize(this->x, worst); }
     double predict(double tau)
     {
-      return this->star.solver_.solve(this->star.active_, tau, this->step);
+      const double least = this->star.solver_.solve(this->star.active_, tau, this->step);
+      if (this->star.isFlat_)
+      {
+        this->star.scale_.unscale(this->step);
+      }
+      return least * this->star.unit_;
     }
     /// All values, not only until one is too low: after accept() they are needed.
     double tryStep(double /*required*/)
@@ -236,6 +245,29 @@ private:
       }
     }
     evaluationsOfThread += static_cast<std::int64_t>(this->active_.size());
+    this->unit_ = 1.0;
+    if (this->isFlat_)
+    {
+      this->flatten(worst);
+    }
+  }
+
+  /// From here on the active elements are measured by the worst, and steps by FlatScale.
+  void flatten(double worst)
+  {
+    this->unit_ = worst;
+    this->scale_.clear();
+    for (const auto& f : this->active_)
+    {
+      this->scale_.add(f.q, f.g);
+    }
+    this->scale_.close();
+    for (auto& f : this->active_)
+    {
+      f.q /= worst;
+      f.g /= worst;
+      this->scale_.scale(f.g);
+    }
   }
 
   /// Of the quality of element k, by the place of the node.
@@ -287,6 +319,9 @@ private:
   std::vector<double> values_;
   std::vector<typename ProximalStep<D>::Function> active_;
   ProximalStep<D> solver_;
+  bool isFlat_ = false; ///< steps are measured by scale_
+  FlatScale<D> scale_;
+  double unit_ = 1.0; ///< of the qualities in active_
 };
 }
 

@@ -19,6 +19,9 @@ struct TrustRegion
   static constexpr double Growth = 3.0, Shrinkage = 0.25; ///< of the trust
   /// Trust at the start, as a part of L^2: a unit gradient per length L moves a node by L / 10.
   static constexpr double FirstShare = 0.1;
+  /// The same by the steps of FlatScale: a cell alone moves its node as far as it doubles it.
+  static constexpr double FirstOfFlat = 1.0;
+  static constexpr double Flat = 0.01; ///< elements of a lower quality count as flat
 };
 
 /// The most steps of a search for one node, where nothing else is said: it converges long before.
@@ -28,9 +31,10 @@ inline constexpr int StarSteps = 20, ClusterSteps = 40;
 /// When a search for better places ends.
 struct SearchGoal
 {
-  double enough; ///< the worst quality is at least this
-  double gain;   ///< no step promises more than this
-  int steps;     ///< this number of steps has been made
+  double enough;     ///< the worst quality is at least this
+  double gain;       ///< no step promises more than this
+  int steps;         ///< this number of steps has been made
+  double flat = 0.0; ///< from worst qualities below this, and above 0, a node steps by FlatScale
 };
 
 /// Raises `worst` until the goal is reached; returns what is reached. The problem has

@@ -127,8 +127,8 @@ private:
   /// What polishing may spend until the worst quality has risen by ClearRise, relatively; then it
   /// may spend the same again. At least FewestPerRise, since in a small mesh one look-ahead takes
   /// 1e5.
-  static constexpr double PolishPerCell[] = { 18.0, 48.0, 48.0 };
-  static constexpr double PolishPerNode[] = { 700.0, 1800.0, 1800.0 };
+  static constexpr double PolishPerCell[] = { 12.0, 34.0, 34.0 };
+  static constexpr double PolishPerNode[] = { 500.0, 1250.0, 1250.0 };
   static_assert(std::size(PricePerLifted) == NumberOfEfforts &&
     std::size(WastePerCell) == NumberOfEfforts && std::size(WastePerNode) == NumberOfEfforts &&
     std::size(FewestWaste) == NumberOfEfforts && std::size(PolishPerCell) == NumberOfEfforts &&

@@ -161,9 +161,9 @@ void Pass<D, Shape>::instruct(const Task& task)
   const bool many = onTheWay && task.level > 0 && task.below > few;
   const bool wide = polishesOnTheWay && !workpiece.slides() && workpiece.isFarBelowBound();
   // Very bad cells get rid of nodes also where swaps have used up what may vanish.
-  const std::vector<PassRecord>& history = workpiece.run().report.history;
-  const double nodes = static_cast<double>(history.back().points) /
-    static_cast<double>(history.front().points);
+  // Counted anew for each drain of a pass: the one before may have taken all that may vanish.
+  const double nodes = static_cast<double>(workpiece.mesh().countPoints()) /
+    static_cast<double>(workpiece.run().report.history.front().points);
   Orders orders;
   orders.growth = this->budget_.share(task.phase, n, task.target > Stages[0] ? 0.0 : nodes);
   orders.guard = task.polishes() ? -1.0 : many ? task.target : Stages[0];

@@ -142,8 +142,8 @@ void Worker<D, Shape>::work()
     this->queue.pop();
     level = this->patientLevel(level);
     this->judge().setLooksAhead(this->mayLookAhead());
-    this->judge().setWide(
-      q > this->workpiece_.worst() ? this->orders_.wide : this->orders_.wideOfWorst);
+    const bool isWorst = !(q > this->workpiece_.worst());
+    this->judge().setWide(isWorst ? this->orders_.wideOfWorst : this->orders_.wide, isWorst);
     // The queue is not updated when a quality changes: an entry with another quality is out of
     // date. Cells without hope are skipped before they count as a try.
     if (!mesh.isAlive(c) || mesh.quality(c) != q ||

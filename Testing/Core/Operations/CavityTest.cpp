@@ -66,10 +66,13 @@ struct Bench
     this->p = this->editor.addPoint(Vec<D>::Zero());
   }
 
-  double grow(Index seed, const Vec<D>& x, int swallowed, int cells = 80)
+  double grow(Index seed, const Vec<D>& x, int swallowed, int cells = 80,
+    double hopeless = -std::numeric_limits<double>::infinity())
   {
+    CavityLimits limits{ cells, swallowed };
+    limits.hopeless = hopeless;
     this->editor.movePoint(this->p, x);
-    return this->cavity.grow(this->editor, this->model, seed, { this->p, x }, { cells, swallowed });
+    return this->cavity.grow(this->editor, this->model, seed, { this->p, x }, limits);
   }
 
   /// Worst new element for the cavity of these cells (bits).
@@ -295,6 +298,26 @@ TEST(Cavity3D, TakesNoMoreCellsThanAllowed)
     bench.check(0, q);
   }
   EXPECT_NEAR(before, bench.bestOfAll(0), 1e-12);
+}
+
+// The outer facets are walls. The facet of the first cell there is one at once.
+TEST(Cavity3D, EndsWhereAWallIsHopeless)
+{
+  Bench<3, MeanEdgeShape<3>> bench(doubleRing(5, 1), Measure::Shape);
+  const Vec<3> x(0.02, 0.01, 0.03);
+  const auto evaluationsOf = [&](double hopeless)
+  {
+    EvaluationCount count;
+    bench.grow(0, x, 1, 80, hopeless);
+    return count.get();
+  };
+  const double best = bench.grow(0, x, 1);
+  const std::vector<Index> cells = bench.cavity.cells();
+  EXPECT_EQ(bench.grow(0, x, 1, 80, 0.999 * best), best); // no wall is worse than the best cavity
+  EXPECT_EQ(bench.cavity.cells(), cells);
+  EXPECT_LE(bench.grow(0, x, 1, 80, 1.0), best);
+  EXPECT_EQ(bench.cavity.cells().size(), 1u);
+  EXPECT_LT(evaluationsOf(1.0), evaluationsOf(0.999 * best) / 2);
 }
 
 TEST(Cavity3D, StaysWithinWhatTheEditorOwns)

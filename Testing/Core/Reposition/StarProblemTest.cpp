@@ -14,6 +14,7 @@ struct Star
   std::vector<Vec<D>> points;
   std::vector<std::array<int, D>> facets;
   std::vector<double> weights;
+  double flatness = 1.0; ///< see press()
 
   Star(double jitter, unsigned seed)
   {
@@ -50,6 +51,16 @@ struct Star
     for (std::size_t k = 0; k < this->facets.size(); ++k) // every other star is weighed
     {
       this->weights.push_back(seed % 2 ? 1.0 : 2.0 + random());
+    }
+  }
+
+  /// Presses all flat in the last direction.
+  void press(double part)
+  {
+    this->flatness = part;
+    for (Vec<D>& x : this->points)
+    {
+      x[D - 1] *= part;
     }
   }
 
@@ -116,7 +127,7 @@ struct Star
         Vec<D> x = best;
         for (int d = 0; d < D; ++d)
         {
-          x[d] += radius * random();
+          x[d] += radius * random() * (d == D - 1 ? this->flatness : 1.0);
         }
         const double q = this->worst<Shape>(x);
         if (q > value)
@@ -238,6 +249,52 @@ TEST(StarProblem3D, FindsTheOptimum)
   findsTheOptimum<3, MeanEdgeShape<3>>();
   findsTheOptimum<3, VolumeLengthShape<3>>();
   nothingBetterOnAGrid<3, MeanEdgeShape<3>>();
+}
+
+/// How near to the best flat stars come, at worst, by steps of FlatScale or without.
+template <int D>
+double leastReached(double flatness, bool byFlatScale)
+{
+  double least = 1.0;
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    Star<D> star(0.25, seed);
+    star.press(flatness);
+    const double best = star.template search<MeanEdgeShape<D>>(seed);
+    EXPECT_LT(best, 0.1);
+    StarProblem<D, MeanEdgeShape<D>> problem;
+    star.load(problem, true);
+    TestRandom random(seed);
+    Vec<D> x;
+    do
+    {
+      for (int d = 0; d < D; ++d)
+      {
+        x[d] = 0.6 * random() * (d == D - 1 ? flatness : 1.0);
+      }
+    } while (!(problem.evaluate(x) > 0.0));
+    // A usual least gain. Without the last number FlatScale is off.
+    const SearchGoal goal = byFlatScale ? SearchGoal{ 2.0, 1e-3 * best, StarSteps, 1.0 }
+                                        : SearchGoal{ 2.0, 1e-3 * best, StarSteps };
+    least = std::min(least, problem.maximize(x, goal) / best);
+  }
+  return least;
+}
+
+template <int D>
+void findsTheOptimumOfFlatStars()
+{
+  for (const double flatness : { 1e-2, 1e-4, 1e-6 })
+  {
+    EXPECT_GT(leastReached<D>(flatness, true), 0.99) << flatness;
+  }
+  EXPECT_LT(leastReached<D>(1e-4, false), 0.9); // no step promises enough
+}
+
+TEST(StarProblem, FindsTheOptimumOfFlatStars)
+{
+  findsTheOptimumOfFlatStars<2>();
+  findsTheOptimumOfFlatStars<3>();
 }
 
 TEST(StarProblem, FastPathEqualsGenericPath)

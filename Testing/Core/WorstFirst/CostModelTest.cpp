@@ -106,14 +106,14 @@ TEST(CostModel, PolishingEndsUnlessTheWorstRises)
   for (CostModel* c : { &costs, &inside })
   {
     c->notePolish(1, 0.1); // the first worst is a rise over nothing
-    c->notePolish(400000, 0.102);
+    c->notePolish(300000, 0.102);
   }
-  EXPECT_NEAR(costs.leftForPolish(), 48.0 * 10000 - 400000, 1e-6);
-  EXPECT_NEAR(inside.leftForPolish(), costs.leftForPolish() + 1800.0 * 1000, 1e-6);
+  EXPECT_NEAR(costs.leftForPolish(), 34.0 * 10000 - 300000, 1e-6);
+  EXPECT_NEAR(inside.leftForPolish(), costs.leftForPolish() + 1250.0 * 1000, 1e-6);
   costs.notePolish(200000, 0.104);
   EXPECT_LT(costs.leftForPolish(), 0.0);
   costs.notePolish(1, 0.106); // 0.1 + 5 % is passed: it starts again
-  EXPECT_NEAR(costs.leftForPolish(), 48.0 * 10000, 1e-6);
+  EXPECT_NEAR(costs.leftForPolish(), 34.0 * 10000, 1e-6);
 }
 
 TEST(CostModel, ASmallMeshMayBePolishedForALookAheadOrTwo)

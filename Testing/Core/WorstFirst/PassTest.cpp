@@ -100,6 +100,29 @@ TYPED_TEST(PassOf, VeryBadCellsGetRidOfNodesAlthoughManyCellsAreGone)
   EXPECT_EQ(runPass(bench, Phase::Lifting, Stages[1], Level::Removal).tried[contraction], 0);
 }
 
+// What borders of chunks hold up is tried again in further drains. These may not remove as many
+// nodes once more.
+TEST(Pass3D, AllDrainsTogetherRemoveNoMoreNodesThanMayVanish)
+{
+  constexpr int Chunks = 2;
+  Options options = frozen(upTo(0.6));
+  options.removeNodes = true;
+  EngineBench<3> bench(jitteredGrid<3>(20, 0.45), options);
+  ASSERT_EQ(bench.mesh.numberOfCellSlots() / CellsPerChunk, Chunks);
+  bench.budget.takeBack(Phase::Lifting, 10 * bench.run.growth, false);
+  // As if most of the nodes that may vanish were gone.
+  const long before = bench.mesh.countPoints(), spare = 4;
+  const double least = 1.0 - ShrinkBudget;
+  long& first = bench.report.history.front().points;
+  first = static_cast<long>(static_cast<double>(before - spare) / least);
+  const PassResult result = runPass(bench, Phase::Lifting, Stages[0], Level::Removal);
+  constexpr auto contraction = static_cast<int>(meshopt::Operation::EdgeContraction);
+  EXPECT_GT(result.done[contraction], 0);
+  // Each chunk may go on until it has removed its share of cells, and one node more.
+  EXPECT_GE(
+    static_cast<double>(bench.mesh.countPoints()), least * static_cast<double>(first) - Chunks);
+}
+
 TEST(Pass2D, EachChangeIsCountedOnce)
 {
   EngineBench<2> bench(roughGrid<2>(), swapsOnly(0.6));

@@ -359,8 +359,7 @@ TEST(Worker, OrdersReachTheJudge)
   EXPECT_FALSE(judge.isThorough());
 }
 
-/// Each try on a regular grid costs evaluations and fails.
-TEST(Worker, MoreNodesMayVanishForTheWorstCell)
+TEST(Worker, ForTheWorstCellMoreNodesMayVanishAndMorePlacesAreTried)
 {
   Frozen bench;
   bench.orders.wide = 7;
@@ -373,9 +372,11 @@ TEST(Worker, MoreNodesMayVanishForTheWorstCell)
     bench.give({ cells[k] });
     bench.worker.work();
     EXPECT_EQ(bench.worker.judge().wide(), k == 0 ? 9 : 7);
+    EXPECT_EQ(bench.worker.judge().isWidePatient(), k == 0);
   }
 }
 
+/// Each try on a regular grid costs evaluations and fails.
 TEST(Worker, StopsWhenAllIsSpent)
 {
   for (const double most : { -1.0, 0.0, AnyCost })
