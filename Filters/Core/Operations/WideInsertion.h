@@ -46,8 +46,8 @@ private:
   /// as long as the mesh is wide.
   static constexpr double CellsPerFace = 1.15, FewestCells = 400, MostCells = 10000;
   /// Cells that give seeds: BestCells of the first FirstCells around, and of each next group, which
-  /// has twice as many cells as all before it and FirstCells more. Most seeds are in vain: of the
-  /// places around a cell that was left as the worst of a mesh of random points, one in fifty.
+  /// has twice as many cells as all before it and FirstCells more. Most seeds are in vain, so for
+  /// the worst cell of the mesh there are more, BestCellsPatiently.
   static constexpr std::size_t BestCells = 2, BestCellsPatiently = 32, FirstCells = 8;
   /// Where the seeds of a cell lie on the way to it from the bad one. The nearer ones need smaller
   /// cavities, in which fewer nodes vanish.

@@ -52,7 +52,6 @@ public:
   void unscale(Vec<D>& d) const { this->factors_.matrixU().solveInPlace(d); }
 
 private:
-  /// Of the squares of lengths, the shortest by the longest. Where no gradient points, and also
   /// Of the squares of lengths, the shortest by the longest: some digits above rounding. So steps
   /// have a length, too, where no gradient points.
   static constexpr double LeastPart = 1e-12;

@@ -300,7 +300,7 @@ TEST(Cavity3D, TakesNoMoreCellsThanAllowed)
   EXPECT_NEAR(before, bench.bestOfAll(0), 1e-12);
 }
 
-// The outer facets are walls. The facet of the first cell there is one at once.
+// The outer facets are walls, and the first cell has one.
 TEST(Cavity3D, EndsWhereAWallIsHopeless)
 {
   Bench<3, MeanEdgeShape<3>> bench(doubleRing(5, 1), Measure::Shape);
