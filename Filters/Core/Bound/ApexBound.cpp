@@ -64,6 +64,8 @@ constexpr double ViewErrors = 8.0, PairErrors = 100.0;
 /// While the level known to be reached is below this part of the forbidden one, false position
 /// knows too little of the curve: the level then falls by a factor.
 constexpr double FarBelow = 0.1, FallByFactor = 0.3;
+/// The width of levels, relative to the angle or to 1, that is tried first.
+constexpr double CoarseLevels = 1e-2;
 /// False position keeps this part of the interval away from both its ends. With less, an end that
 /// is almost right leaves the other one where it is; with more, good guesses are cut off.
 constexpr double LeastPart = 0.02;
@@ -389,8 +391,10 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
 }
 
 /// By how much three or more tetrahedra with a worst S of c or more exceed the angle of the wedge,
-/// at least: if it is above 0, there is no such filling. `width`: as for edgeCap().
-double excess(double c, const FacetWedge& wedge, double width)
+/// at least: if it is above 0, there is no such filling. `width`: as for edgeCap(). With `inner` the
+/// levels are taken from inside, where each tetrahedron is certainly good enough: what comes out is
+/// at least what any smaller width gives.
+double excess(double c, const FacetWedge& wedge, double width, bool inner = false)
 {
   const auto& [theta, first, last, spanned, slack] = wedge;
   // On the safe side: the views of the facets have this error.
@@ -400,17 +404,19 @@ double excess(double c, const FacetWedge& wedge, double width)
   {
     return -theta; // the best place is not known well enough
   }
+  const double in = inner ? width : 0.0;
   // There are k - 2 >= 1 tetrahedra between the first and the last. At most edges that are convex,
   // already one is too many.
-  const double low = lowestAngle(c, width);
-  const double byOne = l1 + l2 + low - theta - slack;
+  const double low = lowestAngle(c, width) + in;
+  const double byOne = l1 + l2 + 2.0 * in + low - theta - slack;
   if (byOne > 0.0)
   {
     return byOne;
   }
   // Fewer than `between` do not reach theta; if that many exceed it, all larger numbers do, too.
   const double u1 = first.highest(c, width), u2 = last.highest(c, width);
-  const double between = std::ceil((theta - slack - u1 - u2) / highestAngle(c, width));
+  const double between = std::ceil(
+    (theta - slack - u1 - u2 + 2.0 * in) / (highestAngle(c, width) - in));
   return byOne + std::max(0.0, between - 1.0) * low;
 }
 }
@@ -426,16 +432,26 @@ double edgeCap(double above, const FacetWedge& wedge, double tolerance, double w
   {
     return nothing;
   }
+  if (fillsSimply(above, theta, first, last))
+  {
+    return nothing;
+  }
   // Filling by two: V at the other facet is wrong by slack times the distance of the node, and S by
   // at most 1833 / 24 slack.
   const double pair = (pairCap(theta, first, last, tolerance, above) + PairErrors * slack) /
     (1.0 - ViewErrors * slack);
   double low = (1.0 + Rounding) * std::max({ 0.0, spanned, pair }), high = above;
-  if (low >= high || fillsSimply(high, theta, first, last))
+  if (low >= high)
   {
     return nothing;
   }
   const auto by = [&](double c) { return excess(c, wedge, width); };
+  // Most edges forbid nothing, and coarse levels prove it.
+  const double coarse = CoarseLevels * std::min(1.0, theta);
+  if (coarse > width && !(excess(high, wedge, coarse, true) > 0.0))
+  {
+    return nothing;
+  }
   double atLow = low > 0.0 ? by(low) : -theta;
   if (atLow > 0.0)
   {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace meshopt;
@@ -231,6 +232,30 @@ struct Wedge
       EdgeView(this->a, this->b, this->d, apex2), 1e-4);
   }
 };
+}
+
+TEST(EdgeBound, ForbidsAsMuchIfAskedJustAboveIt)
+{
+  // that coarse levels prove nothing there must not be taken for a proof that nothing is forbidden
+  TestRandom random(7);
+  const double exactly = std::numeric_limits<double>::infinity();
+  int found = 0;
+  for (int k = 0; k < 400; ++k)
+  {
+    const Wedge wedge(random);
+    Vec<3> apex1, apex2;
+    const double facets = std::min(facetCap(wedge.a, wedge.b, wedge.c, exactly, &apex1),
+      facetCap(wedge.a, wedge.b, wedge.d, exactly, &apex2));
+    const FacetWedge angle{ wedge.theta, EdgeView(wedge.a, wedge.b, wedge.c, apex1),
+      EdgeView(wedge.a, wedge.b, wedge.d, apex2), 0.0 };
+    const double cap = edgeCap(facets, angle);
+    if (cap < 0.99 * facets)
+    {
+      ++found;
+      EXPECT_NEAR(edgeCap(cap * (1.0 + 1e-5), angle) / cap, 1.0, 1e-5) << "angle " << wedge.theta;
+    }
+  }
+  EXPECT_GE(found, 20);
 }
 
 TEST(PairBound, WhatTwoTetrahedraHaveIsReached)
