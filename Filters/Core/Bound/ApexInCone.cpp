@@ -80,7 +80,7 @@ double ApexInCone::reach(double shape) const
     2.0, 1.0 + std::sqrt(2.0 * MeanEdgeShape<3>::constant * this->area_ / (81.0 * shape)));
 }
 
-ApexInCone::Best ApexInCone::best(const Cone& cone, double atLeast) const
+ApexInCone::Best ApexInCone::best(const Cone& cone, double atLeast, double enough) const
 {
   Tensor<3> ends;
   ends << cone[0], cone[1], cone[2];
@@ -116,7 +116,7 @@ ApexInCone::Best ApexInCone::best(const Cone& cone, double atLeast) const
       reached = scale * cubed(lambda);
       result.place = place;
     }
-    if (result.bound <= reached * (1.0 + Tolerance) || result.bound <= atLeast)
+    if (result.bound <= reached * (1.0 + Tolerance) || result.bound <= atLeast || reached >= enough)
     {
       break;
     }

@@ -35,12 +35,13 @@ public:
     Vec<3> place;       ///< a good apex, inside the cone, as its ends are
   };
   /// The greatest S (2.3) with an apex in the cone: a certified bound, rounded up by at most the
-  /// relative Tolerance unless it is below `atLeast` or hardly converges.
+  /// relative Tolerance unless it is below `atLeast`, a place with `enough` is found, or it hardly
+  /// converges.
   ///
   /// As in ApexBound.h, V^(1/3) - lambda P is concave. Its tangent plane at any place is above it,
   /// and greatest at a corner of the cone. The place is found by Newton steps from inside (a
   /// barrier at the faces).
-  Best best(const Cone& cone, double atLeast) const;
+  Best best(const Cone& cone, double atLeast, double enough) const;
   static constexpr double Tolerance = 2e-3;
 
   /// S with the apex at a place, relative as those of cones.

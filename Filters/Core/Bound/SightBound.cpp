@@ -98,11 +98,13 @@ struct Sight::Part
 class Sight::Search
 {
 public:
-  Search(const Sight& sight, std::size_t side, const ApexInCone& apex, double atLeast)
+  Search(
+    const Sight& sight, std::size_t side, const ApexInCone& apex, double atLeast, double enough)
     : sight_(sight)
     , side_(side)
     , apex_(apex)
     , atLeast_(atLeast)
+    , enough_(enough)
   {
   }
 
@@ -145,7 +147,7 @@ private:
       {
         continue;
       }
-      const ApexInCone::Best best = this->apex_.best(cone, this->atLeast_);
+      const ApexInCone::Best best = this->apex_.best(cone, this->atLeast_, this->enough_);
       if (best.bound > this->atLeast_)
       {
         this->parts_.push({ cone, best });
@@ -156,7 +158,7 @@ private:
   const Sight& sight_;
   std::size_t side_;
   const ApexInCone& apex_;
-  double atLeast_;
+  double atLeast_, enough_;
   std::priority_queue<Part> parts_;
 };
 
@@ -319,7 +321,7 @@ double Sight::cap(std::size_t side, double atLeast, double enough, long& steps) 
     {
       return enough;
     }
-    cap = std::min(cap, Search(*this, side, apex, atLeast).run(steps));
+    cap = std::min(cap, Search(*this, side, apex, atLeast, cap).run(steps));
     // Near the ends only what is known to be low already is looked at again.
     if (cap >= enough)
     {

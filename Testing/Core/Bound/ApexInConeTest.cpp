@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace meshopt;
@@ -15,6 +16,7 @@ namespace
 {
 using Triangle = std::array<Vec<3>, 3>;
 
+const double Exactly = std::numeric_limits<double>::infinity();
 const Vec<3> Middle = Vec<3>::Constant(1.0 / 3.0);
 
 /// A triangle in the plane z = 0, from regular to a needle.
@@ -42,7 +44,7 @@ TEST(ApexInCone, NoPlaceInTheConeIsBetter)
     {
       end = Vec<3>(u(random), u(random), std::fabs(u(random)) * std::pow(10.0, -2.0 * w(random)));
     }
-    const ApexInCone::Best best = apex.best(cone, 1e-12);
+    const ApexInCone::Best best = apex.best(cone, 1e-12, Exactly);
     // Corners and faces of the cone, too: there the best one often is.
     double tried = 0.0;
     for (int j = 0; j < 4000; ++j)
@@ -66,6 +68,10 @@ TEST(ApexInCone, NoPlaceInTheConeIsBetter)
     const double found = shapeOf(t, apex.from() + apex.unit() * best.place);
     EXPECT_NEAR(found, apex.shape(best.place), 1e-12);
     EXPECT_LE(best.bound, found * (1.0 + 2.0 * ApexInCone::Tolerance)) << k;
+    // Less is enough: a place with that, and still a bound.
+    const ApexInCone::Best half = apex.best(cone, 1e-12, 0.5 * found);
+    EXPECT_GE(apex.shape(half.place), 0.5 * found * (1.0 - 1e-12)) << k;
+    EXPECT_GE(half.bound * (1.0 + 1e-12), tried) << k;
   }
 }
 
@@ -83,7 +89,8 @@ TEST(ApexInCone, IsTheCapWhereTheConeHoldsTheBestPlace)
         return { 9.0 * std::cos(2.0 * i), 9.0 * std::sin(2.0 * i), 0.0 };
       };
       // Three cones around the normal; the last one is a little wider than it needs to be.
-      most = std::max(most, apex.best({ end(k), end(k + 1), Vec<3>(0, 0, 9.0) }, 1e-12).bound);
+      most = std::max(
+        most, apex.best({ end(k), end(k + 1), Vec<3>(0, 0, 9.0) }, 1e-12, Exactly).bound);
     }
     EXPECT_GE(most * (1.0 + 1e-12), cap);
     EXPECT_LE(most, cap * (1.0 + 2.0 * ApexInCone::Tolerance));
@@ -108,11 +115,11 @@ TEST(ApexInCone, DoesNotDependOnSizeAndPlace)
 {
   const Triangle t = triangle(0.1, 0.7);
   const Cone cone{ Vec<3>(1, 0, 0.1), Vec<3>(0, 1, 0.2), Vec<3>(-0.5, -0.5, 0.3) };
-  const double bound = ApexInCone(t, Middle).best(cone, 1e-12).bound;
+  const double bound = ApexInCone(t, Middle).best(cone, 1e-12, Exactly).bound;
   for (const double scale : { 1e-60, 1e-3, 1e60 })
   {
     const Triangle other{ scale * t[0], scale * t[1], scale * t[2] };
-    EXPECT_NEAR(ApexInCone(other, Middle).best(cone, 1e-12).bound, bound, 1e-9);
+    EXPECT_NEAR(ApexInCone(other, Middle).best(cone, 1e-12, Exactly).bound, bound, 1e-9);
   }
 }
 
@@ -127,6 +134,6 @@ TEST(ApexInCone, CollapsedFacetsAreNotUsable)
 TEST(ApexInCone, AConeInThePlaneOfTheFacetHoldsNothing)
 {
   const Cone cone{ Vec<3>(1, 0, 0), Vec<3>(0, 1, 0), Vec<3>(-1, 0, 0) };
-  EXPECT_EQ(ApexInCone(triangle(0.5, 0.5), Middle).best(cone, 1e-12).bound, 0.0);
+  EXPECT_EQ(ApexInCone(triangle(0.5, 0.5), Middle).best(cone, 1e-12, Exactly).bound, 0.0);
 }
 }
