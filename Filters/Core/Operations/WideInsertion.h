@@ -32,12 +32,25 @@ public:
     this->mostCells_ = static_cast<int>(
       std::clamp<double>(CellsPerFace * side * side, FewestCells, MostCells));
     this->findCells(judge.editor(), t);
-    this->findSeeds(judge.mesh(), judge.isWidePatient() ? BestCellsPatiently : BestCells);
     CavityLimits limits;
     limits.cells = limits.detour = this->mostCells_;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
     limits.hopeless = Hopeless * judge.mesh().quality(t);
-    return !this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits);
+    std::size_t from = 0;
+    for (std::size_t to : BestCells)
+    {
+      this->findSeeds(judge.mesh(), from, to);
+      if (!this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits))
+      {
+        return true;
+      }
+      if (!judge.isWidePatient())
+      {
+        break;
+      }
+      from = to;
+    }
+    return false;
   }
 
 private:
@@ -45,10 +58,11 @@ private:
   /// mesh were one, between FewestCells and MostCells. Flat cells can lie in tens of layers, and be
   /// as long as the mesh is wide.
   static constexpr double CellsPerFace = 1.15, FewestCells = 400, MostCells = 10000;
-  /// Cells that give seeds: BestCells of the first FirstCells around, and of each next group, which
-  /// has twice as many cells as all before it and FirstCells more. Most seeds are in vain, so for
-  /// the worst cell of the mesh there are more, BestCellsPatiently.
-  static constexpr std::size_t BestCells = 2, BestCellsPatiently = 32, FirstCells = 8;
+  /// Cells that give seeds: the best of the first FirstCells around, and of each next group, which
+  /// has twice as many cells as all before it and FirstCells more. At first the first of BestCells
+  /// of each; most seeds are in vain, so for the worst cell of the mesh more are tried if that does
+  /// not help, up to the next numbers.
+  static constexpr std::size_t BestCells[] = { 2, 8, 32 }, FirstCells = 8;
   /// Where the seeds of a cell lie on the way to it from the bad one. The nearer ones need smaller
   /// cavities, in which fewer nodes vanish.
   static constexpr double Parts[] = { 1.0, 0.5, 0.25 };
@@ -79,19 +93,20 @@ private:
     }
   }
 
-  void findSeeds(const SimplexMesh<D>& mesh, std::size_t best)
+  /// Seeds of the best cells of each group, but for `from` of them, up to `to`.
+  void findSeeds(const SimplexMesh<D>& mesh, std::size_t from, std::size_t to)
   {
     this->seeds_.clear();
     const Vec<D> start = barycentre(mesh, this->cells_[0]);
-    for (std::size_t from = 1, to = 0; from < this->cells_.size(); from = to)
+    for (std::size_t begin = 1, end = 0; begin < this->cells_.size(); begin = end)
     {
-      to = std::min(this->cells_.size(), 2 * from + FirstCells);
-      const auto first = this->cells_.begin() + from;
-      const auto last = first + std::min(best, to - from);
-      std::partial_sort(first, last, this->cells_.begin() + to,
+      end = std::min(this->cells_.size(), 2 * begin + FirstCells);
+      const auto first = this->cells_.begin() + begin;
+      const auto last = first + std::min(to, end - begin);
+      std::partial_sort(first, last, this->cells_.begin() + end,
         [&](Index a, Index b)
         { return std::pair(-mesh.quality(a), a) < std::pair(-mesh.quality(b), b); });
-      for (auto c = first; c != last; ++c)
+      for (auto c = first + std::min<std::ptrdiff_t>(from, last - first); c != last; ++c)
       {
         const Vec<D> x = barycentre(mesh, *c);
         for (double part : Parts)

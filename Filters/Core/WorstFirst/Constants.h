@@ -51,7 +51,7 @@ inline constexpr std::size_t MostBelowBound = 80;
 /// MostIdleCycles in a row without gain, and after PolishCycles in all, by effort.
 inline constexpr double WideGain = 0.02;
 inline constexpr int MostIdleCycles = 2;
-inline constexpr int PolishCycles[] = { 2, 8, 8 };
+inline constexpr int PolishCycles[] = { 4, 8, 8 };
 static_assert(std::size(PolishCycles) == NumberOfEfforts);
 /// Up to the target, polishing may spend 1 look-ahead per CellsPerLook cells in a run; in small
 /// meshes FewestLooks in all. Each takes as long as a pass over thousands of cells.

@@ -48,7 +48,8 @@ public:
   {
     this->cells_ = static_cast<double>(cells);
     this->freeNodes_ = static_cast<double>(freeNodes);
-    this->waste_ = std::max(FewestWaste[this->effort_],
+    const double share = std::min(1.0, LeastShare + SharePerNode * this->freeNodes_ / this->cells_);
+    this->waste_ = std::max(share * FewestWaste[this->effort_],
       WastePerCell[this->effort_] * this->cells_ + WastePerNode[this->effort_] * this->freeNodes_);
   }
   /// From now on anything may be spent: past the target.
@@ -119,16 +120,18 @@ private:
   // All found by trying, on Delaunay meshes of random points and surfaces of CGAL (hard.py): what
   // lowers the time most before the worst cells end lower. In evaluations, by effort.
   static constexpr double PricePerLifted[] = { 1500.0, 3000.0, 3000.0 };
-  static constexpr double WastePerCell[] = { 50.0, 100.0, 100.0 };
-  static constexpr double WastePerNode[] = { 1000.0, 2500.0, 2500.0 };
-  static constexpr double FewestWaste[] = { 4e5, 6e5, 6e5 }; ///< a small mesh is quick
-  static constexpr double WasteShare = 0.3;                  ///< of what is left, for one pass
-  static constexpr double FewestPerPass = 3.0;               ///< for each cell
+  static constexpr double WastePerCell[] = { 40.0, 100.0, 100.0 };
+  static constexpr double WastePerNode[] = { 800.0, 2500.0, 2500.0 };
+  /// A small mesh is quick. Where few nodes are inside, only a share of it: more would be in vain.
+  static constexpr double FewestWaste[] = { 2e5, 6e5, 6e5 };
+  static constexpr double LeastShare = 1.0 / 3.0, SharePerNode = 5.0; ///< nodes by cells
+  static constexpr double WasteShare = 0.3;    ///< of what is left, for one pass
+  static constexpr double FewestPerPass = 3.0; ///< for each cell
   /// What polishing may spend until the worst quality has risen by ClearRise, relatively; then it
   /// may spend the same again. At least FewestPerRise, since in a small mesh one look-ahead takes
   /// 1e5.
-  static constexpr double PolishPerCell[] = { 12.0, 34.0, 34.0 };
-  static constexpr double PolishPerNode[] = { 500.0, 1250.0, 1250.0 };
+  static constexpr double PolishPerCell[] = { 8.0, 34.0, 34.0 };
+  static constexpr double PolishPerNode[] = { 300.0, 1250.0, 1250.0 };
   static_assert(std::size(PricePerLifted) == NumberOfEfforts &&
     std::size(WastePerCell) == NumberOfEfforts && std::size(WastePerNode) == NumberOfEfforts &&
     std::size(FewestWaste) == NumberOfEfforts && std::size(PolishPerCell) == NumberOfEfforts &&

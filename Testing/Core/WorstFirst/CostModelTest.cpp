@@ -34,10 +34,19 @@ TEST(CostModel, EachPassMayDoALittleWhateverWasWasted)
 TEST(CostModel, ASmallMeshMayWasteAsMuchAsALargerOne)
 {
   CostModel small(Effort::Default), larger(Effort::Default);
-  small.open(10, 1);
-  larger.open(1000, 100);
+  small.open(10, 2);
+  larger.open(1000, 200);
   EXPECT_NEAR(small.leftForPass(), 0.3 * 6e5, 1e-6);
   EXPECT_EQ(small.leftForPass(), larger.leftForPass());
+}
+
+TEST(CostModel, ASmallMeshWithFewNodesInsideMayWasteLess)
+{
+  CostModel without(Effort::Default), some(Effort::Default);
+  without.open(1000, 0);
+  some.open(1000, 60);
+  EXPECT_NEAR(without.leftForPass(), 0.3 * 2e5, 1e-6);
+  EXPECT_NEAR(some.leftForPass(), 0.3 * (1.0 / 3.0 + 0.3) * 6e5, 1e-6);
 }
 
 TEST(CostModel, PastTheTargetNothingIsLimited)
