@@ -37,6 +37,8 @@ public:
 
   /// Tries the `bad` cells and adds a row to the history.
   PassResult run(const Task& task, const std::vector<Index>& bad);
+  /// Many places around the worst cell may be tried again, as if none had been tried in vain.
+  void forgetInVain() { this->inVain_ = { None, 0.0 }; }
 
 private:
   using Counts = std::array<long, NumberOfOperations>;
@@ -57,6 +59,7 @@ private:
   Tangle<D> tangle_;
   FailureMemory failures_;
   ChunkedPass<D, Worker<D, Shape>> chunks_;
+  Known inVain_{ None, 0.0 };
   int variant_ = 0;   ///< which of Shifts is next
   PassResult result_; ///< of this pass
 };
@@ -170,6 +173,7 @@ void Pass<D, Shape>::instruct(const Task& task)
   orders.guardsAll = workpiece.model().weights || many;
   orders.wide = wide ? this->budget_.mostSwallowed(nodes, WideShrink) : None;
   orders.wideOfWorst = wide ? this->budget_.mostSwallowed(nodes, WideShrinkOfWorst) : None;
+  orders.inVain = this->inVain_;
   orders.tries = onTheWay && task.level == Level::LookAhead ? few / n : any;
   orders.looks = polishesOnTheWay ? this->allowance_.looks(n) : any;
   orders.evaluations = this->allowance_.evaluations(task.phase) / n;
@@ -193,6 +197,7 @@ void Pass<D, Shape>::gather(const Task& task)
   {
     Worker<D, Shape>& w = this->chunks_.worker(k);
     const Tally& tally = w.tally();
+    this->inVain_ = tally.inVain.first != None ? tally.inVain : this->inVain_;
     Judge<D, Shape>& judge = w.judge();
     for (const Demand& demand : { w.usualDemand(), judge.demand() }) // more, if it creeps
     {

@@ -106,6 +106,9 @@ bool Polish<D, Shape>::run(double target, bool finely)
   const double leastGain = finely ? FineGain : workpiece.usualGain();
   const double reached = finely ? CapReachedFinely : CapReached;
   this->workpiece_.caps().setReached(reached);
+  // One such search takes as long as all else in a round. The rounds of one polish change little
+  // that it would see, the stages in between much.
+  this->pass_.forgetInVain();
   const bool past = finely || workpiece.isPast(target);
   bool more = true;
   std::vector<Entry> worst;

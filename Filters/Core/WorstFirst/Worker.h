@@ -8,21 +8,27 @@
 #include "Run/Improver.h"
 #include "WorstFirst/Allowance.h"
 
+#include <utility>
+
 namespace meshopt
 {
 namespace worstfirst
 {
+/// A cell, and its quality at some time. None: no cell.
+using Known = std::pair<Index, double>;
+
 /// What a chunk may do in a pass.
 struct Orders
 {
   Growth growth;
-  double guard;       ///< see Judge::setGuard()
-  bool guardsAll;     ///< the same
-  int wide;           ///< see Judge::setWide()
-  int wideOfWorst;    ///< the same for the worst cell
-  long tries;         ///< the most above the lowest level
-  long looks;         ///< the most look-aheads
-  double evaluations; ///< the most, beside those that it earns
+  double guard;              ///< see Judge::setGuard()
+  bool guardsAll;            ///< the same
+  int wide;                  ///< see Judge::setWide()
+  int wideOfWorst;           ///< the same for the worst cell
+  long tries;                ///< the most above the lowest level
+  long looks;                ///< the most look-aheads
+  double evaluations;        ///< the most, beside those that it earns
+  Known inVain{ None, 0.0 }; ///< for this cell many places were tried in vain
 };
 
 /// What a chunk has done in a pass.
@@ -32,6 +38,7 @@ struct Tally
   long accepted = 0, tries = 0; ///< changes; cells
   long lifted = 0;              ///< cells
   bool creeps = false;          ///< see Worker::watch()
+  Known inVain{ None, 0.0 };    ///< see Orders
 };
 
 /// Workers are kept from pass to pass. Several are at work at the same time: what they share, they
@@ -143,7 +150,9 @@ void Worker<D, Shape>::work()
     level = this->patientLevel(level);
     this->judge().setLooksAhead(this->mayLookAhead());
     const bool isWorst = !(q > this->workpiece_.worst());
-    this->judge().setWide(isWorst ? this->orders_.wideOfWorst : this->orders_.wide, isWorst);
+    const bool isPatient = isWorst && this->orders_.wideOfWorst != None &&
+      this->orders_.inVain != Known(c, q);
+    this->judge().setWide(isWorst ? this->orders_.wideOfWorst : this->orders_.wide, isPatient);
     // The queue is not updated when a quality changes: an entry with another quality is out of
     // date. Cells without hope are skipped before they count as a try.
     if (!mesh.isAlive(c) || mesh.quality(c) != q ||
@@ -162,6 +171,7 @@ void Worker<D, Shape>::work()
     {
       // A failure is remembered only if no border played a part in it: another pass may succeed.
       this->editor.setFailed(c, this->editor.clock(), rankOf(phase, level));
+      this->tally_.inVain = isPatient ? Known(c, q) : this->tally_.inVain;
     }
     else
     {

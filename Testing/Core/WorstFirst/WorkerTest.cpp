@@ -376,6 +376,30 @@ TEST(Worker, ForTheWorstCellMoreNodesMayVanishAndMorePlacesAreTried)
   }
 }
 
+TEST(Worker, WhatWasInVainForTheWorstCellIsNotTriedAgainWhileItStays)
+{
+  Frozen bench;
+  bench.orders.wide = bench.orders.wideOfWorst = 9;
+  const std::vector<Index> cells = bench.worst(2);
+  const auto isPatient = [&](Index c)
+  {
+    bench.begin(Phase::Polishing, 0.6, Level::Topology, 1);
+    bench.give({ c });
+    bench.worker.work();
+    return bench.worker.judge().isWidePatient();
+  };
+  const Known none(None, 0.0), failed(cells[0], bench.mesh.quality(cells[0]));
+  EXPECT_FALSE(isPatient(cells[1]));
+  EXPECT_EQ(bench.worker.tally().inVain, none);
+  EXPECT_TRUE(isPatient(cells[0]));
+  EXPECT_EQ(bench.worker.tally().inVain, failed);
+  bench.orders.inVain = failed;
+  EXPECT_FALSE(isPatient(cells[0]));
+  EXPECT_EQ(bench.worker.tally().inVain, none);
+  bench.orders.inVain.second *= 0.9; // it has become better since then
+  EXPECT_TRUE(isPatient(cells[0]));
+}
+
 /// Each try on a regular grid costs evaluations and fails.
 TEST(Worker, StopsWhenAllIsSpent)
 {
