@@ -392,8 +392,8 @@ bool fillsSimply(double c, double theta, const EdgeView& first, const EdgeView& 
 
 /// By how much three or more tetrahedra with a worst S of c or more exceed the angle of the wedge,
 /// at least: if it is above 0, there is no such filling. `width`: as for edgeCap(). With `inner`
-/// the levels are taken from inside, where each tetrahedron is certainly good enough: what comes
-/// out is at least what any smaller width gives.
+/// the levels are taken from inside, where each tetrahedron is good enough: but for the precision
+/// of the caps, what comes out is at least what any smaller width gives.
 double excess(double c, const FacetWedge& wedge, double width, bool inner = false)
 {
   const auto& [theta, first, last, spanned, slack] = wedge;
