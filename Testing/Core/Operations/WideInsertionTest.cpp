@@ -81,7 +81,7 @@ double bestWithOneNode()
   return Bench<D>(in).worst();
 }
 
-constexpr int Layers = 12;
+constexpr int Layers = 12, MostNodes = 30;
 }
 
 TYPED_TEST(InsertingFarAway, NodesOfLayersVanishTogether)
@@ -193,4 +193,57 @@ TYPED_TEST(InsertingFarAway, KeptNodesStay)
   wide.improve(b.judge, 0, Level::LongLookAhead);
   EXPECT_TRUE(b.mesh.isPointAlive(static_cast<Index>(in.points.size()) - 1));
   EXPECT_LT(b.worst(), 0.1 * bestWithOneNode<D>());
+}
+
+namespace
+{
+/// Evaluations of a search at the worst cell, and whether it helps.
+template <int D>
+std::pair<long, bool> search(const MeshInput<D>& in, bool patiently, bool removes, double gain)
+{
+  Bench<D> b(in);
+  b.switches.removeNodes = removes;
+  b.judge.setWide(MostNodes, patiently);
+  b.judge.setGain(gain);
+  b.judge.start();
+  Index worst = 0;
+  for (Index c = 1; c < b.mesh.numberOfCellSlots(); ++c)
+  {
+    worst = b.mesh.quality(c) < b.mesh.quality(worst) ? c : worst;
+  }
+  WideInsertion<D, MeanEdgeShape<D>> wide;
+  EvaluationCount count;
+  const bool helps = wide.improve(b.judge, worst, Level::LongLookAhead);
+  return { count.take(), helps };
+}
+}
+
+/// Nothing helps a good mesh in which all nodes stay. Three steps take up to 2, 8 and 32 cells of
+/// each group for seeds, and none of them twice.
+TYPED_TEST(InsertingFarAway, PatientlyManyPlacesAreTried)
+{
+  constexpr int D = TypeParam::dimension;
+  const MeshInput<D> in = jitteredGrid<D>(D == 3 ? 7 : 30, 0.0);
+  const auto [few, helped] = search<D>(in, false, false, 1e-3);
+  const auto [many, helpedPatiently] = search<D>(in, true, false, 1e-3);
+  EXPECT_FALSE(helped || helpedPatiently);
+  EXPECT_GT(many, 8 * few);
+  EXPECT_LE(many, 16 * few);
+}
+
+/// What the first step finds is the same. Some worst cells are helped by the places after it alone.
+TEST(InsertingFarAway3D, PatientlyMoreCellsAreHelped)
+{
+  int helped = 0, helpedPatiently = 0;
+  for (int seed = 0; seed < 20; ++seed)
+  {
+    const MeshInput<3> in = jitteredGrid<3>(5, 0.3, seed);
+    const auto [few, first] = search<3>(in, false, true, 1.0);
+    const auto [many, all] = search<3>(in, true, true, 1.0);
+    EXPECT_TRUE(all || !first);
+    EXPECT_TRUE(!first || many == few);
+    helped += first;
+    helpedPatiently += all;
+  }
+  EXPECT_GT(helpedPatiently, helped);
 }

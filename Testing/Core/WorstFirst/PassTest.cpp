@@ -323,3 +323,31 @@ TEST(PassInChunks, GrowthComesBackFromAllChunks)
   EXPECT_GE(lost, 0);
   EXPECT_LE(lost, 4); // there are four drains at most
 }
+
+// ---- what was in vain ---------------------------------------------------------------------------
+
+/// The many places around the worst cell of a good mesh in which all nodes stay.
+TYPED_TEST(PassOf, ManyPlacesInVainAreNotTriedAgainUntilForgotten)
+{
+  constexpr int D = TypeParam::dimension;
+  Options options = frozen(upTo(0.95));
+  options.insertNodes = true;
+  options.mostQuality = 0.99;
+  EngineBench<D> bench(jitteredGrid<D>(D == 3 ? 7 : 30, 1e-7), options);
+  const std::vector<Index> worst{ bench.cellsUnder(1.0).front() };
+  const auto evaluations = [&]
+  {
+    bench.editor.stamp(worst); // not left out as a cell that has failed
+    const PassResult result = bench.pass.run(
+      { Phase::Polishing, 0.95, 0.95, ThriftyGain, Level::LongLookAhead }, worst);
+    EXPECT_EQ(result.accepted, 0);
+    return result.evaluations;
+  };
+  const std::int64_t first = evaluations();
+  const std::int64_t second = evaluations();
+  EXPECT_GT(second, 0);
+  EXPECT_LT(4 * second, first);
+  EXPECT_EQ(evaluations(), second);
+  bench.pass.forgetInVain();
+  EXPECT_EQ(evaluations(), first);
+}

@@ -156,6 +156,27 @@ TYPED_TEST(PolishOf, PastTheTargetCellsAroundTheWorstAreTried)
   EXPECT_GT(beyond, 10);
 }
 
+/// The rounds of one polish do not repeat the search around the worst cell, the next polish does.
+TEST(Polish, BeginsAnewWithWhatWasInVain)
+{
+  Options options = boundBy(0.99, 0.95);
+  options.insertNodes = true;
+  EngineBench<3> bench(jitteredGrid<3>(7, 1e-7), options);
+  const MeshBits<3> bits = bitsOf(bench.mesh);
+  const std::vector<Index> all = bench.cellsUnder(1.0);
+  const auto evaluations = [&]
+  {
+    const std::int64_t before = bench.report.evaluations;
+    bench.editor.stamp(all);
+    EXPECT_TRUE(bench.polish.run(0.9, false));
+    EXPECT_EQ(bitsOf(bench.mesh), bits);
+    return bench.report.evaluations - before;
+  };
+  const std::int64_t first = evaluations();
+  EXPECT_GT(first, 0);
+  EXPECT_EQ(evaluations(), first);
+}
+
 // ---- caps ---------------------------------------------------------------------------------------
 
 /// If a cap holds the worst cell, the next ones are tried only if they are bad.
