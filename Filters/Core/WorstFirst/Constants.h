@@ -113,11 +113,12 @@ inline constexpr long Creeping = 5;
 /// Where many cells are bad, tries are counted in windows: 1 in CreepingPart of the cells that the
 /// pass was given, but at least CreepingTries. The pass creeps if fewer than 1 in CreepingLift of
 /// the tries in a window lift a cell above the target; in healthy meshes 1 in 2 or more do. It then
-/// requires CoarseGain, and ends after CreepingRounds rounds, by effort. Where the surface takes
-/// part, lifting comes later: with 1 in 5 there, dino ends at .21 instead of .30, and turbine at
-/// .48 instead of .51.
+/// requires CoarseGain, and ends after CreepingRounds rounds, by effort. With 1 in 5 fewer of the
+/// many bad cells of random points are lifted, but a quick run is to end sooner: with 1 in 10 it
+/// leaves the worst cell of a lattice at a quarter of its bound. Where the surface takes part,
+/// lifting comes later, also in a quick run.
 inline constexpr long CreepingPart = 2, CreepingTries = 100;
-inline constexpr long CreepingLift = 5, CreepingLiftOfSliding = 10;
+inline constexpr long CreepingLift = 10, CreepingLiftOfQuick = 5;
 inline constexpr int CreepingRounds[] = { 0, 8, 8 };
 static_assert(std::size(CreepingRounds) == NumberOfEfforts);
 /// A run that creeps gives up the many if they are more than the fraction ManyStuck of the cells,

@@ -155,13 +155,8 @@ void Pass<D, Shape>::instruct(const Task& task)
   constexpr long any = std::numeric_limits<long>::max();
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
   const int n = this->chunks_.size();
-  const long few = workpiece.fewCells();
   const bool onTheWay = !task.polishes() && !(task.target > workpiece.options().targetQuality);
   const bool polishesOnTheWay = task.polishes() && !workpiece.isPast(task.aim);
-  // Where many cells are stuck, it does not pay to lift one of them by making others bad: all
-  // changes are then guarded at the target. Otherwise the guard only keeps cells from falling below
-  // the first stage.
-  const bool many = onTheWay && task.level > 0 && task.below > few;
   const bool wide = polishesOnTheWay && !workpiece.slides() && workpiece.isFarBelowBound();
   // Very bad cells get rid of nodes also where swaps have used up what may vanish.
   // Counted anew for each drain of a pass: the one before may have taken all that may vanish.
@@ -169,12 +164,13 @@ void Pass<D, Shape>::instruct(const Task& task)
     static_cast<double>(workpiece.run().report.history.front().points);
   Orders orders;
   orders.growth = this->budget_.share(task.phase, n, task.target > Stages[0] ? 0.0 : nodes);
-  orders.guard = task.polishes() ? -1.0 : many ? task.target : Stages[0];
-  orders.guardsAll = workpiece.model().weights || many;
+  // It keeps cells from falling below the first stage.
+  orders.guard = task.polishes() ? -1.0 : Stages[0];
+  orders.guardsAll = workpiece.model().weights;
   orders.wide = wide ? this->budget_.mostSwallowed(nodes, WideShrink) : None;
   orders.wideOfWorst = wide ? this->budget_.mostSwallowed(nodes, WideShrinkOfWorst) : None;
   orders.inVain = this->inVain_;
-  orders.tries = onTheWay && task.level == Level::LookAhead ? few / n : any;
+  orders.tries = onTheWay && task.level == Level::LookAhead ? workpiece.fewCells() / n : any;
   orders.looks = polishesOnTheWay ? this->allowance_.looks(n) : any;
   orders.evaluations = this->allowance_.evaluations(task.phase) / n;
   for (int k = 0; k < n; ++k)

@@ -297,7 +297,8 @@ void Worker<D, Shape>::watch()
   const long window = std::max(CreepingTries, this->given / CreepingPart);
   if (tally.tries % window == 0 && this->task_->below > this->workpiece_.fewCells() && isPlain)
   {
-    const long lift = this->workpiece_.slides() ? CreepingLiftOfSliding : CreepingLift;
+    const bool isQuick = this->workpiece_.effort() == Effort::Quick && !this->workpiece_.slides();
+    const long lift = isQuick ? CreepingLiftOfQuick : CreepingLift;
     tally.creeps = tally.creeps || (tally.lifted - this->liftedBefore_) * lift < window;
     this->liftedBefore_ = tally.lifted;
   }
