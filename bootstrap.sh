@@ -21,7 +21,7 @@ packages=(
   paraview-dev python3-paraview python3-dev libtet1.5-dev
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev liblzma-dev liblz4-dev
   xvfb libgl1-mesa-dri)
-test_packages=(libgtest-dev python3-meshio python3-tqdm python3-venv libglew-dev libfreetype-dev)
+test_packages=(libgtest-dev libbenchmark-dev python3-meshio python3-tqdm python3-venv libglew-dev libfreetype-dev)
 
 usage() { sed -n '3,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
