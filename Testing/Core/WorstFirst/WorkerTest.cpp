@@ -339,7 +339,7 @@ MeshInput<2> rhombiAndTriangles(long rhombi, long triangles)
   return in;
 }
 
-/// Of a window of tries 1 in CreepingLift must lift a cell; in a quick run with a kept surface more.
+/// Of a window of tries 1 in CreepingLift must lift a cell; if quick, with a kept surface, more.
 TEST(Worker, AQuickRunCreepsSooner)
 {
   constexpr long Tries = CreepingTries;
