@@ -8,6 +8,7 @@
 #include "Mesh/CavityFit.h"
 #include "Operations/EdgeContraction.h"
 #include "Operations/EdgeSplit.h"
+#include "StillSurface.h"
 #include "TestMeshes.h"
 
 #include <functional>
@@ -17,7 +18,7 @@ namespace meshopt
 {
 /// Lets everything be done, and writes down what it is asked.
 template <int D>
-class Recorder final : public Surface<D>
+class Recorder final : public StillSurface<D>
 {
 public:
   struct Angle
@@ -33,17 +34,6 @@ public:
   std::set<std::array<Index, 2>> offCurves; ///< edges that have no span
   std::function<std::uint32_t(Index)> setsOf = [](Index) { return 0u; };
 
-  Vec<D> at(Index, double) const override { return Vec<D>::Zero(); }
-  Place project(const Place& place, const Vec<D>& x, Vec<D>& there) const override
-  {
-    there = x;
-    return place;
-  }
-  int tangents(
-    const SimplexMesh<D>&, const std::vector<Index>&, Index, std::array<Vec<D>, D>&) const override
-  {
-    return 0;
-  }
   /// The span of an edge has its ids for parameters: so a test knows it again.
   std::optional<Span> span(const SimplexMesh<D>&, Index a, Index b) const override
   {
@@ -51,11 +41,6 @@ public:
     return this->offCurves.count(edge) > 0
       ? std::nullopt
       : std::optional<Span>(Span{ 0, double(edge[0]), double(edge[1]) });
-  }
-  std::optional<SlidingRange> range(
-    const SimplexMesh<D>&, const std::vector<Index>&, Index) const override
-  {
-    return std::nullopt;
   }
   bool mayDivide(const SimplexMesh<D>&, const std::vector<Index>&, Index, Index) const override
   {
