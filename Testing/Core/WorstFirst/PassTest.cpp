@@ -207,6 +207,37 @@ TEST(Pass3D, WithWeightsNoCellIsLiftedByMakingOthersBad)
   EXPECT_GT(worse, 0); // without that guard some would be
 }
 
+/// Where the surface takes part, and many cells are said to be bad, all changes are guarded at the
+/// target.
+TEST(Pass3D, WhereTheSurfaceSlidesNoneOfManyIsLiftedByMakingOthersBad)
+{
+  constexpr double target = 0.6;
+  Options options = frozen(upTo(target));
+  options.reconnect = true;
+  const StillSurface<3> judging(true);
+  const MeshInput<3> in = roughGrid<3>();
+  const std::vector<Index> bad = EngineBench<3>(in, options).cellsUnder(target);
+  const auto tryEach = [&](const StillSurface<3>* surface, bool many)
+  {
+    std::array<int, 2> counts{}; // lifted, and worse than before
+    for (std::size_t k = 0; k < std::min<std::size_t>(bad.size(), 60); ++k)
+    {
+      EngineBench<3> bench(in, options, surface);
+      const int before = badness(bench, target);
+      Task task{ Phase::Lifting, target, target, 1e-3, Level::Removal };
+      task.below = bench.workpiece.fewCells() + many;
+      counts[0] += bench.pass.run(task, { bad[k] }).accepted > 0;
+      counts[1] += badness(bench, target) > before;
+    }
+    return counts;
+  };
+  const auto guarded = tryEach(&judging, true);
+  EXPECT_GT(guarded[0], 5);
+  EXPECT_EQ(guarded[1], 0);
+  EXPECT_GT(tryEach(&judging, false)[1], 0);
+  EXPECT_GT(tryEach(nullptr, true)[1], 0);
+}
+
 /// Where nothing helps any more: a failed cell is tried again with more effort only, or if one of
 /// its nodes has been stamped since.
 TEST(Pass2D, FailedCellsAreTriedAgainOnlyIfSomethingHasChanged)
