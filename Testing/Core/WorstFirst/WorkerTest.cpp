@@ -319,54 +319,6 @@ TEST(Worker, CreepsIfManyTriesLiftFew)
   EXPECT_FALSE(creeps(Phase::Polishing, 15, 1, 21));
 }
 
-/// Flat rhombi that a swap lifts, and flat triangles that stay.
-MeshInput<2> rhombiAndTriangles(long rhombi, long triangles)
-{
-  MeshInput<2> in;
-  for (long k = 0; k < rhombi + triangles; ++k)
-  {
-    const auto first = static_cast<Index>(in.points.size());
-    for (const Vec<2>& x : { Vec<2>(-1, 0), Vec<2>(1, 0), Vec<2>(0, 0.3), Vec<2>(0, -0.3) })
-    {
-      in.points.push_back(x + Vec<2>(3.0 * static_cast<double>(k), 0.0));
-    }
-    in.cells.push_back({ first, first + 1, first + 2 });
-    if (k < rhombi)
-    {
-      in.cells.push_back({ first + 1, first, first + 3 });
-    }
-  }
-  return in;
-}
-
-/// Of a window of tries 1 in CreepingLift must lift a cell; if quick, with a kept surface, more.
-TEST(Worker, AQuickRunCreepsSooner)
-{
-  constexpr long Tries = CreepingTries;
-  const StillSurface<2> judging(true);
-  const auto creeps = [&](long lifted, Effort effort, const StillSurface<2>* surface = nullptr)
-  {
-    Options options = frozen(upTo(0.6, effort));
-    options.reconnect = true;
-    WorkerBench<2> bench(rhombiAndTriangles(lifted, Tries - lifted), options, surface);
-    bench.begin(Phase::Lifting, 0.6, Level::Topology, 1000);
-    bench.give(bench.worst(Tries + lifted));
-    bench.worker.work();
-    EXPECT_EQ(bench.worker.tally().tries, Tries);
-    EXPECT_EQ(bench.worker.tally().lifted, lifted);
-    return bench.worker.tally().creeps;
-  };
-  for (const Effort effort : { Effort::Default, Effort::Best })
-  {
-    EXPECT_TRUE(creeps(Tries / CreepingLift - 2, effort));
-    EXPECT_FALSE(creeps(Tries / CreepingLift + 1, effort));
-  }
-  EXPECT_TRUE(creeps(Tries / CreepingLift + 1, Effort::Quick));
-  EXPECT_TRUE(creeps(Tries / CreepingLiftOfQuick - 2, Effort::Quick));
-  EXPECT_FALSE(creeps(Tries / CreepingLiftOfQuick + 1, Effort::Quick));
-  EXPECT_FALSE(creeps(Tries / CreepingLift + 1, Effort::Quick, &judging));
-}
-
 /// After many tries for each cell nodes only creep: changes must gain more then.
 TEST(Worker, DemandsMoreAfterManyTries)
 {
