@@ -35,7 +35,7 @@ public:
   /// number in a metric, and where the surface takes part.
   double evaluations(Phase phase) const
   {
-    if (!this->workpiece_.model().plain || this->workpiece_.slides())
+    if (!this->workpiece_.isKeptAndPlain())
     {
       return std::numeric_limits<double>::infinity();
     }
@@ -64,7 +64,7 @@ public:
   /// fewer are stuck for good.
   bool isThrifty(const Task& task) const
   {
-    return !task.polishes() && this->workpiece_.model().plain && !this->workpiece_.slides() &&
+    return !task.polishes() && this->workpiece_.isKeptAndPlain() &&
       !this->workpiece_.isPast(task.target) && task.below > this->workpiece_.fewCells();
   }
   /// How many tries of an operation a pass makes before it asks whether they help, if `usual` is

@@ -161,8 +161,8 @@ void Pass<D, Shape>::instruct(const Task& task)
   // making others bad: all changes are then guarded at the target. Otherwise the guard only keeps
   // cells from falling below the first stage: with the other rule, kept surfaces of random points
   // end with up to two thirds more cells under .2.
-  const bool many = (workpiece.slides() || !workpiece.model().plain) && onTheWay &&
-    task.level > 0 && task.below > workpiece.fewCells();
+  const bool many = !workpiece.isKeptAndPlain() && onTheWay && task.level > 0 &&
+    task.below > workpiece.fewCells();
   const bool wide = polishesOnTheWay && !workpiece.slides() && workpiece.isFarBelowBound();
   // Very bad cells get rid of nodes also where swaps have used up what may vanish.
   // Counted anew for each drain of a pass: the one before may have taken all that may vanish.

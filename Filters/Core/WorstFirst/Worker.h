@@ -248,7 +248,7 @@ int Worker<D, Shape>::patientLevel(int level)
   const auto op = static_cast<int>(inserts ? Operation::NodeInsertion : Operation::LookAhead);
   const long tries = judge.tried[op] * (isPlain ? 1 : Hurry);
   // Where the surface takes part, or in a metric, others of the same level help more often.
-  const bool others = this->workpiece_.slides() || !isPlain;
+  const bool others = !this->workpiece_.isKeptAndPlain();
   const long helped = others ? this->tally_.accepted : judge.gained[op];
   const bool isFirst = !(task.target > Stages[0]) && !this->tally_.creeps;
   const bool patiently = others || task.below <= this->workpiece_.fewCells();

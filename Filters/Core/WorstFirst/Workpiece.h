@@ -71,6 +71,9 @@ public:
   // --- the mesh
   /// Whether the surface of tetrahedra takes part: see Judge::slides().
   bool slides() const { return this->run_.surface && this->run_.surface->judgesChanges(); }
+  /// Whether the surface is kept, and lengths are not those of a metric. Elsewhere a change costs
+  /// more, and fewer cells are stuck for good: there other rules hold.
+  bool isKeptAndPlain() const { return this->model_.plain && !this->slides(); }
   /// The least gain of a change, in general.
   double usualGain() const { return this->model_.plain ? Gain : CoarseGain; }
   /// How many cells count as few: see FewCells.
