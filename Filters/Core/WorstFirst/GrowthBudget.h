@@ -41,8 +41,8 @@ public:
 
   /// What each of n chunks may use. The shares are fixed before the pass: a chunk must not depend
   /// on what others use up meanwhile. `nodes`: the part of the input's nodes that is left, where
-  /// these count, too. Then nodes may vanish until ShrinkBudget of them is gone, although swaps,
-  /// which remove no node, have removed as many cells.
+  /// these count, too. Then nodes may vanish until ShrinkBudget of them is gone (after openNodes()
+  /// WideShrink times that), although swaps, which remove no node, have removed as many cells.
   Growth share(Phase phase, int n, double nodes = 0.0) const
   {
     const long reserve = this->reserveIn(phase);
@@ -52,7 +52,7 @@ public:
                                            : (this->most_ - reserve) / n;
     if (this->countsNodes_)
     {
-      const double spare = (nodes - (1.0 - ShrinkBudget)) * this->cells_;
+      const double spare = (nodes - (1.0 - this->mayVanish_)) * this->cells_;
       share.most = std::max(share.most, share.left + static_cast<long>(spare) / n);
     }
     return share;
@@ -67,6 +67,8 @@ public:
 
   /// From now on passes that lift may use the reserve, too.
   void openReserve() { this->reserve_ = 0; }
+  /// From now on as many nodes may vanish in passes that lift as in wide insertions.
+  void openNodes() { this->mayVanish_ = WideShrink * ShrinkBudget; }
   /// The most nodes that may vanish in one wide insertion. `nodes`: the part of the input's nodes
   /// that is left. `shrink`: WideShrink or WideShrinkOfWorst.
   int mostSwallowed(double nodes, long shrink) const
@@ -91,9 +93,10 @@ private:
   long allowed_;         ///< left_ at the start
   long reserve_;         ///< part of the growth reserved for polishing
   double cells_;         ///< at the start
-  int mostSwallowed_;    ///< in one wide insertion
-  bool countsNodes_;     ///< not in a part of a mesh, whose caller counts cells
-  bool isShort_ = false; ///< a change was left out for lack of growth
+  double mayVanish_ = ShrinkBudget; ///< part of the nodes
+  int mostSwallowed_;               ///< in one wide insertion
+  bool countsNodes_;                ///< not in a part of a mesh, whose caller counts cells
+  bool isShort_ = false;            ///< a change was left out for lack of growth
 };
 }
 }

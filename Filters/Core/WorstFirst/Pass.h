@@ -164,12 +164,14 @@ void Pass<D, Shape>::instruct(const Task& task)
   const bool many = !workpiece.isKeptAndPlain() && onTheWay && task.level > 0 &&
     task.below > workpiece.fewCells();
   const bool wide = polishesOnTheWay && !workpiece.slides() && workpiece.isFarBelowBound();
-  // Very bad cells get rid of nodes also where swaps have used up what may vanish.
+  // Nodes may vanish also where swaps have used up what may. Where the surface takes part, or in a
+  // metric, only at very bad cells.
   // Counted anew for each drain of a pass: the one before may have taken all that may vanish.
   const double nodes = static_cast<double>(workpiece.mesh().countPoints()) /
     static_cast<double>(workpiece.run().report.history.front().points);
   Orders orders;
-  orders.growth = this->budget_.share(task.phase, n, task.target > Stages[0] ? 0.0 : nodes);
+  const bool countsNodes = workpiece.isKeptAndPlain() || !(task.target > Stages[0]);
+  orders.growth = this->budget_.share(task.phase, n, countsNodes ? nodes : 0.0);
   orders.guard = task.polishes() ? -1.0 : many ? task.target : Stages[0];
   orders.guardsAll = workpiece.model().weights || many;
   orders.wide = wide ? this->budget_.mostSwallowed(nodes, WideShrink) : None;

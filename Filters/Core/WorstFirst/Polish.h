@@ -78,6 +78,10 @@ bool Polish<D, Shape>::runAndRepair(double target, bool isLast)
     if (isFinal && !again)
     {
       this->budget_.openReserve();
+      if (workpiece.isKeptAndPlain())
+      {
+        this->budget_.openNodes(); // the worst cells have had their share
+      }
     }
     const bool many = !workpiece.slides() &&
       workpiece.run().report.history.back().belowTarget > workpiece.fewCells();

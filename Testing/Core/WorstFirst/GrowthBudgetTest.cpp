@@ -61,6 +61,19 @@ TEST(GrowthBudget, CountsNodesWhereAsked)
   EXPECT_FALSE(b.share(Phase::Lifting, 2, 0.95).mayShrink());
 }
 
+TEST(GrowthBudget, AtTheEndMoreNodesMayVanish)
+{
+  // As above, and as many nodes as may usually vanish are gone, too.
+  GrowthBudget b = budget();
+  b.takeBack(Phase::Lifting, Allowed + static_cast<long>(worstfirst::ShrinkBudget * Cells), false);
+  const double nodes = 1.0 - worstfirst::ShrinkBudget;
+  EXPECT_FALSE(b.share(Phase::Lifting, 1, nodes).mayShrink());
+  b.openNodes();
+  EXPECT_TRUE(b.share(Phase::Lifting, 1, nodes).mayShrink());
+  const double few = 1.0 - Usual * worstfirst::ShrinkBudget;
+  EXPECT_FALSE(b.share(Phase::Lifting, 1, few).mayShrink());
+}
+
 TEST(GrowthBudget, TakesBackWhatIsLeft)
 {
   GrowthBudget b = budget();
