@@ -282,9 +282,10 @@ public:
    * How much WorstFirst may increase the number of cells, as a fraction of the input's. Unless it
    * is 0, at least 30 tetrahedra or 10 triangles may be added. Range >= 0, default 0.15. A mesh
    * with hardly any interior nodes may need 1: if the budget stops it, the stop reason is
-   * GrowthLimit. No more nodes are removed once 12 % of the cells and of the nodes are gone (24 %
-   * of the nodes at the end of a run, and unless sizes are followed), except around the few worst
-   * cells. Where the surface slides, or in a metric, cells alone count, except at those below 0.3.
+   * GrowthLimit. Unless sizes are followed, no more nodes are removed once 12 % of the cells and
+   * 12 % of the nodes are gone (at the end of a run 24 % of the nodes), except around the few worst
+   * cells. Where the surface slides, or in a metric, nodes count only at cells below 0.3, and never
+   * more than 12 %.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);

@@ -82,9 +82,9 @@ inline constexpr long PatientLooksOfSliding = 20;
 /// For insertion, patience is checked only after 1 in PatientPart of the bad cells has been tried:
 /// the worst cells come first, and these are the most stuck.
 inline constexpr long PatientPart = 5;
-/// Stop removing nodes once this fraction of the cells and of the nodes is gone (unless sizes are
-/// followed): swaps alone can remove that many cells. Where the surface takes part, or in a metric,
-/// once this fraction of the cells is gone, except at very bad ones.
+/// Stop removing nodes once this fraction of the cells and this fraction of the nodes is gone
+/// (unless sizes are followed): swaps alone can remove that many cells. Where the surface takes
+/// part, or in a metric, nodes count only at very bad cells. See also GrowthBudget::openNodes().
 inline constexpr double ShrinkBudget = 0.12;
 /// The most nodes that may vanish in one wide insertion: SwallowedPerEdge for each mean edge that
 /// the mesh is wide, since needles of the surface can be as long as that, but at least

@@ -239,6 +239,22 @@ TEST(Polish, WhatPolishingMakesWorseIsLifted)
   }
 }
 
+/// Then more nodes may vanish than before, where the surface is kept.
+TEST(Polish, AtTheEndMoreNodesMayVanish)
+{
+  const StillSurface<2> judging(true);
+  const auto mayVanish = [](bool isLast, const StillSurface<2>* surface)
+  {
+    EngineBench<2> bench(jitteredGrid<2>(14, 0.25), boundBy(1.0, 0.7), surface);
+    EXPECT_TRUE(bench.polish.runAndRepair(0.62, isLast));
+    bench.budget.takeBack(Phase::Lifting, 10 * bench.run.growth, false); // many cells are gone
+    return bench.budget.share(Phase::Lifting, 1, 1.0 - 1.5 * ShrinkBudget).mayShrink();
+  };
+  EXPECT_FALSE(mayVanish(false, nullptr));
+  EXPECT_TRUE(mayVanish(true, nullptr));
+  EXPECT_FALSE(mayVanish(true, &judging));
+}
+
 TYPED_TEST(PolishOf, TheWorstCellRises)
 {
   constexpr int D = TypeParam::dimension;
