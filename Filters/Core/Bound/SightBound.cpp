@@ -20,7 +20,9 @@ namespace
 /// Most sides that are looked at: those with the worst cells.
 constexpr std::size_t MostSides = 1000;
 /// Of stepsInSight(). A step takes some 20 us: the most make less than half a second.
-constexpr long FewestSightSteps = 2000, MostSightSteps = 20000, CellsPerStep = 20;
+constexpr long FewestSightSteps = 500, UsualSightSteps = 2000, MostSightSteps = 20000;
+/// How many cells bring one step more: in a small mesh, and where the usual steps are used up.
+constexpr long CellsPerFirstStep = 2, CellsPerStep = 20;
 
 /// From where a facet is looked at: the weights of its corners. From the middle most is seen; what
 /// lies near its ends is in the way of places near these only.
@@ -366,6 +368,7 @@ double boundInSight(
 
 long stepsInSight(long cells)
 {
-  return std::min(FewestSightSteps + cells / CellsPerStep, MostSightSteps);
+  return std::min({ std::max(FewestSightSteps, cells / CellsPerFirstStep),
+    UsualSightSteps + cells / CellsPerStep, MostSightSteps });
 }
 }

@@ -56,7 +56,7 @@ private:
 double boundInSight(
   const Vec<3>* points, const std::vector<KeptSide<3>>& sides, double bound, long steps);
 
-/// The number of steps that a search may take in a mesh of so many cells, 2000 to 20000: some
+/// The number of steps that a search may take in a mesh of so many cells, 500 to 20000: some
 /// hundredths of the time of a run that gets stuck, which is when it is worth while.
 long stepsInSight(long cells);
 }

@@ -2,6 +2,8 @@
 // Lengths of edges in the wanted sizes, and how many of them are near 1.
 #include "Metric/EdgeLengths.h"
 
+#include "Base/SortUnique.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,8 +69,7 @@ EdgeLengths measureEdges(const SimplexMesh<D>& mesh, const NodalMetric<D>& metri
     }
   }
   // Each edge counts once, though all cells around it have it.
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sortUnique(edges);
   EdgeLengths result;
   result.edges = static_cast<long>(edges.size());
   long inRange = 0;

@@ -6,6 +6,7 @@
 #define meshopt_Operations_BoundaryChange_h
 
 #include "Base/GoldenSection.h"
+#include "Base/SortUnique.h"
 #include "Edit/Judge.h"
 #include "Mesh/Ids.h"
 #include "Operations/EdgeContraction.h"
@@ -168,9 +169,7 @@ private:
     }
     if (!range)
     {
-      std::sort(this->neighbours_.begin(), this->neighbours_.end());
-      this->neighbours_.erase(
-        std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
+      sortUnique(this->neighbours_);
     }
   }
 

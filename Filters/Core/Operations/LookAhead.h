@@ -8,6 +8,7 @@
 #ifndef meshopt_Operations_LookAhead_h
 #define meshopt_Operations_LookAhead_h
 
+#include "Base/SortUnique.h"
 #include "Operations/EdgeContraction.h"
 #include "Operations/NodeInsertion.h"
 #include "Operations/Shake.h"
@@ -146,6 +147,7 @@ private:
   {
     const SimplexMesh<D>& mesh = judge.mesh();
     const int level = isLong ? Level::Insertion : Level::Topology;
+    sortUnique(affected);
     for (int left = isLong ? ManyOperations : Operations; left >= 0; --left)
     {
       Index worst = None;
@@ -167,10 +169,12 @@ private:
       {
         return false;
       }
-      // Sorted and unique, since the operations often change the same cells again.
-      affected.insert(affected.end(), judge.changed().begin(), judge.changed().end());
-      std::sort(affected.begin(), affected.end());
-      affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+      // A set, since the operations often change the same cells again.
+      sortUnique(judge.changed());
+      this->merged_.clear();
+      std::set_union(affected.begin(), affected.end(), judge.changed().begin(),
+        judge.changed().end(), std::back_inserter(this->merged_));
+      affected.swap(this->merged_);
     }
     return false;
   }
@@ -178,6 +182,7 @@ private:
   NodeInsertion<D, Shape> insertion_;
   Shake<D, Shape> shake_;
   Proposal<D> proposal_;
+  std::vector<Index> merged_; ///< of settle(), which would make it anew each time
   Improve improve_;
 };
 }

@@ -6,6 +6,7 @@
 #ifndef meshopt_Operations_NodeInsertion_h
 #define meshopt_Operations_NodeInsertion_h
 
+#include "Base/SortUnique.h"
 #include "Bound/ApexBound.h"
 #include "Edit/Judge.h"
 #include "Operations/Cavity.h"

@@ -72,8 +72,7 @@ void NodeInsertion<D, Shape>::addSurfaceSeed(const Judge<D, Shape>& judge,
   }
   // A facet between two regions comes from both sides.
   std::vector<Index>& patches = seed.opening.patches;
-  std::sort(patches.begin(), patches.end());
-  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  sortUnique(patches);
   // What the caller locked belongs to no patch: None comes first.
   if (patches.empty() || patches[0] == None)
   {

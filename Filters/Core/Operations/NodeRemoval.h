@@ -4,6 +4,7 @@
 #ifndef meshopt_Operations_NodeRemoval_h
 #define meshopt_Operations_NodeRemoval_h
 
+#include "Base/SortUnique.h"
 #include "Edit/Judge.h"
 #include "Operations/Level.h"
 
@@ -69,9 +70,7 @@ private:
       this->link_.push_back(f);
       this->neighbours_.insert(this->neighbours_.end(), f.begin(), f.end());
     }
-    std::sort(this->neighbours_.begin(), this->neighbours_.end());
-    this->neighbours_.erase(
-      std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
+    sortUnique(this->neighbours_);
   }
 
   /// Joins the facets of the link that do not contain u to u. Remembers the result if it is the

@@ -48,6 +48,8 @@ public:
 
   /// The points l for which the tetrahedron (i, j, k, l) is positive, exactly.
   Mask above(int i, int j, int k) const { return this->above_[place(i, j, k)]; }
+  /// above(i, j, k) for all k.
+  const Mask* row(int i, int j) const { return &this->above_[place(i, j, 0)]; }
   /// The points inside of the positive tetrahedron (a, b, c, d).
   Mask inside(int a, int b, int c, int d) const
   {

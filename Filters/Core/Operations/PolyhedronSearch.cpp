@@ -66,12 +66,17 @@ bool PolyhedronSearch::setBoundary(const std::vector<Triangle>& facets)
     return false;
   }
   this->boundary_ = facets;
+  this->isOpened_ = this->isBlocked_ = false;
   return true;
 }
 
-/// Makes the first state: the boundary as the front, with all that its facets and edges block.
-void PolyhedronSearch::loadBoundary()
+/// Makes the first state: the boundary as the front, with all that its facets block.
+void PolyhedronSearch::openBoundary()
 {
+  if (std::exchange(this->isOpened_, true))
+  {
+    return;
+  }
   const int n = this->signs_.size();
   const std::size_t pairs = choose2(n);
   // Memory is only added: thousands of searches follow each other.
@@ -97,7 +102,17 @@ void PolyhedronSearch::loadBoundary()
     s.used |= bit(f[0]) | bit(f[1]) | bit(f[2]);
   }
   this->stay_ = this->mustStay_ | s.used;
-  // Last: findCrossing() leaves out facets with edges that the boundary blocks.
+}
+
+/// Adds what the edges of the boundary block. After its facets: findCrossing() leaves out those
+/// with edges that are blocked.
+void PolyhedronSearch::blockByEdges()
+{
+  if (std::exchange(this->isBlocked_, true))
+  {
+    return;
+  }
+  State& s = this->states_[0];
   for (const Triangle& f : this->boundary_)
   {
     this->addEdge(s, f[0], f[1]);
@@ -119,10 +134,33 @@ PolyhedronSearch::Mask PolyhedronSearch::apexes(const State& s, const Front& f) 
 
 // --- candidates
 
+/// Points that may be the apex on facet k of the boundary, as far as is known to be blocked.
+PolyhedronSearch::Mask PolyhedronSearch::apexesOn(int k) const
+{
+  const State& s = this->states_[0];
+  const auto [a, b, c, side] = s.front[k];
+  const Mask ab = s.third[pairOf(a, b)], bc = s.third[pairOf(b, c)], ca = s.third[pairOf(c, a)];
+  const bool isBlocked = has(s.blocked[a], b) || has(s.blocked[b], c) || has(s.blocked[c], a) ||
+    has(ab, c);
+  return isBlocked
+    ? 0
+    : this->signs_.above(a, b, c) & ~(s.blocked[a] | s.blocked[b] | s.blocked[c] | ab | bc | ca);
+}
+
+/// Whether point p, one of apexesOn(), makes a candidate on facet k of the boundary.
+bool PolyhedronSearch::fitsOn(int k, int p, Candidate& t) const
+{
+  const Front& f = this->states_[0].front[k];
+  std::array<int, 4> n{ f.a, f.b, f.c, p };
+  std::sort(n.begin(), n.end());
+  return this->fits(n[0], n[1], n[2], n[3], t);
+}
+
 /// Each triple once, in rising order, with all its fourth points at a time, as a set.
 void PolyhedronSearch::findCandidates()
 {
-  this->loadBoundary();
+  this->openBoundary();
+  this->blockByEdges();
   this->candidates_.clear();
   const State& s = this->states_[0];
   for (int k = 2; k < this->signs_.size(); ++k)
@@ -149,28 +187,33 @@ void PolyhedronSearch::findCandidates()
   }
 }
 
-/// Adds {i < j < k < l} for all l in `apexes`, except those with a point inside that must stay, and
-/// those that lie outside of a boundary facet.
-void PolyhedronSearch::addCandidates(int i, int j, int k, Mask apexes)
+/// Makes the candidate {i < j < k < l}. False if a point is inside that must stay, or if it lies
+/// outside of a boundary facet.
+bool PolyhedronSearch::fits(int i, int j, int k, int l, Candidate& t) const
 {
   // sideOf() for three numbers in rising order: the lowest bit is the orientation.
   const auto triple = [](int a, int b, int c) { return 2 * (a + choose2(b) + choose3(c)); };
+  const int odd = has(this->signs_.above(j, i, k), l);
+  const int a = odd ? j : i, b = odd ? i : j;
+  const std::array<int, 4> sides{ triple(b, k, l) + 1, triple(a, k, l), triple(i, j, l) + !odd,
+    triple(i, j, k) + odd };
+  t.nodes = { std::uint8_t(a), std::uint8_t(b), std::uint8_t(k), std::uint8_t(l) };
+  bool outside = false;
+  for (int m = 0; m < 4; ++m)
+  {
+    t.sides[m] = static_cast<std::uint16_t>(sides[m]);
+    outside |= this->facetOfSide_[sides[m] ^ 1] != 0;
+  }
+  return !outside && !(this->signs_.inside(a, b, k, l) & this->stay_);
+}
+
+/// Adds {i < j < k < l} for all l in `apexes` that fit.
+void PolyhedronSearch::addCandidates(int i, int j, int k, Mask apexes)
+{
+  Candidate t;
   for (; apexes; apexes &= apexes - 1)
   {
-    const int l = lowest(apexes);
-    const int odd = has(this->signs_.above(j, i, k), l);
-    const int a = odd ? j : i, b = odd ? i : j;
-    const std::array<int, 4> sides{ triple(b, k, l) + 1, triple(a, k, l), triple(i, j, l) + !odd,
-      triple(i, j, k) + odd };
-    Candidate t;
-    t.nodes = { std::uint8_t(a), std::uint8_t(b), std::uint8_t(k), std::uint8_t(l) };
-    bool outside = false;
-    for (int m = 0; m < 4; ++m)
-    {
-      t.sides[m] = static_cast<std::uint16_t>(sides[m]);
-      outside |= this->facetOfSide_[sides[m] ^ 1] != 0;
-    }
-    if (!outside && !(this->signs_.inside(a, b, k, l) & this->stay_))
+    if (this->fits(i, j, k, lowest(apexes), t))
     {
       this->candidates_.push_back(t);
     }

@@ -28,9 +28,9 @@
 
 namespace meshopt
 {
-/// Use: clear(); addPoint() for each point; setBoundary(); findCandidates(); set the quality of
-/// each of the candidates(); search(); then cells(). Points may be added later and another boundary
-/// set: what is known about the earlier points is kept.
+/// Use: clear(); addPoint() for each point; setBoundary(); findBareFacet(); if there is none,
+/// findCandidates(); set the quality of each of the candidates(); search(); then cells(). Points
+/// may be added later and another boundary set: what is known about the earlier points is kept.
 class PolyhedronSearch
 {
 public:
@@ -62,6 +62,34 @@ public:
   /// MaximumFacets facets.
   bool setBoundary(const std::vector<Triangle>& facets);
 
+  /// The first facet of the boundary on which no candidate is good enough, or -1. The same as
+  /// search() would find, at a small part of the cost: most polyhedra are refused here.
+  /// `isEnough(candidate)`: whether its quality, which is not set, is enough.
+  template <class IsEnough>
+  int findBareFacet(IsEnough&& isEnough)
+  {
+    this->openBoundary();
+    // Cheapest first: mostly it is the first facet, and nothing but its edges tells.
+    if (this->apexesOn(0) == 0)
+    {
+      return 0;
+    }
+    this->blockByEdges();
+    for (int k = 0; k < this->states_[0].facets; ++k)
+    {
+      Candidate t;
+      bool isBare = true;
+      for (Mask rest = this->apexesOn(k); rest && isBare; rest &= rest - 1)
+      {
+        isBare = !(this->fitsOn(k, pointset::lowest(rest), t) && isEnough(t));
+      }
+      if (isBare)
+      {
+        return k;
+      }
+    }
+    return -1;
+  }
   /// Finds the tetrahedra that cross no edge or facet of the boundary, do not lie outside of a
   /// boundary facet, and contain no point that must stay. At most O(n^4).
   void findCandidates();
@@ -127,7 +155,11 @@ private:
   static constexpr int choose3(int n) { return n * (n - 1) * (n - 2) / 6; }
   static constexpr int choose4(int n) { return n * (n - 1) * (n - 2) / 2 * (n - 3) / 12; }
   static int pairOf(int i, int j) { return i < j ? j * (j - 1) / 2 + i : i * (i - 1) / 2 + j; }
-  void loadBoundary();
+  void openBoundary();
+  void blockByEdges();
+  Mask apexesOn(int k) const;
+  bool fitsOn(int k, int p, Candidate& t) const;
+  bool fits(int i, int j, int k, int l, Candidate& t) const;
   void addCandidates(int i, int j, int k, Mask apexes);
   bool offer(double bound);
   bool strike();
@@ -160,7 +192,8 @@ private:
   int bareFacet_ = -1;
   long steps_ = 0, budget_ = 0;
   bool ranOut_ = false, finished_ = false;
-  std::deque<State> states_; // by level; 0: the polyhedron
+  std::deque<State> states_;                  // by level; 0: the polyhedron
+  bool isOpened_ = false, isBlocked_ = false; // what of it is done for this boundary
   std::vector<Tetrahedron> placed_, solution_;
   std::vector<std::uint64_t> deadEnds_;
   std::uint64_t salt_ = 0;

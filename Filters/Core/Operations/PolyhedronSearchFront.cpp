@@ -48,24 +48,22 @@ bool PolyhedronSearch::isOutermost(int a, int b) const
 void PolyhedronSearch::findCrossing(int a, int b)
 {
   const PointSigns& at = this->signs_;
-  const int pairs = choose2(at.size());
-  Mask* row = &this->crossing_[pairOf(a, b) * pairs];
-  std::fill_n(row, pairs, 0);
-  for (int i = 0; i < at.size(); ++i)
+  const Mask* blocked = this->states_[0].blocked;
+  // Signs do not change when three points are rotated: all are read along rows of the table.
+  const Mask *left = at.row(a, b), *right = at.row(b, a);
+  Mask* row = &this->crossing_[pairOf(a, b) * choose2(at.size())];
+  for (int j = 1; j < at.size(); row += j, ++j)
   {
-    // i, j and k lie around the line through a and b, in this order
-    const Mask left = at.above(a, b, i), right = at.above(b, a, i);
-    Mask rest = (left | right) & ~this->states_[0].blocked[i] & ~(bit(i) | (bit(i) - 1));
-    for (; rest; rest &= rest - 1)
+    const Mask leftOf = left[j], rightOf = right[j];
+    const Mask *aj = at.row(a, j), *ja = at.row(j, a), *bj = at.row(b, j), *jb = at.row(j, b);
+    for (int i = 0; i < j; ++i)
     {
-      const int j = lowest(rest);
-      const Mask k = has(left, j) ? at.above(a, b, j) & right : at.above(b, a, j) & left;
+      // i, j and k lie around the line through a and b, in this order or the other way round
+      const Mask isLeft = 0u - ((left[i] >> j) & 1u), isRight = 0u - ((right[i] >> j) & 1u);
+      const Mask k = (isLeft & leftOf & right[i]) | (isRight & rightOf & left[i]);
       // and a and b lie on different sides of the facet
-      if (k)
-      {
-        row[pairOf(i, j)] = k &
-          ((at.above(i, j, a) & at.above(j, i, b)) | (at.above(j, i, a) & at.above(i, j, b)));
-      }
+      const Mask isFree = ((blocked[i] >> j) & 1u) - 1u;
+      row[i] = k & isFree & ((ja[i] & bj[i]) | (aj[i] & jb[i]));
     }
   }
 }

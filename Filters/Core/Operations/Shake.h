@@ -7,6 +7,7 @@
 #define meshopt_Operations_Shake_h
 
 #include "Base/Scramble.h"
+#include "Base/SortUnique.h"
 #include "Edit/Judge.h"
 
 namespace meshopt
@@ -51,8 +52,7 @@ public:
     std::vector<Index>& changed = judge.changed();
     const bool any = !changed.empty();
     changed.push_back(t);
-    std::sort(changed.begin(), changed.end());
-    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    sortUnique(changed);
     return any;
   }
 
@@ -88,8 +88,7 @@ private:
         this->nodes_.insert(this->nodes_.end(), mesh.nodes(c).begin(), mesh.nodes(c).end());
       }
     }
-    std::sort(this->nodes_.begin(), this->nodes_.end());
-    this->nodes_.erase(std::unique(this->nodes_.begin(), this->nodes_.end()), this->nodes_.end());
+    sortUnique(this->nodes_);
     this->nodes_.erase(
       std::remove_if(this->nodes_.begin(), this->nodes_.end(), isKept), this->nodes_.end());
     return true;

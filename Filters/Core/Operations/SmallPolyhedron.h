@@ -110,8 +110,9 @@ private:
   Index nextCell(int bare);
   bool offerPoints(int bare);
   int worstFace(double above) const;
-  double fill(double above);
-  void rate();
+  double fill(double above, int& bare);
+  void noteEnough();
+  double rating(const PolyhedronSearch::Candidate& t) const;
   void keepSolution();
 
   const MeshEditor<3>* editor_ = nullptr;

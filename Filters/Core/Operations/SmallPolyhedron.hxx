@@ -299,9 +299,9 @@ int SmallPolyhedron<Shape>::worstFace(double above) const
   return worst->best > above ? -1 : static_cast<int>(worst - this->faces_.begin());
 }
 
-/// Sets the qualities of the candidates.
+/// Prepares rating().
 template <class Shape>
-void SmallPolyhedron<Shape>::rate()
+void SmallPolyhedron<Shape>::noteEnough()
 {
   if (this->anyEnough_)
   {
@@ -311,23 +311,23 @@ void SmallPolyhedron<Shape>::rate()
       this->enoughOfSide_[PolyhedronSearch::sideOf(f.nodes[0], f.nodes[1], f.nodes[2])] = f.enough;
     }
   }
-  for (PolyhedronSearch::Candidate& t : this->search_.candidates())
-  {
-    t.quality = this->quality(t.nodes);
-    const auto isEnough = [&](int side)
-    { return this->enoughOfSide_[side] >= 0.0 && t.quality >= this->enoughOfSide_[side]; };
-    if (this->anyEnough_ && std::any_of(t.sides.begin(), t.sides.end(), isEnough))
-    {
-      // It is enough on its kept facet, so it must not limit the worst quality.
-      t.quality += AsGoodAsAny;
-    }
-  }
+}
+
+/// The quality of a candidate. If it is enough on its kept facet, it must not limit the worst one.
+template <class Shape>
+double SmallPolyhedron<Shape>::rating(const PolyhedronSearch::Candidate& t) const
+{
+  const double q = this->quality(t.nodes);
+  const auto isEnough = [&](int side)
+  { return this->enoughOfSide_[side] >= 0.0 && q >= this->enoughOfSide_[side]; };
+  return this->anyEnough_ && std::any_of(t.sides.begin(), t.sides.end(), isEnough) ? AsGoodAsAny + q
+                                                                                   : q;
 }
 
 /// Searches for a filling of the present polyhedron. Never if there is none better than `above`, or
-/// if there are too many facets.
+/// if there are too many facets. `bare`: a facet without a good tetrahedron, or -1.
 template <class Shape>
-double SmallPolyhedron<Shape>::fill(double above)
+double SmallPolyhedron<Shape>::fill(double above, int& bare)
 {
   this->boundary_.clear();
   for (const Face& f : this->faces_)
@@ -338,10 +338,21 @@ double SmallPolyhedron<Shape>::fill(double above)
   {
     return Never;
   }
-  this->search_.findCandidates();
-  this->rate();
-  const double q = this->search_.search(above, this->limits_.steps);
   ++this->searches_;
+  this->noteEnough();
+  bare = this->search_.findBareFacet(
+    [&](const PolyhedronSearch::Candidate& t) { return this->rating(t) > above; });
+  if (bare >= 0)
+  {
+    return Never;
+  }
+  this->search_.findCandidates();
+  for (PolyhedronSearch::Candidate& t : this->search_.candidates())
+  {
+    t.quality = this->rating(t);
+  }
+  const double q = this->search_.search(above, this->limits_.steps);
+  bare = this->search_.bareFacet();
   return q;
 }
 
@@ -412,14 +423,13 @@ double SmallPolyhedron<Shape>::propose(const MeshEditor<3>& editor,
         {
           return Never;
         }
-        const double q = this->fill(bound);
+        const double q = this->fill(bound, bare);
         if (q > bound)
         {
           this->keepSolution();
           // If all cells are enough on their kept facets, take off what was added.
           return q < AsGoodAsAny ? q : std::min(1.0, q - AsGoodAsAny);
         }
-        bare = this->search_.bareFacet();
       }
     } while (this->offerPoints(bare));
     next = this->nextCell(bare);

@@ -3,6 +3,8 @@
 // the cell that asks is not the worst of them: another cell will ask.
 #include "Paper1996/FanCluster.h"
 
+#include "Base/SortUnique.h"
+
 #include <algorithm>
 
 namespace meshopt
@@ -20,9 +22,7 @@ void numberPoints(const SimplexMesh<D>& mesh, FanCluster<D>& cluster)
     cluster.points.insert(cluster.points.end(), f.begin(), f.end());
   }
   // Sorted: the numbers do not depend on the order of the facets.
-  std::sort(cluster.points.begin(), cluster.points.end());
-  cluster.points.erase(
-    std::unique(cluster.points.begin(), cluster.points.end()), cluster.points.end());
+  sortUnique(cluster.points);
   cluster.x.clear();
   for (Index p : cluster.points)
   {

@@ -56,9 +56,7 @@ void SizeStage<D>::moveNode(Index v)
     }
   }
   // A neighbour comes once for each cell that it shares with v, but has one edge.
-  std::sort(this->neighbours_.begin(), this->neighbours_.end());
-  this->neighbours_.erase(
-    std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
+  sortUnique(this->neighbours_);
   if (static_cast<Index>(this->failedAt_.size()) <= v)
   {
     // Nodes have come by splits since the last call.

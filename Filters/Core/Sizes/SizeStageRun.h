@@ -4,6 +4,7 @@
 #ifndef meshopt_Sizes_SizeStageRun_h
 #define meshopt_Sizes_SizeStageRun_h
 
+#include "Base/SortUnique.h"
 #include "Mesh/PinchedPoints.h"
 #include "Metric/EdgeLengths.h"
 #include "Operations/EdgeContraction.h"

@@ -2,6 +2,8 @@
 // The curves of a plane boundary, as a surface along which the nodes of a mesh slide.
 #include "Surface/BoundaryCurves.h"
 
+#include "Base/SortUnique.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -185,8 +187,7 @@ std::optional<SlidingRange> BoundaryCurves::range(
     }
   }
   // As in space: exactly two neighbours, or the point is an end.
-  std::sort(ends.begin(), ends.end()); // the order of the star must not matter
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sortUnique(ends); // the order of the star must not matter
   if (mesh.freedom(v) != Freedom::Curve || ends.size() != 2)
   {
     return std::nullopt;

@@ -4,6 +4,7 @@
 // which in SlidingSurfaceJoin.cpp.
 #include "Surface/SlidingSurface.h"
 
+#include "Base/SortUnique.h"
 #include "Mesh/Ids.h"
 
 #include <Eigen/Geometry>
@@ -234,8 +235,7 @@ std::optional<SlidingRange> SlidingSurface::range(
       }
     }
   }
-  std::sort(ends.begin(), ends.end()); // the order of the star must not matter
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sortUnique(ends); // the order of the star must not matter
   if (ends.size() != 2)
   {
     return std::nullopt;
@@ -274,8 +274,7 @@ bool SlidingSurface::mayDivide(
     isKept |= e >= 0 && mesh.isEdgeKeptByItself(c, e);
   }
   // A facet between two regions comes from both sides, and from each cell that has it.
-  std::sort(patches.begin(), patches.end());
-  patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+  sortUnique(patches);
   // What the caller locked belongs to no patch.
   const bool isLocked = std::any_of(
     patches.begin(), patches.end(), [](const auto& p) { return p[3] == None; });

@@ -3,6 +3,7 @@
 // a turn is meant.
 #include "Surface/SurfaceAngles.h"
 
+#include "Base/SortUnique.h"
 #include "Mesh/Ids.h"
 #include "Mesh/SimplexGeometry.h"
 
@@ -65,8 +66,7 @@ public:
     for (std::vector<double>* list : { &this->found_.dihedral, &this->found_.facial })
     {
       // Each value once: the bound is worked out for each, and a box has the same angle many times.
-      std::sort(list->begin(), list->end());
-      list->erase(std::unique(list->begin(), list->end()), list->end());
+      sortUnique(*list);
     }
   }
 

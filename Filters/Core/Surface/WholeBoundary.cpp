@@ -3,6 +3,7 @@
 // it is put on the nearest curve of a given geometry.
 #include "Surface/WholeBoundary.h"
 
+#include "Base/SortUnique.h"
 #include "Mesh/Ids.h"
 
 #include <algorithm>
@@ -92,8 +93,7 @@ std::string matchCorners(const LineNetwork& geometry, double tolerance, LineNetw
   {
     ends.insert(ends.end(), l.begin(), l.end());
   }
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sortUnique(ends);
   for (std::size_t g = 0; g < geometry.points.size(); ++g)
   {
     bool found = !geometry.corners[g];

@@ -2,6 +2,7 @@
 // The matrix, row by row, from the cells around a point: each thread writes rows of its own.
 #include "Thermoelastic/Assembly.h"
 
+#include "Base/SortUnique.h"
 #include "Thermoelastic/Parallel.h"
 
 #include <Eigen/LU>
@@ -79,8 +80,7 @@ void findNeighbours(
     neighbours.insert(neighbours.end(), nodes.begin(), nodes.end());
   }
   // In rising order: so are the columns of the rows, as Eigen needs them.
-  std::sort(neighbours.begin(), neighbours.end());
-  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  sortUnique(neighbours);
 }
 
 /// Block (i, j) of an element's matrix: the integral of B_i' C B_j, where all is constant. Products

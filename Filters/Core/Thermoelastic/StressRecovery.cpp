@@ -3,6 +3,7 @@
 // looks across a jump of the stress.
 #include "Thermoelastic/StressRecovery.h"
 
+#include "Base/SortUnique.h"
 #include "Metric/SymmetricEigen.h"
 #include "Thermoelastic/Parallel.h"
 
@@ -100,12 +101,6 @@ Stress<D> volumeAverage(const SimplexMesh<D>& mesh, const std::vector<Stress<D>>
     volume += v;
   }
   return sum / volume;
-}
-
-void sortUnique(std::vector<Index>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 /// Fits at the nodes that have a patch of their own; the other nodes are derived from these.

@@ -3,6 +3,7 @@
 // is best.
 #include "WorstFirst/Coarsening.h"
 
+#include "Base/SortUnique.h"
 #include "Edit/Judge.h"
 #include "Operations/EdgeContraction.h"
 #include "Quality/Shape.h"
@@ -66,9 +67,7 @@ void Coarsening::collectNeighbours(Index v)
     std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(this->neighbours_),
       [&](Index u) { return u != v; });
   }
-  std::sort(this->neighbours_.begin(), this->neighbours_.end());
-  this->neighbours_.erase(
-    std::unique(this->neighbours_.begin(), this->neighbours_.end()), this->neighbours_.end());
+  sortUnique(this->neighbours_);
 }
 
 bool Coarsening::propose(Index v, Index u, double floor)

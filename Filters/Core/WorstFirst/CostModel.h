@@ -25,7 +25,8 @@ namespace worstfirst
 ///    wasted, and there is one allowance for all that is wasted in a run. No pass gets more than a
 ///    share of what is left of it, so that later ones have their turn;
 ///  - insertion and look-ahead that hardly ever helped in a pass get fewer tries in the next one;
-///  - polishing ends when it has spent too much since the worst cell last rose clearly.
+///  - polishing ends when it has spent too much since the worst cell last rose clearly; in a quick
+///    run also when it has spent a few times as much in all.
 /// Allowances grow with the cells and with the free nodes: a mesh with hardly a node inside is held
 /// by its surface, and there more tries are in vain.
 class CostModel
@@ -101,6 +102,7 @@ public:
   void notePolish(std::int64_t evaluations, double worst)
   {
     this->spent_ += static_cast<double>(evaluations);
+    this->spentInAll_ += static_cast<double>(evaluations);
     if (worst > raised(this->lastWorst_, ClearRise))
     {
       this->lastWorst_ = worst;
@@ -110,9 +112,12 @@ public:
   /// What the next one may spend; nothing if less than 0.
   double leftForPolish() const
   {
-    const double allowed = PolishPerCell[this->effort_] * this->cells_ +
-      PolishPerNode[this->effort_] * this->freeNodes_;
-    return this->isLimited_ ? std::max(FewestPerRise, allowed) - this->spent_ : Unlimited;
+    const double perRise = std::max(FewestPerRise,
+      PolishPerCell[this->effort_] * this->cells_ +
+        PolishPerNode[this->effort_] * this->freeNodes_);
+    return this->isLimited_
+      ? std::min(perRise - this->spent_, MostRises[this->effort_] * perRise - this->spentInAll_)
+      : Unlimited;
   }
 
 private:
@@ -132,12 +137,15 @@ private:
   /// 1e5.
   static constexpr double PolishPerCell[] = { 8.0, 34.0, 34.0 };
   static constexpr double PolishPerNode[] = { 300.0, 1250.0, 1250.0 };
+  static constexpr double FewestPerRise = 2e5;
+  static constexpr double ClearRise = 0.05;
+  /// The most in all, as a multiple of that: on thin slabs of random points, where the worst cell
+  /// rises again and again, a quick run took too long. With 4 they end clearly lower.
+  static constexpr double MostRises[] = { 6.0, Unlimited, Unlimited };
   static_assert(std::size(PricePerLifted) == NumberOfEfforts &&
     std::size(WastePerCell) == NumberOfEfforts && std::size(WastePerNode) == NumberOfEfforts &&
     std::size(FewestWaste) == NumberOfEfforts && std::size(PolishPerCell) == NumberOfEfforts &&
-    std::size(PolishPerNode) == NumberOfEfforts);
-  static constexpr double FewestPerRise = 2e5;
-  static constexpr double ClearRise = 0.05;
+    std::size(PolishPerNode) == NumberOfEfforts && std::size(MostRises) == NumberOfEfforts);
   static constexpr long Fewest[NumberOfKinds] = { 5, 25 }; ///< tries
   static constexpr int Step = 2; ///< each pass in vain divides the tries by 2^Step
   /// The most impatience at the start of a stage. With 2, turbine has 1.5 times as many cells under
@@ -151,6 +159,7 @@ private:
   std::array<int, NumberOfKinds> impatience_{};
   double target_ = 0.0;     ///< of the stage
   double spent_ = 0.0;      ///< on polishing since lastWorst_
+  double spentInAll_ = 0.0; ///< on polishing
   double lastWorst_ = -1.0; ///< below all qualities
 };
 }

@@ -70,7 +70,8 @@ bool Polish<D, Shape>::runAndRepair(double target, bool isLast)
     const double now = workpiece.worst();
     idle = now > before * (1.0 + WideGain) ? 0 : idle + 1;
     again = cycle + 1 < most && !(target < options.targetQuality) &&
-      idle <= (workpiece.slides() ? 0 : MostIdleCycles) && workpiece.isFarBelowBound();
+      idle <= (workpiece.slides() ? 0 : MostIdleCycles) && workpiece.isFarBelowBound() &&
+      this->allowance_.evaluations(Phase::Polishing) >= 0.0;
     // Where the target is out of reach, the best effort does first what the usual one does: it then
     // ends no lower. (Only caps of edges may differ, by their rounding: they are listed up to
     // another limit.)

@@ -304,6 +304,18 @@ TEST(SightBound, SidesThatSayNothing)
   EXPECT_GT(boundInSight(body.points.data(), body.sides, 0.5, Many), 1e-3);
 }
 
+TEST(SightBound, StepsFollowTheCells)
+{
+  EXPECT_EQ(stepsInSight(1), 500);
+  EXPECT_EQ(stepsInSight(3000), 1500);
+  EXPECT_EQ(stepsInSight(100000), 7000);
+  EXPECT_EQ(stepsInSight(1000000000), 20000);
+  for (long cells = 1; cells < 1000000; cells += 1 + cells / 10)
+  {
+    EXPECT_LE(stepsInSight(cells), stepsInSight(cells + 1));
+  }
+}
+
 TEST(SightBound, NoMeshIsAboveTheBoundOfARun)
 {
   // A thin plate whose inner nodes were moved: what stands opposite holds its worst cells.

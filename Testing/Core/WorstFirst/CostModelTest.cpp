@@ -125,6 +125,26 @@ TEST(CostModel, PolishingEndsUnlessTheWorstRises)
   EXPECT_NEAR(costs.leftForPolish(), 34.0 * 10000, 1e-6);
 }
 
+/// However often the worst rises. Other efforts go on.
+TEST(CostModel, AQuickRunPolishesOnlySoMuchInAll)
+{
+  for (Effort effort : { Effort::Quick, Effort::Default })
+  {
+    CostModel costs(effort);
+    costs.open(100000, 0);
+    const double perRise = costs.leftForPolish();
+    double worst = 0.001, spent = 0.0;
+    for (; costs.leftForPolish() > 0.0 && worst < 0.9; worst *= 1.1)
+    {
+      costs.notePolish(static_cast<std::int64_t>(0.5 * perRise), worst);
+      spent += 0.5 * perRise;
+    }
+    EXPECT_EQ(worst < 0.9, effort == Effort::Quick);
+    EXPECT_GE(spent, 3.0 * perRise); // a few rises are paid for
+    EXPECT_LE(costs.leftForPolish(), perRise);
+  }
+}
+
 TEST(CostModel, ASmallMeshMayBePolishedForALookAheadOrTwo)
 {
   CostModel costs(Effort::Quick);
