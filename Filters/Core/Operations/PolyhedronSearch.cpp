@@ -54,6 +54,7 @@ void PolyhedronSearch::addPoint(const Vec<3>& x, bool stay)
 {
   this->mustStay_ |= stay ? bit(this->signs_.size()) : 0;
   this->signs_.add(x);
+  this->isOpened_ = this->isBlocked_ = false;
 }
 
 bool PolyhedronSearch::setBoundary(const std::vector<Triangle>& facets)

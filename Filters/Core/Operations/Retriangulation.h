@@ -30,12 +30,8 @@ public:
         PolyhedronLimits limits;
         done = this->refill(judge, t, limits);
         limits.newPoints = NewPoints;
-        for (double height : Heights)
-        {
-          limits.height = height;
-          done = done ||
-            (judge.switches().insertNodes && judge.model().plain && this->refill(judge, t, limits));
-        }
+        done = done ||
+          (judge.switches().insertNodes && judge.model().plain && this->refill(judge, t, limits));
         judge.count(Operation::Retriangulation, done);
       }
     }
@@ -43,8 +39,7 @@ public:
   }
 
 private:
-  static constexpr int NewPoints = 4;               ///< most places offered for new nodes
-  static constexpr double Heights[] = { 0.5, 1.0 }; ///< PolyhedronLimits::height, in this order
+  static constexpr int NewPoints = 4; ///< most places offered for new nodes
 
   /// Searches for a better filling around cell t. New points go again if the judge refuses it.
   bool refill(Judge<D, Shape>& judge, Index t, PolyhedronLimits limits)

@@ -32,7 +32,7 @@ struct PolyhedronLimits
   int cells = 60;    ///< most cells removed
   int newPoints = 0; ///< most places offered for new nodes; 0 in a varying metric
   /// Where these places are: between a facet that has no good tetrahedron (0) and its best apex
-  /// (1), and also half way to this height. In ]0, 1]. Another value may help where one did not.
+  /// (1), and also half way to this height. In ]0, 1]. To try 1 as well costs more than it helps.
   double height = 0.5;
   bool mayDropPoints = true; ///< free nodes inside may vanish
   int searches = 30;         ///< most searches of one propose(); the polyhedron grows in between
