@@ -2,8 +2,7 @@
 // The best filling of a small polyhedron: against the enumeration of all fillings.
 #include "Operations/PolyhedronSearch.h"
 #include "Mesh/Predicates.h"
-#include "Quality/Shape.h"
-#include "TestMeshes.h"
+#include "PolyhedronOfCells.h"
 
 #include <Eigen/Geometry>
 
@@ -16,76 +15,6 @@ namespace
 using Triangle = PolyhedronSearch::Triangle;
 using Tetrahedron = PolyhedronSearch::Tetrahedron;
 constexpr double Never = PolyhedronSearch::Never;
-
-struct Polyhedron
-{
-  std::vector<Vec<3>> points;
-  std::vector<Triangle> facets; // (facet, inner point) is positive
-  std::vector<bool> stay;
-
-  Corners<3> corners(const Tetrahedron& t) const
-  {
-    return { this->points[t[0]], this->points[t[1]], this->points[t[2]], this->points[t[3]] };
-  }
-  double quality(const Tetrahedron& t) const { return MeanEdgeShape<3>::value(this->corners(t)); }
-  double volume() const
-  {
-    double sum = 0.0;
-    for (const Triangle& f : this->facets)
-    {
-      sum += signedVolume(Corners<3>{ this->points[f[0]], this->points[f[1]], this->points[f[2]],
-        this->points[this->facets[0][0]] });
-    }
-    return sum;
-  }
-};
-
-/// The polyhedron that these cells of a mesh fill; points inside may be dropped if they are free.
-Polyhedron polyhedronOf(const SimplexMesh<3>& mesh, const std::vector<Index>& cells)
-{
-  Polyhedron result;
-  std::map<Index, int> numbers;
-  for (Index c : cells)
-  {
-    for (Index p : mesh.nodes(c))
-    {
-      if (numbers.emplace(p, int(numbers.size())).second)
-      {
-        result.points.push_back(mesh.point(p));
-        result.stay.push_back(!mesh.isFree(p));
-      }
-    }
-  }
-  for (Index c : cells)
-  {
-    for (int i = 0; i < 4; ++i)
-    {
-      const Index h = mesh.adjacent(c, i);
-      if (h == None || std::find(cells.begin(), cells.end(), mesh.cellOf(h)) == cells.end())
-      {
-        const Facet<3> f = mesh.facet(c, i);
-        result.facets.push_back({ std::uint8_t(numbers[f[0]]), std::uint8_t(numbers[f[1]]),
-          std::uint8_t(numbers[f[2]]) });
-      }
-    }
-  }
-  return result;
-}
-
-void load(PolyhedronSearch& search, const Polyhedron& p)
-{
-  search.clear();
-  for (std::size_t k = 0; k < p.points.size(); ++k)
-  {
-    search.addPoint(p.points[k], p.stay[k]);
-  }
-  ASSERT_TRUE(search.setBoundary(p.facets));
-  search.findCandidates();
-  for (PolyhedronSearch::Candidate& t : search.candidates())
-  {
-    t.quality = p.quality(t.nodes);
-  }
-}
 
 double solve(PolyhedronSearch& search, const Polyhedron& p, double above = 0.0, long steps = 100000)
 {
@@ -245,29 +174,6 @@ struct BruteForce
   }
 };
 
-/// Cells around cell `seed`, as many as have `points` points.
-std::vector<Index> someCells(const SimplexMesh<3>& mesh, Index seed, int points, TestRandom& random)
-{
-  std::vector<Index> cells{ seed };
-  std::set<Index> nodes(mesh.nodes(seed).begin(), mesh.nodes(seed).end());
-  for (int tries = 0; tries < 100; ++tries)
-  {
-    const Index c = cells[int((random() + 1.0) * 0.4999 * double(cells.size()))];
-    const Index h = mesh.adjacent(c, int((random() + 1.0) * 1.999));
-    if (h == None || std::find(cells.begin(), cells.end(), mesh.cellOf(h)) != cells.end())
-    {
-      continue;
-    }
-    const Index n = mesh.nodes(mesh.cellOf(h))[mesh.facetOf(h)];
-    if (nodes.count(n) || int(nodes.size()) < points)
-    {
-      nodes.insert(n);
-      cells.push_back(mesh.cellOf(h));
-    }
-  }
-  return cells;
-}
-
 /// Schoenhardt's: a prism whose upper triangle is turned; no tetrahedron of its points fits in.
 Polyhedron schoenhardt()
 {
@@ -407,66 +313,6 @@ TEST(PolyhedronSearch, SchoenhardtNeedsAPointInside)
   expectFills(p, search.cells(), q);
   EXPECT_EQ(search.cells().size(), 8u);
   EXPECT_EQ(search.bareFacet(), -1);
-}
-
-/// The quick test finds the facet that the search finds, before any candidate is made.
-TEST(PolyhedronSearch, FindsTheFacetWithNothingGoodOnItAtOnce)
-{
-  TestRandom random(13);
-  PolyhedronSearch quick, search;
-  long bare = 0, first = 0, none = 0;
-  for (unsigned seed = 1; seed <= 60; ++seed)
-  {
-    const MeshInput<3> in = jitteredGrid<3>(4, 0.3, seed);
-    const SimplexMesh<3> mesh = buildMesh(in);
-    const auto cells = someCells(mesh, Index(seed * 31 % in.cells.size()), 6 + seed % 12, random);
-    const Polyhedron p = polyhedronOf(mesh, cells);
-    load(search, p);
-    const double above = 0.05 * (seed % 17);
-    quick.clear();
-    for (std::size_t k = 0; k < p.points.size(); ++k)
-    {
-      quick.addPoint(p.points[k], p.stay[k]);
-    }
-    ASSERT_TRUE(quick.setBoundary(p.facets));
-    const int facet = quick.findBareFacet(
-      [&](const PolyhedronSearch::Candidate& t) { return p.quality(t.nodes) > above; });
-    const auto isOn = [&](const PolyhedronSearch::Candidate& t, const Triangle& f)
-    {
-      const int side = PolyhedronSearch::sideOf(f[0], f[1], f[2]);
-      return t.quality > above && std::find(t.sides.begin(), t.sides.end(), side) != t.sides.end();
-    };
-    int expected = -1;
-    for (int k = 0; k < int(p.facets.size()) && expected < 0; ++k)
-    {
-      const bool isBare = std::none_of(search.candidates().begin(), search.candidates().end(),
-        [&](const PolyhedronSearch::Candidate& t) { return isOn(t, p.facets[k]); });
-      expected = isBare ? k : -1;
-    }
-    EXPECT_EQ(facet, expected) << seed;
-    const double q = search.search(above, 3000);
-    if (facet >= 0)
-    {
-      EXPECT_EQ(q, Never);
-      EXPECT_EQ(search.bareFacet(), facet);
-      EXPECT_EQ(search.steps(), 0);
-    }
-    // and what it has looked at does not change what the search finds
-    quick.findCandidates();
-    EXPECT_EQ(quick.candidates().size(), search.candidates().size());
-    for (PolyhedronSearch::Candidate& t : quick.candidates())
-    {
-      t.quality = p.quality(t.nodes);
-    }
-    EXPECT_EQ(quick.search(above, 3000), q);
-    EXPECT_EQ(quick.cells(), search.cells());
-    bare += facet >= 0;
-    first += facet == 0;
-    none += facet < 0;
-  }
-  EXPECT_GT(bare, 15);
-  EXPECT_GT(bare, first);
-  EXPECT_GT(none, 15);
 }
 
 TEST(PolyhedronSearch, LargerOnesStepsAndTheSameBits)
