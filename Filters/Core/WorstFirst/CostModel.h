@@ -139,8 +139,9 @@ private:
   static constexpr double PolishPerNode[] = { 300.0, 1250.0, 1250.0 };
   static constexpr double FewestPerRise = 2e5;
   static constexpr double ClearRise = 0.05;
-  /// The most in all, as a multiple of that: on thin slabs of random points, where the worst cell
-  /// rises again and again, a quick run took too long. With 4 they end clearly lower.
+  /// What polishing may spend in all, as a multiple of what it may until one rise. On thin slabs of
+  /// random points the worst cell rises again and again, and without this limit a quick run takes
+  /// too long; with 4 they end clearly lower.
   static constexpr double MostRises[] = { 6.0, Unlimited, Unlimited };
   static_assert(std::size(PricePerLifted) == NumberOfEfforts &&
     std::size(WastePerCell) == NumberOfEfforts && std::size(WastePerNode) == NumberOfEfforts &&
