@@ -305,6 +305,28 @@ std::size_t Sight::firstInTheWay(std::size_t side, const Vec<3>& from, const Vec
   return first;
 }
 
+double Sight::guess(std::size_t side) const
+{
+  const std::array<Vec<3>, 3> x = this->corners(side);
+  const ApexInCone apex(x, Places[0]);
+  if (!apex.isUsable())
+  {
+    return Unlimited;
+  }
+  Vec<3> best;
+  facetCap(x[0], x[1], x[2], Unlimited, &best);
+  const Vec<3> way = best - apex.from();
+  const std::size_t facet = this->firstInTheWay(side, apex.from(), way);
+  if (facet == this->sides_.size())
+  {
+    return Unlimited;
+  }
+  const std::array<Vec<3>, 3> y = this->corners(facet);
+  const Vec<3> n = (y[1] - y[0]).cross(y[2] - y[0]);
+  const double part = n.dot(y[0] - apex.from()) / n.dot(way);
+  return apex.shape(part / apex.unit() * way);
+}
+
 double Sight::cap(std::size_t side, double atLeast, double enough, long& steps) const
 {
   double cap = enough;
@@ -353,15 +375,30 @@ double boundInSight(
     [&](std::size_t a, std::size_t b)
     { return sides[a].quality != sides[b].quality ? sides[a].quality < sides[b].quality : a < b; });
   const Sight sight(points, sides);
-  for (std::size_t k = 0; k < number && steps > 0; ++k)
+  // The one that seems to see the least comes first: when the steps are used up, the caps of others
+  // would hardly have been lower. That its cell is bad says little, since it may be stuck.
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t k = 0; k < number; ++k)
+  {
+    const double guess = sight.guess(worst[k]);
+    if (guess < bound)
+    {
+      order.emplace_back(guess, k);
+    }
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [guess, k] : order)
   {
     const double reached = sides[worst[k]].quality;
-    // A cap is at least what is reached there, so all others leave the bound.
-    if (reached >= CapReached * bound)
+    if (steps <= 0 || guess >= bound)
     {
       break;
     }
-    bound = sight.cap(worst[k], reached, bound, steps);
+    // A cap is at least what is reached there.
+    if (reached < CapReached * bound)
+    {
+      bound = sight.cap(worst[k], reached, bound, steps);
+    }
   }
   return bound;
 }

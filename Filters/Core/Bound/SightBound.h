@@ -37,6 +37,10 @@ public:
   /// higher.
   double cap(std::size_t side, double atLeast, double enough, long& steps) const;
 
+  /// A guess of cap() that takes one look from the middle: the shape with the fourth node on what
+  /// stands before the best place, which is hardly ever above the cap. Infinite if nothing does.
+  double guess(std::size_t side) const;
+
 private:
   struct Part;
   class Search;
@@ -51,8 +55,9 @@ private:
 };
 
 /// The lowest cap in sight of the sides, if that is below `bound`; else `bound`. Sides need the
-/// quality of their cells: only those whose cell is worse than the bound can lower it, and the
-/// worst come first. Others, and those after the first MostSides, are not looked at.
+/// quality of their cells: only those whose cell is worse than the bound can lower it. Others, and
+/// those after the worst MostSides, are not looked at; nor those with a guess above the bound. The
+/// one with the lowest guess comes first.
 double boundInSight(
   const Vec<3>* points, const std::vector<KeptSide<3>>& sides, double bound, long steps);
 

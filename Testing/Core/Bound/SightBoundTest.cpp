@@ -176,6 +176,27 @@ TEST(SightBound, ThinWallsAreBoundByWhatIsOpposite)
   EXPECT_NEAR(inSight, least, 0.01 * least);
 }
 
+TEST(SightBound, TheOneThatSeesLeastComesFirst)
+{
+  Body body;
+  body.addHollowBox({ 0.1, 0.1, 0.02 }, { 0.9, 0.9, 0.9 });
+  double least = 1.0;
+  std::size_t narrowest = 0;
+  for (std::size_t s = 0; s + 1 < body.sides.size(); ++s)
+  {
+    const double cap = body.cap(s);
+    narrowest = cap < least ? s : narrowest;
+    least = std::min(least, cap);
+    body.sides[s].quality = 1e-3; // of a cell that is stuck
+  }
+  const double alone = 1.0;
+  long left = Many;
+  Sight(body.points.data(), body.sides).cap(narrowest, 2e-3, alone, left);
+  // Others have worse cells, and the steps are enough for one side; those around it are alike.
+  body.sides[narrowest].quality = 2e-3;
+  EXPECT_LT(boundInSight(body.points.data(), body.sides, alone, Many - left), 1.5 * least);
+}
+
 TEST(SightBound, NoPlaceInSightIsBetter)
 {
   Body body; // what is between the boxes is not convex
