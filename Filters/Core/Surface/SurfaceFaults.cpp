@@ -103,7 +103,8 @@ bool lieOnEachOther(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b)
 bool lieOnEachOther(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b)
 {
   const Vec<3> e = q - p;
-  return orient(p, q, a, b) == 0 && e.cross(Vec<3>(a - p)).dot(e.cross(Vec<3>(b - p))) > 0.0;
+  // The sign comes last: in flat parts of a surface it is 0 for all neighbours, which takes long.
+  return e.cross(Vec<3>(a - p)).dot(e.cross(Vec<3>(b - p))) > 0.0 && orient(p, q, a, b) == 0;
 }
 
 /// The angle of a cell between its two facets without node a and without node w; negative if the
@@ -180,14 +181,10 @@ bool isFolded(const SimplexMesh<D>& mesh, const Kept<D>& f, Index a, Index b)
   return false;
 }
 
-/// Whether edge (p, q) passes through triangle (a, b, c), with p and q on opposite sides of it. It
+/// Whether edge (p, q), with p and q on opposite sides of triangle (a, b, c), passes through it. It
 /// may hit an edge of the triangle, but not a node: that is what surfaces do that only touch.
 bool pierces(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b, const Vec<3>& c)
 {
-  if (orient(a, b, c, p) * orient(a, b, c, q) >= 0)
-  {
-    return false;
-  }
   // One sign of 0 is a hit on an edge, two are a hit on a node.
   const int s[3] = { orient(p, q, a, b), orient(p, q, b, c), orient(p, q, c, a) };
   const int sum = s[0] + s[1] + s[2];
@@ -205,25 +202,44 @@ bool cross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
 
 bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
 {
+  // On which side of the other facet each node is; those of both are on none.
+  using Sides = std::array<int, 3>;
+  const auto sidesOf = [&](const Facet<3>& nodes, const Facet<3>& face)
+  {
+    Sides sides;
+    std::transform(nodes.begin(), nodes.end(), sides.begin(),
+      [&](Index p)
+      {
+        return hasId(face, p)
+          ? 0
+          : orient(mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2]), mesh.point(p));
+      });
+    return sides;
+  };
+  // All beside the other facet on one side, as in most pairs whose boxes overlap: nothing crosses.
+  const auto areBeside = [](const Sides& s) { return s[0] != 0 && s[0] == s[1] && s[1] == s[2]; };
+  const Sides ofF = sidesOf(f, g);
+  if (areBeside(ofF))
+  {
+    return false;
+  }
+  const Sides ofG = sidesOf(g, f);
   // Two triangles that cross have an edge that passes through the other one: all six are tried.
-  const auto oneWay = [&](const Facet<3>& edges, const Facet<3>& face)
+  const auto oneWay = [&](const Facet<3>& edges, const Sides& sides, const Facet<3>& face)
   {
     for (int i = 0; i < 3; ++i)
     {
-      const Index p = edges[i], q = edges[(i + 1) % 3];
-      // An edge with a node of the face meets it there: this is no crossing.
-      const bool shared = std::find(face.begin(), face.end(), p) != face.end() ||
-        std::find(face.begin(), face.end(), q) != face.end();
-      if (!shared &&
-        pierces(mesh.point(p), mesh.point(q), mesh.point(face[0]), mesh.point(face[1]),
-          mesh.point(face[2])))
+      const int j = (i + 1) % 3;
+      if (sides[i] * sides[j] < 0 &&
+        pierces(mesh.point(edges[i]), mesh.point(edges[j]), mesh.point(face[0]),
+          mesh.point(face[1]), mesh.point(face[2])))
       {
         return true;
       }
     }
     return false;
   };
-  return oneWay(f, g) || oneWay(g, f);
+  return oneWay(f, ofF, g) || oneWay(g, ofG, f);
 }
 
 /// Whether two facets have a fault, and of which kind.
@@ -231,20 +247,27 @@ template <int D>
 bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
   typename SurfaceFault<D>::Kind& kind)
 {
-  std::vector<Index> shared, onlyF, onlyG;
   const Facet<D>&m = f.nodes, &n = g.nodes;
+  // The nodes of both, and the last one of each that the other has not.
+  std::array<Index, D> shared;
+  std::size_t number = 0;
+  Index onlyF = None, onlyG = None;
+  for (int i = 0; i < D; ++i)
+  {
+    const bool isShared = hasId(n, m[i]);
+    (isShared ? shared[number] : onlyF) = m[i];
+    number += isShared;
+    onlyG = hasId(m, n[i]) ? onlyG : n[i];
+  }
   // Neighbours over an edge (D = 2: at a node) can only fold; the others are asked whether they
   // cross.
-  std::set_intersection(m.begin(), m.end(), n.begin(), n.end(), std::back_inserter(shared));
-  if (shared.size() != D - 1)
+  if (number != D - 1)
   {
     kind = SurfaceFault<D>::Crossing;
     return cross(mesh, m, n);
   }
-  std::set_difference(m.begin(), m.end(), n.begin(), n.end(), std::back_inserter(onlyF));
-  std::set_difference(n.begin(), n.end(), m.begin(), m.end(), std::back_inserter(onlyG));
   kind = SurfaceFault<D>::Folded;
-  const Vec<D>&p = mesh.point(shared[0]), &a = mesh.point(onlyF[0]), &b = mesh.point(onlyG[0]);
+  const Vec<D>&p = mesh.point(shared[0]), &a = mesh.point(onlyF), &b = mesh.point(onlyG);
   bool close = false;
   if constexpr (D == 2)
   {
@@ -254,7 +277,7 @@ bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
   {
     close = lieOnEachOther(p, mesh.point(shared[1]), a, b);
   }
-  return close && isFolded(mesh, f, onlyF[0], onlyG[0]);
+  return close && isFolded(mesh, f, onlyF, onlyG);
 }
 
 template <int D>

@@ -3,7 +3,10 @@
 // none.
 #include "Surface/SurfaceFaults.h"
 
+#include "Mesh/Ids.h"
 #include "TestMeshes.h"
+
+#include <random>
 
 namespace meshopt
 {
@@ -114,6 +117,91 @@ TEST(SurfaceFaults, CrossingSides)
     jitteredGrid<2>(2, 0.0), [](const Vec<2>& x) { return near(x[0], 0.5) && near(x[1], 1.0); },
     Vec<2>(0.07, -1.2));
   EXPECT_EQ(count(faults(buildMesh(plane)), SurfaceFault<2>::Crossing), 2);
+}
+
+/// Six times the signed volume, in whole numbers: without rounding.
+long volume(const MeshInput<3>& in, Index a, Index b, Index c, Index d)
+{
+  const auto x = [&](Index p, int i)
+  { return std::lround(in.points[p][i]) - std::lround(in.points[a][i]); };
+  return x(b, 0) * (x(c, 1) * x(d, 2) - x(c, 2) * x(d, 1)) +
+    x(b, 1) * (x(c, 2) * x(d, 0) - x(c, 0) * x(d, 2)) +
+    x(b, 2) * (x(c, 0) * x(d, 1) - x(c, 1) * x(d, 0));
+}
+
+/// An edge of f without a node of g has its ends on both sides of g, and meets g, but no node of
+/// it.
+bool passesThrough(const MeshInput<3>& in, const Facet<3>& f, const Facet<3>& g)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    const Index p = f[i], q = f[(i + 1) % 3];
+    const long u = volume(in, p, q, g[0], g[1]), v = volume(in, p, q, g[1], g[2]),
+               w = volume(in, p, q, g[2], g[0]);
+    const bool isShared = hasId(g, p) || hasId(g, q);
+    const bool isBetween = volume(in, g[0], g[1], g[2], p) * volume(in, g[0], g[1], g[2], q) < 0;
+    const bool isInside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+    if (!isShared && isBetween && isInside && (u == 0) + (v == 0) + (w == 0) < 2)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Two tetrahedra with corners on a coarse lattice, apart or with one common node: planes, edges
+/// and nodes meet in all ways.
+TEST(SurfaceFaults, CrossingsAreThoseOfTheDefinition)
+{
+  std::mt19937 random(5);
+  long crossings = 0, none = 0;
+  for (int k = 0; k < 3000; ++k)
+  {
+    MeshInput<3> in;
+    for (int p = 0; p < 8; ++p)
+    {
+      in.points.emplace_back(random() % 4, random() % 4, random() % 4);
+    }
+    in.cells = { { 0, 1, 2, 3 }, { k % 2 ? 3 : 4, 5, 6, 7 } };
+    bool isFlat = false;
+    for (Simplex<3>& c : in.cells)
+    {
+      const long v = volume(in, c[0], c[1], c[2], c[3]);
+      isFlat = isFlat || v == 0;
+      std::swap(c[0], c[v > 0 ? 0 : 1]);
+    }
+    if (isFlat)
+    {
+      continue;
+    }
+    const SimplexMesh<3> mesh = buildMesh(in);
+    std::vector<std::array<Facet<3>, 2>> expected, found;
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < 4; ++j)
+      {
+        const Facet<3> f = sortedIds(mesh.facet(0, i)), g = sortedIds(mesh.facet(1, j));
+        if (passesThrough(in, f, g) || passesThrough(in, g, f))
+        {
+          expected.push_back({ std::min(f, g), std::max(f, g) });
+        }
+      }
+    }
+    for (const auto& fault : faults(mesh))
+    {
+      if (fault.kind == SurfaceFault<3>::Crossing)
+      {
+        found.push_back({ std::min(fault.facets[0], fault.facets[1]),
+          std::max(fault.facets[0], fault.facets[1]) });
+      }
+    }
+    std::sort(expected.begin(), expected.end());
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected) << "pair " << k;
+    (expected.empty() ? none : crossings) += 1;
+  }
+  EXPECT_GT(crossings, 300);
+  EXPECT_GT(none, 300);
 }
 
 /// A closed crack: two sides at one place, the mesh all around its end. No fault.
