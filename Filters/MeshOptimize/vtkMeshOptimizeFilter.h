@@ -284,8 +284,8 @@ public:
    * with hardly any interior nodes may need 1: if the budget stops it, the stop reason is
    * GrowthLimit. Unless sizes are followed, no more nodes are removed once 12 % of the cells and
    * 12 % of the nodes are gone (at the end of a run 24 % of the nodes), except around the few worst
-   * cells. Where the surface slides, or in a metric, nodes count only at cells below 0.3, and never
-   * more than 12 %.
+   * cells: thin slabs full of nodes can lose up to 72 % of them. Where the surface slides, or in a
+   * metric, nodes count only at cells below 0.3, and never more than 12 %.
    */
   vtkSetClampMacro(GrowthBudget, double, 0.0, 1e6);
   vtkGetMacro(GrowthBudget, double);

@@ -86,16 +86,20 @@ inline constexpr long PatientPart = 5;
 /// (unless sizes are followed): swaps alone can remove that many cells. Where the surface takes
 /// part, or in a metric, nodes count only at very bad cells. See also GrowthBudget::openNodes().
 inline constexpr double ShrinkBudget = 0.12;
+/// At the end of a run, where the surface is kept and lengths are plain, this many times that
+/// fraction of the nodes may be gone.
+inline constexpr long ShrinkAtEnd = 2;
 /// The most nodes that may vanish in one wide insertion: SwallowedPerEdge for each mean edge that
 /// the mesh is wide, since needles of the surface can be as long as that, but at least
 /// MostSwallowed; parts that lie far from each other make a mesh wide, too, so that there is a most
 /// of all. With 30 in all of them, the worst cells of some lattices of 30 000 points end at
-/// a third. Only FewestSwallowed once WideShrink times that fraction of the nodes is gone
-/// (in a part of a mesh: of the cells), for the worst cell WideShrinkOfWorst times: otherwise half
-/// of the cells of a thin slab vanish, or others take the nodes that the worst cell needs.
+/// a third. Only FewestSwallowed once WideShrink times ShrinkBudget of the nodes is gone, for the
+/// worst cell WideShrinkOfWorst times: otherwise others take the nodes that the worst cell needs.
+/// Thin slabs need so much: their long facets leave no room for the many nodes behind them. In a
+/// part of a mesh cells count, and ShrinkAtEnd times ShrinkBudget of them.
 inline constexpr int MostSwallowed = 30, FewestSwallowed = 1;
 inline constexpr double SwallowedPerEdge = 3.0, MostSwallowedAtAll = 1000.0;
-inline constexpr long WideShrink = 2, WideShrinkOfWorst = 3;
+inline constexpr long WideShrink = 5, WideShrinkOfWorst = 6;
 /// 1 in ReservedPart of the growth budget is reserved for polishing.
 inline constexpr long ReservedPart = 10;
 /// The growth budget counts as used up if at most this fraction of it plus one node's cells is

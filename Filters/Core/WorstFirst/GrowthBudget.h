@@ -34,7 +34,7 @@ public:
     const long shrink = options.mostShrink >= 0
       ? options.mostShrink
       : static_cast<long>(ShrinkBudget * static_cast<double>(cells));
-    this->lean_ = growth + WideShrink * shrink;
+    this->lean_ = growth + ShrinkAtEnd * shrink;
     this->most_ = followsSizes ? std::numeric_limits<long>::max() : growth + shrink;
     this->countsNodes_ = options.mostShrink < 0;
   }
@@ -42,7 +42,7 @@ public:
   /// What each of n chunks may use. The shares are fixed before the pass: a chunk must not depend
   /// on what others use up meanwhile. `nodes`: the part of the input's nodes that is left, where
   /// these count, too. Then nodes may vanish until ShrinkBudget of them is gone (after openNodes()
-  /// WideShrink times that), although swaps, which remove no node, have removed as many cells.
+  /// ShrinkAtEnd times that), although swaps, which remove no node, have removed as many cells.
   Growth share(Phase phase, int n, double nodes = 0.0) const
   {
     const long reserve = this->reserveIn(phase);
@@ -67,8 +67,8 @@ public:
 
   /// From now on passes that lift may use the reserve, too.
   void openReserve() { this->reserve_ = 0; }
-  /// From now on as many nodes may vanish in passes that lift as in wide insertions.
-  void openNodes() { this->mayVanish_ = WideShrink * ShrinkBudget; }
+  /// From now on more nodes may vanish in passes that lift.
+  void openNodes() { this->mayVanish_ = ShrinkAtEnd * ShrinkBudget; }
   /// The most nodes that may vanish in one wide insertion. `nodes`: the part of the input's nodes
   /// that is left. `shrink`: WideShrink or WideShrinkOfWorst.
   int mostSwallowed(double nodes, long shrink) const

@@ -70,7 +70,7 @@ TEST(GrowthBudget, AtTheEndMoreNodesMayVanish)
   EXPECT_FALSE(b.share(Phase::Lifting, 1, nodes).mayShrink());
   b.openNodes();
   EXPECT_TRUE(b.share(Phase::Lifting, 1, nodes).mayShrink());
-  const double few = 1.0 - Usual * worstfirst::ShrinkBudget;
+  const double few = 1.0 - worstfirst::ShrinkAtEnd * worstfirst::ShrinkBudget;
   EXPECT_FALSE(b.share(Phase::Lifting, 1, few).mayShrink());
 }
 
@@ -132,9 +132,9 @@ TEST(GrowthBudget, LetsFewerNodesVanishInAPartWhenManyCellsAreGone)
 {
   GrowthBudget b = budget(100);
   EXPECT_EQ(b.mostSwallowed(0.0, Usual), worstfirst::MostSwallowed);
-  b.takeBack(Phase::Polishing, Allowed + Usual * 100 - 1, false);
+  b.takeBack(Phase::Polishing, Allowed + worstfirst::ShrinkAtEnd * 100 - 1, false);
   EXPECT_EQ(b.mostSwallowed(0.0, Usual), worstfirst::MostSwallowed);
-  b.takeBack(Phase::Polishing, Allowed + Usual * 100, false);
+  b.takeBack(Phase::Polishing, Allowed + worstfirst::ShrinkAtEnd * 100, false);
   EXPECT_EQ(b.mostSwallowed(1.0, Usual), worstfirst::FewestSwallowed);
 }
 }
