@@ -109,9 +109,6 @@ template <int D, class Shape>
 bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
 {
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
-  // Where the surface takes part, runs that polish only the few worst cells are followed by others:
-  // the many that are far above the worst may wait for these.
-  const bool isFollowed = workpiece.slides() && !workpiece.run().polishesWidely;
   // The worst of a part may be held by the border nearby. It must not stop the others: other runs
   // take up what is left, and these must be few.
   const int mostIdle = workpiece.mesh().hasBorder() ? MostIdleOfPart : MostIdle;
@@ -120,9 +117,7 @@ bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
   for (std::size_t k = 0; k < targets.size() && more && idle < mostIdle; ++k)
   {
     const double target = targets[k];
-    const bool isTarget = target == workpiece.options().targetQuality;
-    const bool isFar = isFollowed && k > 0 && workpiece.worst() < FarBelowStage * targets[k - 1];
-    if ((this->stage_.leavesMany() || isFar) && target < workpiece.options().targetQuality)
+    if (this->stage_.leavesMany() && target < workpiece.options().targetQuality)
     {
       continue;
     }
@@ -133,9 +128,8 @@ bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
     }
     this->reporter_.setDone(static_cast<double>(k) / static_cast<double>(targets.size()));
     const double before = workpiece.worst();
-    // Where others follow, only after polishing, which ends with it.
-    more = (isFollowed && isTarget) || this->stage_.lift(target);
-    if (more && (k == 0 || past || isTarget))
+    more = this->stage_.lift(target);
+    if (more && (k == 0 || past || target == workpiece.options().targetQuality))
     {
       // Nothing comes after the last stage: it may use the reserve.
       more = this->polish_.runAndRepair(target, k + 1 == targets.size());
