@@ -337,7 +337,7 @@ bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& n
     for (int k : near)
     {
       const Facet& r = this->facets_[k];
-      // No point of a facet is nearer than its plane: what is too far is left out by that.
+      // Beyond the tolerance none counts (below), and no point of a facet is nearer than its plane.
       if ((!r.isSigned || (r.normal.dot(normal) < 0.0) == looksAway) &&
         std::fabs(r.normal.dot(centre - r.origin)) <= this->tolerance_)
       {

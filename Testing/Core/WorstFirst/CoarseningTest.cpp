@@ -206,6 +206,6 @@ TEST(Coarsening, ARunExchangesNodesWhenItsBudgetIsShort)
     worstWith += with.worstAfter;
     worstWithout += without.worstAfter;
   }
-  EXPECT_GT(worstWith, 1.05 * worstWithout);
+  EXPECT_GT(worstWith, 1.1 * worstWithout);
   EXPECT_FALSE(exchanges(run(12, 10.0, true)));
 }
