@@ -5,6 +5,7 @@
 
 #include "WorstFirst/Coarsening.h"
 #include "WorstFirst/LongEdges.h"
+#include "WorstFirst/SharpCorners.h"
 #include "WorstFirst/WorstFirst.h"
 
 #include <algorithm>
@@ -22,6 +23,10 @@ constexpr double PartOfGrowth = 0.3, PartForDivisions = 0.2;
 /// times it are divided again. If the first way does not help, a gentler one may, which makes less
 /// of the mesh worse; or one that goes on until the parts are good, where a needle is left alone.
 constexpr double AboveWorst = 1.5, PartsBelow[] = { 0.6, 0.0, 4.0 };
+/// The first way of all is to divide edges at sharp corners, at cells below AboveWorstAtCorners
+/// times the worst quality, if there are any.
+constexpr double AboveWorstAtCorners = 1.05;
+constexpr std::size_t AtCorners = 0, NumberOfWays = 1 + std::size(PartsBelow);
 /// Once no more than this part of the growth budget is left, nodes elsewhere make room for each
 /// division: at most the part PartRemoved of the input's cells. No new cell there is below
 /// AboveWorstThere times the worst quality: with 1.5 or 2.5 the worst cells end lower.
@@ -56,7 +61,12 @@ private:
   double worst() const { return this->run_.report.history.back().worst; }
   bool isWorthDividing() const;
   bool makeRoom();
-  void divideAndOptimize(Effort effort, double partsBelow, bool polishesWidely, double& inVain);
+  bool divide(std::size_t way, bool& isChanged);
+  bool isTurned(const SimplexMesh<D>& before) const
+  {
+    return this->surface_.countTurned(this->run_.mesh()) > this->surface_.countTurned(before);
+  }
+  void divideAndOptimize(Effort effort, std::size_t way, bool polishesWidely, double& inVain);
   bool divideInSomeWay(Effort effort, bool polishesWidely);
 
   Run<D>& run_;
@@ -81,38 +91,69 @@ bool SurfaceRounds<D>::makeRoom()
   return false;
 }
 
-/// Divides long edges at the worst cells (divideLongEdges()), and improves what comes of it. The
-/// mesh stays as it was if that is no better, or if a facet has turned. `inVain`: the mean quality
-/// of the last divided mesh that was no better; the same again is the same mesh.
+/// Divides edges at the worst cells, after room has been made for that. False if there was none to
+/// divide. `isChanged`: whether the mesh is another one.
+template <int D>
+bool SurfaceRounds<D>::divide(std::size_t way, bool& isChanged)
+{
+  Run<D>& run = this->run_;
+  const double target = run.options.targetQuality, worst = this->worst();
+  isChanged = this->makeRoom();
+  run.limitGrowth(PartForDivisions);
+  bool isDivided = false;
+  if constexpr (D == 3) // as in makeRoom()
+  {
+    isDivided = way == AtCorners
+      ? divideAtCorners(run, std::min(target, AboveWorstAtCorners * worst)) > 0
+      : divideLongEdges(run, std::min(target, AboveWorst * worst), PartsBelow[way - 1]) > 0;
+  }
+  isChanged |= isDivided;
+  return isDivided;
+}
+
+/// Divides in one way, and improves what comes of it. If a facet has turned then, does the same
+/// once more with a surface that refuses such changes. The mesh stays as it was if it is no better.
+/// `inVain`: the mean quality of the last divided mesh that was no better; the same again is the
+/// same mesh.
 template <int D>
 void SurfaceRounds<D>::divideAndOptimize(
-  Effort effort, double partsBelow, bool polishesWidely, double& inVain)
+  Effort effort, std::size_t way, bool polishesWidely, double& inVain)
 {
   Run<D>& run = this->run_;
   const SimplexMesh<D> before = run.mesh();
   const double worst = this->worst();
   const long below = run.report.history.back().belowTarget;
   const StopReason reason = run.report.stopReason;
-  const bool isCoarser = this->makeRoom();
-  bool isDivided = false;
-  run.limitGrowth(PartForDivisions);
-  if constexpr (D == 3) // as in makeRoom()
+  double divided = 0.0;
+  for (const bool refuses : { false, true })
   {
-    const double bad = std::min(run.options.targetQuality, AboveWorst * worst);
-    isDivided = divideLongEdges(run, bad, partsBelow) > 0;
-  }
-  if (!isCoarser && !isDivided)
-  {
-    return;
-  }
-  const double divided = run.report.history.back().mean;
-  if (isDivided && divided != inVain && !run.clock.hasStopped())
-  {
-    optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely);
+    this->surface_.refuseTurned(refuses);
+    bool isChanged = false;
+    const bool isDivided = this->divide(way, isChanged);
+    this->surface_.refuseTurned(refuses && isChanged);
+    if (!isChanged)
+    {
+      return;
+    }
+    divided = run.report.history.back().mean;
+    if (isDivided && divided != inVain && !run.clock.hasStopped())
+    {
+      optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely);
+    }
+    this->surface_.refuseTurned(false);
+    if (refuses || run.clock.hasStopped() || !this->isTurned(before))
+    {
+      break;
+    }
+    restore<D>(run, before);
+    run.record("turned facets undone");
   }
   const PassRecord& now = run.report.history.back();
-  if (now.worst < worst || (now.worst == worst && now.belowTarget >= below) ||
-    this->surface_.countTurned(run.mesh()) > this->surface_.countTurned(before))
+  // At corners it has to help clearly: else the other ways have more room.
+  const bool isBetter = way == AtCorners
+    ? now.worst > DivisionsGain * worst
+    : now.worst > worst || (now.worst == worst && now.belowTarget < below);
+  if (!isBetter || this->isTurned(before))
   {
     restore<D>(run, before);
     run.record("divisions undone");
@@ -135,9 +176,9 @@ bool SurfaceRounds<D>::divideInSomeWay(Effort effort, bool polishesWidely)
 {
   const double before = this->worst();
   double inVain = -1.0; // no mean quality is negative here
-  for (std::size_t k = 0; k < std::size(PartsBelow) && this->isWorthDividing(); ++k)
+  for (std::size_t way = 0; way < NumberOfWays && this->isWorthDividing(); ++way)
   {
-    this->divideAndOptimize(effort, PartsBelow[k], polishesWidely, inVain);
+    this->divideAndOptimize(effort, way, polishesWidely, inVain);
     if (this->worst() > DivisionsGain * before)
     {
       return true;
