@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 namespace meshopt
 {
@@ -58,15 +59,17 @@ public:
   void run();
 
 private:
+  struct Division
+  {
+    bool isCoarser = false, isDivided = false;
+  };
+
   double worst() const { return this->run_.report.history.back().worst; }
   bool isWorthDividing() const;
   bool makeRoom();
-  bool divide(std::size_t way, bool& isChanged);
-  bool isTurned(const SimplexMesh<D>& before) const
-  {
-    return this->surface_.countTurned(this->run_.mesh()) > this->surface_.countTurned(before);
-  }
-  void divideAndOptimize(Effort effort, std::size_t way, bool polishesWidely, double& inVain);
+  Division divide(std::size_t way);
+  void divideAndOptimize(
+    Effort effort, std::size_t way, bool polishesWidely, std::vector<double>& inVain);
   bool divideInSomeWay(Effort effort, bool polishesWidely);
 
   Run<D>& run_;
@@ -91,74 +94,71 @@ bool SurfaceRounds<D>::makeRoom()
   return false;
 }
 
-/// Divides edges at the worst cells, after room has been made for that. False if there was none to
-/// divide. `isChanged`: whether the mesh is another one.
+/// Divides edges at the worst cells, after room has been made for that.
 template <int D>
-bool SurfaceRounds<D>::divide(std::size_t way, bool& isChanged)
+typename SurfaceRounds<D>::Division SurfaceRounds<D>::divide(std::size_t way)
 {
   Run<D>& run = this->run_;
   const double target = run.options.targetQuality, worst = this->worst();
-  isChanged = this->makeRoom();
+  Division made;
+  made.isCoarser = this->makeRoom();
   run.limitGrowth(PartForDivisions);
-  bool isDivided = false;
   if constexpr (D == 3) // as in makeRoom()
   {
-    isDivided = way == AtCorners
+    made.isDivided = way == AtCorners
       ? divideAtCorners(run, std::min(target, AboveWorstAtCorners * worst)) > 0
       : divideLongEdges(run, std::min(target, AboveWorst * worst), PartsBelow[way - 1]) > 0;
   }
-  isChanged |= isDivided;
-  return isDivided;
+  return made;
 }
 
 /// Divides in one way, and improves what comes of it. If a facet has turned then, does the same
 /// once more with a surface that refuses such changes. The mesh stays as it was if it is no better.
-/// `inVain`: the mean quality of the last divided mesh that was no better; the same again is the
-/// same mesh.
+/// `inVain`: the mean qualities of divided meshes that were no better; the same again is the same
+/// mesh.
 template <int D>
 void SurfaceRounds<D>::divideAndOptimize(
-  Effort effort, std::size_t way, bool polishesWidely, double& inVain)
+  Effort effort, std::size_t way, bool polishesWidely, std::vector<double>& inVain)
 {
   Run<D>& run = this->run_;
   const SimplexMesh<D> before = run.mesh();
   const double worst = this->worst();
   const long below = run.report.history.back().belowTarget;
   const StopReason reason = run.report.stopReason;
-  double divided = 0.0;
-  for (const bool refuses : { false, true })
+  bool again = true;
+  for (bool refuses = false; again; refuses = true)
   {
     this->surface_.refuseTurned(refuses);
-    bool isChanged = false;
-    const bool isDivided = this->divide(way, isChanged);
-    this->surface_.refuseTurned(refuses && isChanged);
-    if (!isChanged)
-    {
-      return;
-    }
-    divided = run.report.history.back().mean;
-    if (isDivided && divided != inVain && !run.clock.hasStopped())
+    const Division made = this->divide(way);
+    const double divided = run.report.history.back().mean;
+    const bool isKnown = std::find(inVain.begin(), inVain.end(), divided) != inVain.end();
+    if (made.isDivided && !isKnown && !run.clock.hasStopped())
     {
       optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely);
     }
     this->surface_.refuseTurned(false);
-    if (refuses || run.clock.hasStopped() || !this->isTurned(before))
+    if (!made.isDivided && !made.isCoarser)
     {
-      break;
+      return;
     }
-    restore<D>(run, before);
-    run.record("turned facets undone");
-  }
-  const PassRecord& now = run.report.history.back();
-  // At corners it has to help clearly: else the other ways have more room.
-  const bool isBetter = way == AtCorners
-    ? now.worst > DivisionsGain * worst
-    : now.worst > worst || (now.worst == worst && now.belowTarget < below);
-  if (!isBetter || this->isTurned(before))
-  {
-    restore<D>(run, before);
-    run.record("divisions undone");
-    run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
-    inVain = divided;
+    const bool isTurned = this->surface_.countTurned(run.mesh()) >
+      this->surface_.countTurned(before);
+    const PassRecord& now = run.report.history.back();
+    // At corners it has to help clearly: else the other ways have more room.
+    const bool isBetter = way == AtCorners
+      ? now.worst > DivisionsGain * worst
+      : now.worst > worst || (now.worst == worst && now.belowTarget < below);
+    again = isTurned && !refuses && !run.clock.hasStopped();
+    if (isTurned || !isBetter)
+    {
+      restore<D>(run, before);
+      run.record(again ? "turned facets undone" : "divisions undone");
+      run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
+      if (!again) // the same division may help where no facet may turn
+      {
+        inVain.push_back(divided);
+      }
+    }
   }
 }
 
@@ -175,7 +175,7 @@ template <int D>
 bool SurfaceRounds<D>::divideInSomeWay(Effort effort, bool polishesWidely)
 {
   const double before = this->worst();
-  double inVain = -1.0; // no mean quality is negative here
+  std::vector<double> inVain;
   for (std::size_t way = 0; way < NumberOfWays && this->isWorthDividing(); ++way)
   {
     this->divideAndOptimize(effort, way, polishesWidely, inVain);

@@ -37,11 +37,16 @@ private:
   {
     double cosine;
     Index corner;
-    std::array<Index, 3> ends; ///< of the two edges, and the fourth node
+    std::array<Index, 3> ends; ///< of the two edges, and the fourth node of the cell
   };
 
   const SimplexMesh<3>& mesh() const { return this->run_.mesh(); }
-  std::optional<Sharp> sharpestOf(const Simplex<3>& nodes);
+  Index cellOf(const Simplex<3>& nodes);
+  bool isOnCurve(Index c, Index a, Index b) const
+  {
+    return this->mesh().isEdgeKeptByItself(c, this->mesh().localEdge(c, a, b));
+  }
+  std::optional<Sharp> sharpestOf(Index c) const;
   Index cellAt(Index a, Index b);
   Index worstAt(Index p);
   void divideAt(const Sharp& sharp);
@@ -55,45 +60,32 @@ private:
   std::vector<Index> star_;
 };
 
-/// The sharpest angle between two edges on curves that leave a corner of the cell with these nodes,
-/// if it is sharp. Nothing either if the cell has gone.
-std::optional<SharpCorners::Sharp> SharpCorners::sharpestOf(const Simplex<3>& nodes)
+/// The cell with these nodes; None if it has gone.
+Index SharpCorners::cellOf(const Simplex<3>& nodes)
+{
+  this->mesh().star(nodes[0], this->star_); // divisions remove no node
+  const auto found = std::find_if(this->star_.begin(), this->star_.end(),
+    [&](Index c) { return this->mesh().nodes(c) == nodes; });
+  return found == this->star_.end() ? None : *found;
+}
+
+/// The sharpest angle between two edges of cell c on curves that leave a corner, if it is sharp.
+std::optional<SharpCorners::Sharp> SharpCorners::sharpestOf(Index c) const
 {
   const SimplexMesh<3>& mesh = this->mesh();
+  const Simplex<3>& t = mesh.nodes(c);
   std::optional<Sharp> sharpest;
-  for (Index corner : nodes)
+  for (int k = 0; k < 12; ++k) // the angles of the faces: each node without one of the others
   {
-    if (mesh.freedom(corner) != Freedom::Corner)
+    const int i = k / 3, fourth = (i + 1 + k % 3) % 4;
+    const auto [a, b] = std::minmax({ (i + 1 + (k + 1) % 3) % 4, (i + 1 + (k + 2) % 3) % 4 });
+    const Vec<3> u = mesh.point(t[a]) - mesh.point(t[i]), v = mesh.point(t[b]) - mesh.point(t[i]);
+    const double cosine = u.dot(v) / (u.norm() * v.norm());
+    if (cosine > (sharpest ? sharpest->cosine : SharpCosine) &&
+      mesh.freedom(t[i]) == Freedom::Corner && this->isOnCurve(c, t[i], t[a]) &&
+      this->isOnCurve(c, t[i], t[b]))
     {
-      continue;
-    }
-    mesh.star(corner, this->star_);
-    const auto cell = std::find_if(
-      this->star_.begin(), this->star_.end(), [&](Index c) { return mesh.nodes(c) == nodes; });
-    std::vector<Index> ends;
-    for (int e = 0; e < 6 && cell != this->star_.end(); ++e)
-    {
-      const Index a = nodes[Local<3>::edges[e][0]], b = nodes[Local<3>::edges[e][1]];
-      if ((a == corner || b == corner) && mesh.isEdgeKeptByItself(*cell, e))
-      {
-        ends.push_back(a == corner ? b : a);
-      }
-    }
-    for (std::size_t k = 1; k < ends.size(); ++k)
-    {
-      for (std::size_t j = 0; j < k; ++j)
-      {
-        const Vec<3> u = mesh.point(ends[j]) - mesh.point(corner);
-        const Vec<3> v = mesh.point(ends[k]) - mesh.point(corner);
-        const double cosine = u.dot(v) / (u.norm() * v.norm());
-        if (cosine > (sharpest ? sharpest->cosine : SharpCosine))
-        {
-          // Node numbers of a cell are all different: what is left of their sum is the fourth.
-          const Index fourth = nodes[0] + nodes[1] + nodes[2] + nodes[3] - corner - ends[j] -
-            ends[k];
-          sharpest = Sharp{ cosine, corner, { ends[j], ends[k], fourth } };
-        }
-      }
+      sharpest = Sharp{ cosine, t[i], { t[a], t[b], t[fourth] } };
     }
   }
   return sharpest;
@@ -161,7 +153,9 @@ long SharpCorners::divide()
   const Judge<3, Shape>& judge = this->divider_.judge();
   for (std::size_t k = 0; k < bad.size() && !judge.growth.isShort; ++k)
   {
-    if (const auto sharp = this->sharpestOf(bad[k].second))
+    const Index c = this->cellOf(bad[k].second);
+    const std::optional<Sharp> sharp = c == None ? std::nullopt : this->sharpestOf(c);
+    if (sharp)
     {
       this->divideAt(*sharp);
       this->moveNew();

@@ -116,7 +116,8 @@ TEST(SurfaceRounds, NothingFollowsWhereTheTargetIsReached)
   EXPECT_EQ(once.bench.report.history.size(), rows);
 }
 
-/// The mesh then is that of the run before.
+/// Once more with a surface that refuses that; if some turn even then, the mesh is that of the run
+/// before.
 TEST(SurfaceRounds, DivisionsThatTurnFacetsAreUndone)
 {
   std::vector<long> answers{ 0, 0 };
@@ -127,6 +128,9 @@ TEST(SurfaceRounds, DivisionsThatTurnFacetsAreUndone)
   Turning surface(answers);
   Rounds rounds(surface), first(surface);
   optimizeSliding<3>(rounds.bench.run, surface);
+  EXPECT_EQ(std::count(surface.refused.begin(), surface.refused.end(), true),
+    static_cast<long>(rounds.rows("turned facets undone").size()));
+  EXPECT_FALSE(rounds.rows("turned facets undone").empty());
   surface = Turning();
   optimizeOnSurface<3>(first.bench.run, surface, Effort::Default, 0.3, false);
   const double worst = sortedQualities(first.bench.mesh).front();

@@ -2,9 +2,8 @@
 // Division of long edges at bad cells: what it makes, what it leaves, and what a run makes of it.
 #include "WorstFirst/LongEdges.h"
 
-#include "Metric/NodalMetric.h"
+#include "Divisions.h"
 #include "Optimize/Optimizer.h"
-#include "SlidingBoxes.h"
 
 #include <algorithm>
 
@@ -23,27 +22,11 @@ MeshInput<3> needles(double length)
   return in;
 }
 
-struct Division
+Division divided(Sliding& sliding, double below, long growth, const Surface<3>* surface)
 {
-  Division(Sliding& sliding, double below, long growth, const Surface<3>* surface)
-    : clock(this->control)
-  {
-    computeQualities<3>(sliding.editor, metric, Measure::Shape, 0.0);
-    this->before = sortedQualities(sliding.mesh);
-    Run<3> run{ sliding.editor, metric, surface, options, control, clock, report };
-    run.growth = growth;
-    this->done = divideLongEdges(run, below, 0.6);
-    expectSound(sliding.mesh);
-  }
-
-  NodalMetric<3> metric;
-  Options options;
-  Control control;
-  Clock clock;
-  Report report;
-  std::vector<double> before;
-  long done = 0;
-};
+  return { sliding, growth, surface, {},
+    [below](Run<3>& run) { return divideLongEdges(run, below, 0.6); } };
+}
 
 double volumeOf(const SimplexMesh<3>& mesh)
 {
@@ -63,7 +46,7 @@ TEST(LongEdges, AreDividedAndTheSurfaceStays)
   const auto surface = surfaceOf(sliding.mesh);
   const double volume = volumeOf(sliding.mesh);
   const long cells = sliding.mesh.countCells();
-  const Division division(sliding, 1.0, AnyGrowth, &sliding.surface);
+  const Division division = divided(sliding, 1.0, AnyGrowth, &sliding.surface);
   EXPECT_GE(sliding.mesh.countCells(), cells + division.done); // each divides a cell at least
   EXPECT_NEAR(volumeOf(sliding.mesh), volume, 1e-12 * volume);
   // All were under 1: each that is left has a new node.
@@ -86,12 +69,12 @@ TEST(LongEdges, AreDividedAndTheSurfaceStays)
 TEST(LongEdges, OnlyBadCellsAndWithinTheGrowth)
 {
   Sliding good(needles(40.0), tolerance(1e-3));
-  const Division nothing(good, 1e-4, AnyGrowth, &good.surface);
+  const Division nothing = divided(good, 1e-4, AnyGrowth, &good.surface);
   EXPECT_EQ(nothing.done, 0);
   EXPECT_TRUE(nothing.report.history.empty());
   Sliding few(needles(40.0), tolerance(1e-3));
   const long cells = few.mesh.countCells();
-  const Division division(few, 1.0, 20, &few.surface);
+  const Division division = divided(few, 1.0, 20, &few.surface);
   EXPECT_GT(division.done, 0);
   EXPECT_LE(few.mesh.countCells(), cells + 20);
 }
@@ -101,7 +84,7 @@ TEST(LongEdges, AKeptSurfaceStaysFacetByFacet)
 {
   Sliding kept(needles(40.0), tolerance(1e-3));
   const auto surface = surfaceOf(kept.mesh);
-  Division(kept, 1.0, AnyGrowth, nullptr);
+  divided(kept, 1.0, AnyGrowth, nullptr);
   const auto after = surfaceOf(kept.mesh);
   ASSERT_EQ(after.size(), surface.size());
   EXPECT_EQ(sampledDistance(after, surface, 1), 0.0); // corners: they are where they were

@@ -2,9 +2,8 @@
 // Division of edges at sharp corners: what it makes, what it leaves, and what a run makes of it.
 #include "WorstFirst/SharpCorners.h"
 
-#include "Metric/NodalMetric.h"
+#include "Divisions.h"
 #include "Optimize/Optimizer.h"
-#include "SlidingBoxes.h"
 
 #include <algorithm>
 
@@ -22,26 +21,13 @@ MeshInput<3> blade(double half, double height)
   return in;
 }
 
-struct Division
+Division divided(Sliding& sliding, double below, long growth, bool moves = true)
 {
-  Division(Sliding& sliding, double below, long growth, bool moves = true)
-    : clock(this->control)
-  {
-    this->options.moveNodes = moves;
-    computeQualities<3>(sliding.editor, metric, Measure::Shape, 0.0);
-    Run<3> run{ sliding.editor, metric, &sliding.surface, options, control, clock, report };
-    run.growth = growth;
-    this->done = divideAtCorners(run, below);
-    expectSound(sliding.mesh);
-  }
-
-  NodalMetric<3> metric;
   Options options;
-  Control control;
-  Clock clock;
-  Report report;
-  long done = 0;
-};
+  options.moveNodes = moves;
+  return { sliding, growth, &sliding.surface, options,
+    [below](Run<3>& run) { return divideAtCorners(run, below); } };
+}
 
 /// The worst shape at the point of the blade.
 double worstAtPoint(const Sliding& sliding)
@@ -55,8 +41,8 @@ double worstAtPoint(const Sliding& sliding)
 TEST(SharpCorners, EdgesAreDividedAndTheNewNodesGoApart)
 {
   Sliding still(blade(0.02, 0.5), tolerance(0.1)), sliding(blade(0.02, 0.5), tolerance(0.1));
-  const Division only(still, 1.0, AnyGrowth, false);
-  const Division moved(sliding, 1.0, AnyGrowth);
+  const Division only = divided(still, 1.0, AnyGrowth, false);
+  const Division moved = divided(sliding, 1.0, AnyGrowth);
   EXPECT_GE(only.done, 2);
   EXPECT_GE(moved.done, 2);
   EXPECT_EQ(sliding.mesh.countPoints(), 5 + moved.done);
@@ -70,11 +56,11 @@ TEST(SharpCorners, EdgesAreDividedAndTheNewNodesGoApart)
 TEST(SharpCorners, OnlyBadCellsAndWithinTheGrowth)
 {
   Sliding good(blade(0.02, 0.5), tolerance(0.1));
-  const Division nothing(good, 1e-4, AnyGrowth);
+  const Division nothing = divided(good, 1e-4, AnyGrowth);
   EXPECT_EQ(nothing.done, 0);
   EXPECT_TRUE(nothing.report.history.empty());
   Sliding full(blade(0.02, 0.5), tolerance(0.1));
-  const Division none(full, 1.0, 0);
+  const Division none = divided(full, 1.0, 0);
   EXPECT_EQ(none.done, 0);
   EXPECT_EQ(full.mesh.countCells(), 2);
 }
@@ -84,7 +70,7 @@ TEST(SharpCorners, OtherCornersStayAsTheyAre)
 {
   Sliding sliding(slidingBox(3, 0.1), tolerance(1e-3));
   EXPECT_EQ(sliding.count(Freedom::Corner), 8);
-  EXPECT_EQ(Division(sliding, 1.0, AnyGrowth).done, 0);
+  EXPECT_EQ(divided(sliding, 1.0, AnyGrowth).done, 0);
 }
 
 /// A run divides them where its first part has not reached the target, and ends higher.
