@@ -95,7 +95,7 @@ def test_stuck_cells_spoil_no_others():
         f = vtkMeshOptimizeFilter()
         f.SetInputConnection(delaunay.GetOutputPort())
         f.Update()
-        assert f.GetWorstQualityAfter() > 0.97 * f.GetQualityBound(), f"seed {seed}"
+        assert f.GetWorstQualityAfter() > 0.95 * f.GetQualityBound(), f"seed {seed}"
         before += np.count_nonzero(shape(f.GetInput()) < f.GetTargetQuality())
         after += np.count_nonzero(shape(f.GetOutput()) < f.GetTargetQuality())
         history = f.GetOutputDataObject(1)

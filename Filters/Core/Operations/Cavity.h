@@ -8,8 +8,9 @@
 /// sequence with the largest worst quality is remembered. Among all cavities that contain the seed
 /// and cross no kept facet, this prefix maximizes the worst quality of the new elements. Proof: if
 /// a prefix P has a boundary facet of quality <= c, then a larger cavity either takes in the cell
-/// behind it or has that facet on its own boundary. A positive worst quality makes the cavity
-/// star-shaped around the node. O(k log k) for k cells.
+/// behind it or has that facet on its own boundary. So nothing better follows once a facet that
+/// cannot be opened makes no better element than the best prefix has. A positive worst quality
+/// makes the cavity star-shaped around the node. O(k log k) for k cells.
 ///
 /// A node of the surface lies in kept facets or at an edge of the surface (Opening). Facets of its
 /// patches that are connected with these are opened, too: they are not joined to the node, but
@@ -24,6 +25,7 @@
 #include "Mesh/MeshEditor.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace meshopt
 {
@@ -84,13 +86,12 @@ private:
   struct Front
   {
     double q;
-    Index cell;
-    int facet;
+    Index handle; ///< of the facet
+    Index behind; ///< the cell there, or None
+
     bool operator<(const Front& o) const // the worst on top; ties by id
     {
-      return this->q != o.q
-        ? this->q > o.q
-        : SimplexMesh<D>::handle(this->cell, this->facet) > SimplexMesh<D>::handle(o.cell, o.facet);
+      return this->q != o.q ? this->q > o.q : this->handle > o.handle;
     }
   };
   struct PointData
@@ -107,6 +108,9 @@ private:
   double quality(const QualityModel<D, Shape>& model, const SimplexMesh<D>& mesh, Index c, int i,
     const int* numbers) const;
   double plainQuality(const int* numbers) const;
+  bool isClosed(const MeshEditor<D>& editor, const Front& f) const;
+  void push(const Front& f);
+  void dropInside(const MeshEditor<D>& editor);
   void finish(MeshEditor<D>& editor);
 
   LocalNumbers numbers_;
@@ -122,7 +126,7 @@ private:
   Vec<D> x_;
   int swallowed_ = 0;
   double oldWorst_ = 0.0;
-  double worstWall_ = 0.0; ///< of the elements on facets that cannot be opened
+  double worstWall_ = 0.0; ///< of the elements on facets that cannot be opened, without an opening
 };
 
 /// The quality of the element that joins facet i of cell c to the new node; `numbers` are those of
@@ -265,8 +269,7 @@ bool Cavity<D, Shape>::take(
         !(editor.owns(mesh.cellOf(h)) && editor.isMarked(mesh.cellOf(h), this->mark_)))
       {
         // Of an interface both sides are needed: the other cell comes next.
-        this->heap_.push_back({ -std::numeric_limits<double>::infinity(), c, i });
-        std::push_heap(this->heap_.begin(), this->heap_.end());
+        this->push({ -std::numeric_limits<double>::infinity(), mesh.handle(c, i), mesh.cellOf(h) });
       }
       continue;
     }
@@ -286,11 +289,13 @@ bool Cavity<D, Shape>::take(
       ++this->points_[k].facets;
     }
     const double q = this->quality(model, mesh, c, i, numbers);
-    this->heap_.push_back({ q, c, i });
-    std::push_heap(this->heap_.begin(), this->heap_.end());
-    if (q < this->worstWall_ && this->isWall(editor, c, i))
+    if (!this->opening_ && this->isWall(editor, c, i)) // with an opening it may open later
     {
-      this->worstWall_ = q;
+      this->worstWall_ = std::min(this->worstWall_, q);
+    }
+    else
+    {
+      this->push({ q, mesh.handle(c, i), h == None ? None : mesh.cellOf(h) });
     }
   }
   if (enclosesKeptEdge(mesh, c,
@@ -313,11 +318,37 @@ bool Cavity<D, Shape>::take(
   return true;
 }
 
+/// Whether the cavity cannot grow through a facet of the heap.
+template <int D, class Shape>
+bool Cavity<D, Shape>::isClosed(const MeshEditor<D>& editor, const Front& f) const
+{
+  return this->opening_ &&
+    this->isWall(editor, SimplexMesh<D>::cellOf(f.handle), SimplexMesh<D>::facetOf(f.handle));
+}
+
+template <int D, class Shape>
+void Cavity<D, Shape>::push(const Front& f)
+{
+  this->heap_.push_back(f);
+  std::push_heap(this->heap_.begin(), this->heap_.end());
+}
+
+/// Facets that lie inside by now leave the heap when they come to the top.
+template <int D, class Shape>
+void Cavity<D, Shape>::dropInside(const MeshEditor<D>& editor)
+{
+  while (!this->heap_.empty() && !this->isClosed(editor, this->heap_.front()) &&
+    editor.isMarked(this->heap_.front().behind, this->mark_))
+  {
+    std::pop_heap(this->heap_.begin(), this->heap_.end());
+    this->heap_.pop_back();
+  }
+}
+
 template <int D, class Shape>
 double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model,
   Index seed, const Node& node, const CavityLimits& limits)
 {
-  const SimplexMesh<D>& mesh = editor.mesh();
   this->opening_ = node.opening;
   this->opened_.clear();
   this->numbers_.clear();
@@ -334,34 +365,24 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
   bool more = this->take(editor, model, seed, limits.swallowed);
   while (more)
   {
-    // Facets that lie inside by now are dropped when they come to the top.
-    while (true)
-    {
-      const Front& top = this->heap_.front();
-      if (this->isWall(editor, top.cell, top.facet) ||
-        !editor.isMarked(mesh.cellOf(mesh.adjacent(top.cell, top.facet)), this->mark_))
-      {
-        break;
-      }
-      std::pop_heap(this->heap_.begin(), this->heap_.end());
-      this->heap_.pop_back();
-    }
-    const Front top = this->heap_.front();
+    this->dropInside(editor);
     // The worst facet on the boundary is the worst quality of the whole prefix.
-    if (top.q > best)
+    const double q = this->heap_.empty() ? this->worstWall_
+                                         : std::min(this->worstWall_, this->heap_.front().q);
+    if (q > best)
     {
-      best = top.q;
+      best = q;
       bestSize = this->cells_.size();
     }
     // If the worst facet cannot be opened, no larger cavity can be better than the best so far.
-    if (this->isWall(editor, top.cell, top.facet) || this->worstWall_ <= limits.hopeless ||
+    if (this->worstWall_ <= std::max(best, limits.hopeless) || this->heap_.empty() ||
+      this->isClosed(editor, this->heap_.front()) ||
       static_cast<int>(this->cells_.size()) >= limits.cells ||
       this->cells_.size() > 2 * bestSize + limits.detour)
     {
       break;
     }
-    const Index h = mesh.adjacent(top.cell, top.facet);
-    more = this->take(editor, model, mesh.cellOf(h), limits.swallowed);
+    more = this->take(editor, model, this->heap_.front().behind, limits.swallowed);
   }
   this->cells_.resize(bestSize);
   this->finish(editor);
