@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meshopt
 {
@@ -36,11 +37,12 @@ public:
     limits.cells = limits.detour = this->mostCells_;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
     limits.hopeless = Hopeless * judge.mesh().quality(t);
+    const double enough = judge.isWideGentle() ? Enough : std::numeric_limits<double>::infinity();
     std::size_t from = 0;
     for (std::size_t to : BestCells)
     {
       this->findSeeds(judge.mesh(), from, to);
-      if (!this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits))
+      if (!this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits, enough))
       {
         return true;
       }
@@ -69,6 +71,10 @@ private:
   /// A seed is given up where what is kept holds it under this part of the cell's quality: such
   /// seeds hardly ever gain when the node moves.
   static constexpr double Hopeless = 0.3;
+  /// Seeds that promise this many times the old worst are enough: then fewer nodes vanish. In cubes
+  /// and lattices of random points a tenth more of the nodes are left than without, and fewer cells
+  /// under .2.
+  static constexpr double Enough = 1.2;
 
   /// The cells around cell t, the nearest first, as far as the chunk reaches.
   void findCells(MeshEditor<D>& editor, Index t)
