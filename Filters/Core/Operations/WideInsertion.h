@@ -72,7 +72,7 @@ private:
   /// seeds hardly ever gain when the node moves.
   static constexpr double Hopeless = 0.3;
   /// Seeds that promise this many times the old worst are enough: then fewer nodes vanish. In cubes
-  /// and lattices of 3000 random points that leaves 6 to 15 % more of them. With 1.2 or 2 slabs take
+  /// and lattices of 3000 random points 6 to 15 % more of them are left. With 1.2 or 2 slabs take
   /// longer, or end lower.
   static constexpr double Enough = 1.5;
 
