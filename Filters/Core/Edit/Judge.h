@@ -138,9 +138,6 @@ public:
   }
   int wide() const { return this->wide_; }
   bool isWidePatient() const { return this->widePatiently_; }
-  /// Whether, of wide insertions that gain enough, the smallest comes first. Off at first.
-  void setWideGently(bool on) { this->wideGently_ = on; }
-  bool isWideGentle() const { return this->wideGently_; }
   /// The least gain of a change, and how many steps the search for the best place of a node may
   /// take.
   void setGain(double gain, int steps = StarSteps)
@@ -325,7 +322,7 @@ private:
   bool guardsAll_ = false, stampsStars_ = true, isThorough_ = true;
   bool looksAhead_ = true;
   int wide_ = None; ///< see setWide()
-  bool widePatiently_ = false, wideGently_ = false;
+  bool widePatiently_ = false;
   std::uint32_t failuresSince_ = 0;
   long bad_ = 0; ///< badness() of all cells made, minus that of those removed
   bool tangled_ = false, inverted_ = false;

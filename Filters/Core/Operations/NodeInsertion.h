@@ -40,14 +40,12 @@ public:
     return this->improve(judge, t, seeds, usualLimits(judge));
   }
 
-  /// The same from given seeds, with given limits of the cavity. `enough`: of seeds that promise
-  /// that many times the old worst, the one with the smallest cavity is tried first.
-  bool improve(Judge<D, Shape>& judge, Index t, const std::vector<Seed>& seeds,
-    const CavityLimits& limits, double enough = std::numeric_limits<double>::infinity())
+  /// The same from given seeds, with given limits of the cavity.
+  bool improve(
+    Judge<D, Shape>& judge, Index t, const std::vector<Seed>& seeds, const CavityLimits& limits)
   {
     this->seeds_ = seeds;
     this->limits_ = limits;
-    this->enough_ = enough;
     const auto mark = judge.begin();
     const Index p = judge.editor().addPoint(this->seeds_[0].x);
     bool done = false;
@@ -114,8 +112,7 @@ private:
   CavityLimits limits_;
   StarProblem<D, Shape> problem_;
   std::vector<Seed> seeds_;
-  double enough_ = 0.0;                                 ///< see improve()
-  std::vector<std::pair<double, std::size_t>> ranking_; ///< of the seeds: (-worth, number)
+  std::vector<std::pair<double, std::size_t>> ranking_; ///< of the seeds: (-promise, number)
 };
 
 /// The place of the node as a problem: the facets of the cavity, seen from inside.
@@ -208,9 +205,7 @@ void NodeInsertion<D, Shape>::rank(Judge<D, Shape>& judge, Index t, Index p)
     const double promise = q / std::max(this->cavity_.oldWorst(), tiny);
     if (q > this->limits_.hopeless && promise > (judge.isThorough() ? 0.0 : Promising))
     {
-      const double size = static_cast<double>(this->cavity_.cells().size());
-      const double worth = promise > this->enough_ ? this->enough_ + 1.0 / size : promise;
-      this->ranking_.push_back({ -worth, k });
+      this->ranking_.push_back({ -promise, k });
     }
   }
   const std::size_t all = this->ranking_.size();

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meshopt
 {
@@ -37,12 +36,11 @@ public:
     limits.cells = limits.detour = this->mostCells_;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
     limits.hopeless = Hopeless * judge.mesh().quality(t);
-    const double enough = judge.isWideGentle() ? Enough : std::numeric_limits<double>::infinity();
     std::size_t from = 0;
     for (std::size_t to : BestCells)
     {
       this->findSeeds(judge.mesh(), from, to);
-      if (!this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits, enough))
+      if (!this->seeds_.empty() && this->insertion_.improve(judge, t, this->seeds_, limits))
       {
         return true;
       }
@@ -71,10 +69,6 @@ private:
   /// A seed is given up where what is kept holds it under this part of the cell's quality: such
   /// seeds hardly ever gain when the node moves.
   static constexpr double Hopeless = 0.3;
-  /// Seeds that promise this many times the old worst are enough: then fewer nodes vanish. In cubes
-  /// and lattices of 3000 random points 6 to 15 % more of them are left. With 1.2 or 2 slabs take
-  /// longer, or end lower.
-  static constexpr double Enough = 1.5;
 
   /// The cells around cell t, the nearest first, as far as the chunk reaches.
   void findCells(MeshEditor<D>& editor, Index t)

@@ -112,7 +112,6 @@ void Worker<D, Shape>::begin(const Task& task, const Orders& orders)
   judge.setThorough(!this->workpiece_.model().plain ||
     (!task.polishes() && task.below <= this->workpiece_.fewCells()));
   judge.setWide(orders.wide);
-  judge.setWideGently(this->workpiece_.effort() != Effort::Quick); // it takes longer
   judge.setGuard(orders.guard, orders.guardsAll);
   this->demand(false);
   this->usualDemand_ = judge.demand();

@@ -101,21 +101,6 @@ TYPED_TEST(InsertingFarAway, NodesOfLayersVanishTogether)
   EXPECT_EQ(b.mesh.countCells(), D + 1);
 }
 
-/// The smallest of those that gain enough: less than all layers, but some.
-TYPED_TEST(InsertingFarAway, GentlyFewerNodesVanish)
-{
-  constexpr int D = TypeParam::dimension;
-  Bench<D> b(layers<D>(Layers));
-  const double before = b.worst();
-  WideInsertion<D, MeanEdgeShape<D>> wide;
-  b.judge.setWide(Layers);
-  b.judge.setWideGently(true);
-  b.judge.start();
-  EXPECT_TRUE(wide.improve(b.judge, 0, Level::LongLookAhead));
-  EXPECT_GT(b.worst(), before);
-  EXPECT_GT(b.mesh.countPoints(), D + 2 + Layers / 4);
-}
-
 TYPED_TEST(InsertingFarAway, ANodeNearbyIsOfLittleUse)
 {
   constexpr int D = TypeParam::dimension;
