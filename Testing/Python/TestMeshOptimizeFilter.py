@@ -87,6 +87,7 @@ def test_pellet():
 def test_stuck_cells_spoil_no_others():
     """Random points and their hull: many cells are stuck at the hull. They rise as far as it allows, and the rest is not spoilt for them."""
     before = after = tried = cells = 0
+    reached = []
     for seed in range(6):
         points, cloud, delaunay = vtkPoints(), vtkPolyData(), vtkDelaunay3D()
         points.SetData(numpy_to_vtk(np.random.default_rng(seed).normal(size=(200, 3)), deep=1))
@@ -95,12 +96,14 @@ def test_stuck_cells_spoil_no_others():
         f = vtkMeshOptimizeFilter()
         f.SetInputConnection(delaunay.GetOutputPort())
         f.Update()
-        assert f.GetWorstQualityAfter() > 0.95 * f.GetQualityBound(), f"seed {seed}"
+        reached.append(f.GetWorstQualityAfter() / f.GetQualityBound())
         before += np.count_nonzero(shape(f.GetInput()) < f.GetTargetQuality())
         after += np.count_nonzero(shape(f.GetOutput()) < f.GetTargetQuality())
         history = f.GetOutputDataObject(1)
         tried += sum(history.GetColumnByName("NodeMotionTried").GetValue(row) for row in range(history.GetNumberOfRows()))
         cells += f.GetInput().GetNumberOfCells()
+    # One alone may end a few hundredths lower: which one, any change of the order of tries decides.
+    assert min(reached) > 0.96 and np.mean(reached) > 0.99, reached
     # Passes that creep end: before they did, such a mesh took more than 44 tries to move a node for each cell.
     assert tried < 35 * cells, f"{tried} tries to move a node"
     # They would be fewer if a small mesh might waste more (CostModel.h): .6 with five times as much.

@@ -24,8 +24,8 @@ namespace meshopt
 {
 /// The operations of the fast engine in the order in which they are tried: mostly the cheap ones
 /// first. Wide insertion is not cheap, but where it is tried it gains several times as much for its
-/// time as motion of clusters or retriangulation: in slabs of random points a quick run that tries
-/// it after these ends clearly lower.
+/// time as motion of clusters or retriangulation: in slabs of some thousand random points a
+/// quick run that tries it after these ends clearly lower.
 /// Each has
 ///   static constexpr int level       the lowest Level at which it is tried
 ///   static constexpr bool addsCells  skipped when the growth budget is used up
