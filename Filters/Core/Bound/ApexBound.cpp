@@ -320,13 +320,13 @@ EdgeView::EdgeView(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, const Vec<
     const Vec<3> across = v - v.dot(t) * t;
     // The dihedral angle of (facet, apex) at the edge. The apex may be on either side.
     this->best = std::atan2(std::fabs(w.dot(t.cross(across))), w.dot(across));
+    this->place = { w.dot(t) / l, (w - w.dot(t) * t).norm() / l };
   }
 }
 
 double EdgeView::cap(double phi, double enough) const
 {
-  // The start: beside the centroid, about as far away as a regular apex.
-  Eigen::Vector2d p((1.0 + this->along) / 3.0, ApexHeight * this->perimeter);
+  Eigen::Vector2d p = this->place;
   return this->capFrom(phi, enough, p, Exactly);
 }
 
@@ -355,7 +355,7 @@ double EdgeView::limit(double c, double end, double width) const
 {
   const double most = std::numeric_limits<double>::infinity();
   const double precision = std::max(Exactly, PartOfWidth * width);
-  Eigen::Vector2d p((1.0 + this->along) / 3.0, ApexHeight * this->perimeter);
+  Eigen::Vector2d p = this->place;
   const auto value = [&](double phi) { return this->capFrom(phi, most, p, precision); };
   const double atBest = value(this->best);
   // Not even at its best angle is the facet good enough.
@@ -436,6 +436,12 @@ double edgeCap(double above, const FacetWedge& wedge, double tolerance, double w
   {
     return nothing;
   }
+  // Most edges forbid nothing, and coarse levels prove it.
+  const double coarse = CoarseLevels * std::min(1.0, theta);
+  if (coarse > width && !(excess(above, wedge, coarse, true) > 0.0))
+  {
+    return nothing;
+  }
   // Filling by two: V at the other facet is wrong by slack times the distance of the node, and S by
   // at most 1833 / 24 slack.
   const double pair = (pairCap(theta, first, last, tolerance, above) + PairErrors * slack) /
@@ -446,12 +452,6 @@ double edgeCap(double above, const FacetWedge& wedge, double tolerance, double w
     return nothing;
   }
   const auto by = [&](double c) { return excess(c, wedge, width); };
-  // Most edges forbid nothing, and coarse levels prove it.
-  const double coarse = CoarseLevels * std::min(1.0, theta);
-  if (coarse > width && !(excess(high, wedge, coarse, true) > 0.0))
-  {
-    return nothing;
-  }
   double atLow = low > 0.0 ? by(low) : -theta;
   if (atLow > 0.0)
   {

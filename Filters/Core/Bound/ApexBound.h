@@ -44,8 +44,10 @@ struct EdgeView
 {
   double along = 0.5, off = 0.0;
   double perimeter = 0.0; ///< of the facet, in the same unit
-  double best =
-    0.0; ///< dihedral angle at the edge of the best (or a good) tetrahedron on this facet
+  /// Of the best (or a good) tetrahedron on this facet: the dihedral angle at the edge; and its
+  /// apex, along the edge and away from it, where the searches for other angles begin.
+  double best = 0.0;
+  Eigen::Vector2d place = { 0.5, 1.0 };
   bool usable = false; ///< false: collapsed, or not finite
 
   EdgeView() = default;

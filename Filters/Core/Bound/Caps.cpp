@@ -20,9 +20,10 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
 {
   this->bound_ = 1.0;
   this->largest_ = -1.0;
-  this->isAtTiny_.clear();
   this->facets_.clear();
   this->edges_.clear();
+  this->tiny_.clear();
+  this->edgesWithCap_.clear();
   if (!known)
   {
     return;
@@ -42,11 +43,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
       this->facets_.addLeast(sortedIds(surface.sides[k].nodes), surface.sideCaps[k]);
       if (surface.sideCaps[k] < Tiny)
       {
-        this->isAtTiny_.resize(mesh.numberOfPointSlots(), 0);
-        for (Index p : surface.sides[k].nodes)
-        {
-          this->isAtTiny_[p] = 1;
-        }
+        this->tiny_.add(surface.sides[k].nodes, mesh.numberOfPointSlots());
       }
       this->largest_ = std::max(this->largest_, surface.sideCaps[k]);
     }
@@ -58,6 +55,7 @@ void Caps<D>::build(const SimplexMesh<D>& mesh, Measure measure, double limit, b
     {
       // An edge may have several wedges: the lowest of their caps counts.
       this->edges_.addLeast(sortedIds(e.a, e.b), e.cap);
+      this->edgesWithCap_.add(std::array<Index, 2>{ e.a, e.b }, mesh.numberOfPointSlots());
       this->largest_ = std::max(this->largest_, e.cap);
     }
   }
@@ -70,17 +68,22 @@ double Caps<D>::find(const Facet<D>& f) const
   return cap && *cap < Tiny ? this->full_ / std::max(*cap, Rounding) : 1.0;
 }
 
-/// Facet i is the cell without its node i. The facet with the lowest cap decides.
+/// Facet i is the cell without its node i; `facets` has a bit for each that may have a tiny cap.
+/// The facet with the lowest cap decides.
 template <int D>
-double Caps<D>::greatestWeight(const Simplex<D>& nodes) const
+double Caps<D>::greatestWeight(const Simplex<D>& nodes, unsigned facets) const
 {
   double weight = 1.0;
   for (int i = 0; i <= D; ++i)
   {
+    if (!(facets >> i & 1u))
+    {
+      continue;
+    }
     Facet<D> f;
     std::copy_n(nodes.begin(), i, f.begin());
     std::copy(nodes.begin() + i + 1, nodes.end(), f.begin() + i);
-    weight = std::max(weight, this->weight(f));
+    weight = std::max(weight, this->find(f));
   }
   return weight;
 }
@@ -130,7 +133,7 @@ bool Caps<D>::isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const
     for (const auto& e : Local<D>::edges)
     {
       const Index a = mesh.nodes(c)[e[0]], b = mesh.nodes(c)[e[1]];
-      if (this->edges_.empty() || !mesh.isBoundary(a) || !mesh.isBoundary(b))
+      if (!this->edgesWithCap_.mayHave(std::array<Index, 2>{ a, b }))
       {
         continue;
       }

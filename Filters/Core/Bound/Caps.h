@@ -5,6 +5,7 @@
 #define meshopt_Bound_Caps_h
 
 #include "Bound/SurfaceBound.h"
+#include "Mesh/IdFilter.h"
 #include "Mesh/IdTable.h"
 
 namespace meshopt
@@ -33,13 +34,14 @@ public:
   /// Rounding are mostly rounding errors and would allow gains without end, so no weight is greater
   /// than full / Rounding.
   static constexpr double Tiny = 0.2, Rounding = 1e-6;
-  bool hasTiny() const { return !this->isAtTiny_.empty(); }
+  bool hasTiny() const { return !this->tiny_.empty(); }
   void setFull(double quality) { this->full_ = quality; }
   /// The weight of a facet (1 unless its cap is tiny), and the greatest weight of a cell's facets.
-  double weight(const Facet<D>& f) const { return this->numberAtTiny(f) < D ? 1.0 : this->find(f); }
+  double weight(const Facet<D>& f) const { return this->tiny_.mayHave(f) ? this->find(f) : 1.0; }
   double weight(const Simplex<D>& nodes) const
   {
-    return this->numberAtTiny(nodes) < D ? 1.0 : this->greatestWeight(nodes);
+    const unsigned facets = this->tiny_.mayHaveWithoutOne(nodes);
+    return facets == 0 ? 1.0 : this->greatestWeight(nodes, facets);
   }
   /// Says whether the qualities stored in the mesh are weighted.
   void setWeighed(bool on) { this->weighed_ = on; }
@@ -49,20 +51,8 @@ public:
   double enough(const SimplexMesh<D>& mesh, Index c, int i) const;
 
 private:
-  /// How many of the points lie at some facet with a tiny cap. Hardly any do: most facets and cells
-  /// need no look into the table.
-  template <std::size_t N>
-  int numberAtTiny(const std::array<Index, N>& points) const
-  {
-    int n = 0;
-    for (Index p : points)
-    {
-      n += static_cast<std::size_t>(p) < this->isAtTiny_.size() && this->isAtTiny_[p];
-    }
-    return n;
-  }
   double find(const Facet<D>& f) const;
-  double greatestWeight(const Simplex<D>& nodes) const;
+  double greatestWeight(const Simplex<D>& nodes, unsigned facets) const;
   bool isCappedByEdge(const SimplexMesh<D>& mesh, Index c) const;
 
   double reached_ = CapReached;
@@ -70,9 +60,11 @@ private:
   double largest_ = -1.0; // of all caps
   double full_ = 1.0;     // see setFull()
   bool weighed_ = false;
-  std::vector<std::uint8_t> isAtTiny_; ///< by point: it lies at a facet with a tiny cap
   IdTable<D> facets_;
   IdTable<2> edges_;
+  // Hardly any facet or edge needs a look into the tables.
+  IdFilter tiny_; ///< facets with a tiny cap
+  IdFilter edgesWithCap_;
 };
 
 extern template class Caps<2>;

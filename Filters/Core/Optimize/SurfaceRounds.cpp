@@ -3,6 +3,8 @@
 // undone.
 #include "Optimize/SurfaceRounds.h"
 
+#include "Bound/AngleBound.h"
+#include "Bound/SurfaceBound.h"
 #include "WorstFirst/Coarsening.h"
 #include "WorstFirst/LongEdges.h"
 #include "WorstFirst/SharpCorners.h"
@@ -55,6 +57,7 @@ public:
     : run_(run)
     , surface_(surface)
   {
+    run.bound = boundOfAngles<D>(surface, run.options.measure);
   }
   void run();
 
@@ -167,7 +170,7 @@ template <int D>
 bool SurfaceRounds<D>::isWorthDividing() const
 {
   return !this->run_.clock.hasStopped() && this->run_.options.insertNodes && this->worst() > 0.0 &&
-    this->worst() < this->run_.options.targetQuality;
+    this->worst() < std::min(this->run_.options.targetQuality, CapReached * this->run_.bound);
 }
 
 /// Divides in one way after the other. False if none raises the worst quality clearly.
@@ -215,6 +218,17 @@ void SurfaceRounds<D>::run()
 }
 
 template <int D>
+double boundOfAngles(const Surface<D>& surface, Measure measure)
+{
+  if constexpr (D == 3)
+  {
+    const SurfaceAngles angles = surface.angles();
+    return angleBound(measure, { angles.dihedral, angles.facial, SurfaceAngles::slack });
+  }
+  return 1.0;
+}
+
+template <int D>
 void restore(Run<D>& run, const SimplexMesh<D>& mesh)
 {
   MeshEditor<D>& editor = run.editor;
@@ -249,6 +263,8 @@ void optimizeSliding(Run<D>& run, Surface<D>& surface)
   SurfaceRounds<D>(run, surface).run();
 }
 
+template double boundOfAngles(const Surface<2>&, Measure);
+template double boundOfAngles(const Surface<3>&, Measure);
 template void restore(Run<2>&, const SimplexMesh<2>&);
 template void restore(Run<3>&, const SimplexMesh<3>&);
 template void optimizeOnSurface(Run<2>&, Surface<2>&, Effort, double, bool);

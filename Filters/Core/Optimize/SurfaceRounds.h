@@ -9,6 +9,11 @@
 
 namespace meshopt
 {
+/// What no mesh of the body can exceed, by what its ridges and corners force where they stay as
+/// they are: certified. The value of the regular element if nothing is known.
+template <int D>
+double boundOfAngles(const Surface<D>& surface, Measure measure);
+
 /// Back to an earlier state of the mesh.
 template <int D>
 void restore(Run<D>& run, const SimplexMesh<D>& mesh);
@@ -21,13 +26,15 @@ template <int D>
 void optimizeOnSurface(
   Run<D>& run, Surface<D>& surface, Effort effort, double part, bool polishesWidely);
 
-/// Where the surface takes part (Surface::judgesChanges()): if the engine does not reach the
-/// target, long edges are divided at the worst cells and the engine runs again, as long as that
-/// helps. Where the growth budget is short, nodes vanish elsewhere. The worst quality never falls,
-/// and no facet turns.
+/// Where the surface takes part (Surface::judgesChanges()): if the engine reaches neither the
+/// target nor boundOfAngles(), long edges are divided at the worst cells and the engine runs again,
+/// as long as that helps. Where the growth budget is short, nodes vanish elsewhere. The worst
+/// quality never falls, and no facet turns.
 template <int D>
 void optimizeSliding(Run<D>& run, Surface<D>& surface);
 
+extern template double boundOfAngles(const Surface<2>&, Measure);
+extern template double boundOfAngles(const Surface<3>&, Measure);
 extern template void restore(Run<2>&, const SimplexMesh<2>&);
 extern template void restore(Run<3>&, const SimplexMesh<3>&);
 extern template void optimizeOnSurface(Run<2>&, Surface<2>&, Effort, double, bool);

@@ -45,7 +45,7 @@ public:
   const std::vector<Freedom>& freedom() const { return this->freedom_; }
 
   /// The angles that every mesh of this body has to fill; nothing unless exact.
-  const SurfaceAngles& angles() const { return this->angles_; }
+  SurfaceAngles angles() const override { return this->angles_; }
 
   /// The number that the facets of a patch had in SurfaceOptions::labels.
   Index label(Index patch) const { return this->patches_[patch].label; }

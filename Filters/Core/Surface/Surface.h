@@ -5,6 +5,7 @@
 #define meshopt_Surface_Surface_h
 
 #include "Mesh/SimplexMesh.h"
+#include "Surface/SurfaceAngles.h"
 #include "Surface/SurfaceChange.h"
 
 #include <array>
@@ -74,6 +75,8 @@ public:
 
   /// Whether allows() has to be asked before a change is made.
   virtual bool judgesChanges() const { return false; }
+  /// The angles that a mesh has to fill whatever moves. None where nothing is certain.
+  virtual SurfaceAngles angles() const { return {}; }
   /// The node sets that point v of the surface is in, as bits.
   virtual std::uint32_t sets(const SimplexMesh<D>&, Index /*v*/) const { return 0; }
   /// Whether the surface may change in this way.

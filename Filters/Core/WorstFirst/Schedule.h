@@ -77,9 +77,9 @@ std::vector<double> Schedule<D, Shape>::targets() const
   for (double s : StagesOfSliding)
   {
     if (this->workpiece_.effort() == Effort::Best && this->workpiece_.isPast(s) &&
-      this->workpiece_.slides())
+      this->workpiece_.slides() && result.back() < bound)
     {
-      result.push_back(s);
+      result.push_back(std::min(s, bound));
     }
   }
   return result;

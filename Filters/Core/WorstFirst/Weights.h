@@ -35,9 +35,15 @@ public:
   {
     if (this->caps_.hasTiny())
     {
-      // First the true qualities, for the floor; then the weighted ones.
-      this->model_.floor = std::max(0.0, this->update(nullptr));
-      this->update(&this->caps_);
+      this->switchOff();
+      this->model_.floor = std::max(0.0, this->worst());
+      this->model_.weights = &this->caps_;
+      this->update(
+        [this](Index c, double weight)
+        {
+          const double q = this->editor_.mesh().quality(c);
+          return q < this->model_.floor ? q : q * weight;
+        });
       this->caps_.setWeighed(true);
     }
   }
@@ -45,30 +51,34 @@ public:
   {
     if (this->areOn())
     {
-      this->model_.floor = std::max(0.0, this->update(nullptr));
+      this->model_.weights = nullptr;
+      this->update([this](Index c, double) { return this->model_(this->editor_.mesh().nodes(c)); });
       this->caps_.setWeighed(false);
     }
   }
 
 private:
-  /// Recomputes the quality of all cells that have a weight. Returns the worst quality of all
-  /// cells.
-  double update(const Caps<D>* weights)
+  /// Replaces the quality of all cells that have a weight.
+  template <class Quality>
+  void update(Quality&& quality)
   {
     const SimplexMesh<D>& mesh = this->editor_.mesh();
-    this->model_.weights = weights;
+    for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
+    {
+      const double weight = mesh.isAlive(c) ? this->caps_.weight(mesh.nodes(c)) : 1.0;
+      if (weight > 1.0)
+      {
+        this->editor_.setQuality(c, quality(c, weight));
+      }
+    }
+  }
+  double worst() const
+  {
+    const SimplexMesh<D>& mesh = this->editor_.mesh();
     double worst = 1.0;
     for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
     {
-      if (mesh.isAlive(c))
-      {
-        const Simplex<D>& nodes = mesh.nodes(c);
-        if (this->caps_.weight(nodes) > 1.0)
-        {
-          this->editor_.setQuality(c, this->model_(nodes));
-        }
-        worst = std::min(worst, mesh.quality(c));
-      }
+      worst = mesh.isAlive(c) ? std::min(worst, mesh.quality(c)) : worst;
     }
     return worst;
   }

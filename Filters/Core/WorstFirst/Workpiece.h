@@ -34,7 +34,7 @@ public:
     // No cap is certified if the metric varies or if the surface itself can change.
     this->caps_.build(run.mesh(), options.measure, highest, run.metric.isTrivial() && !run.surface);
     this->caps_.setFull(options.targetQuality / TinyReached);
-    run.report.bound = this->caps_.bound();
+    run.report.bound = std::min(this->caps_.bound(), run.bound);
     this->findWorstOfPart();
   }
   Workpiece(const Workpiece&) = delete; // its parts know each other
@@ -55,7 +55,7 @@ public:
   double bound() const
   {
     const double most = this->options().mostQuality;
-    return most >= 0.0 ? most : this->caps_.bound();
+    return most >= 0.0 ? most : std::min(this->caps_.bound(), this->run_.bound);
   }
   /// The worst quality when the last row of the history was written. Of all cells; in a part of a
   /// mesh of those that are not left to other runs.
@@ -65,6 +65,7 @@ public:
   {
     return (this->bound() < 1.0 || this->slides()) && this->worst_ < FarBelowBound * this->bound();
   }
+  bool hasReachedBound() const { return this->worst_ >= CapReached * this->bound(); }
   /// Whether cells at facets with tiny caps count. At the border of a part they do not.
   bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
 

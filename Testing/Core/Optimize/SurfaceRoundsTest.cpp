@@ -2,6 +2,7 @@
 // What follows what where the surface takes part, and what is undone if facets turn.
 #include "Optimize/SurfaceRounds.h"
 
+#include "Bound/ApexBound.h"
 #include "WorstFirst/EngineBench.h"
 
 using namespace meshopt;
@@ -24,7 +25,9 @@ public:
     return k < this->answers_.size() ? this->answers_[k] : 0;
   }
   void refuseTurned(bool on) override { this->refused.push_back(on); }
+  SurfaceAngles angles() const override { return this->held; }
 
+  SurfaceAngles held;
   mutable std::size_t asked = 0;
   std::vector<bool> refused;
 
@@ -114,6 +117,30 @@ TEST(SurfaceRounds, NothingFollowsWhereTheTargetIsReached)
   Rounds once(surface, upTo(0.2));
   optimizeOnSurface<3>(once.bench.run, surface, Effort::Default, 0.3, false);
   EXPECT_EQ(once.bench.report.history.size(), rows);
+}
+
+/// At a ridge that allows no more than the first run reaches, divisions would be in vain, and so
+/// would stages past the target.
+TEST(SurfaceRounds, NothingIsDividedAtTheBoundOfTheAngles)
+{
+  for (Effort effort : { Effort::Default, Effort::Best })
+  {
+    Turning surface, held;
+    Options options = upTo(0.9);
+    options.effort = effort;
+    Rounds first(surface, options), free(surface, options), rounds(held, options);
+    optimizeOnSurface<3>(first.bench.run, surface, Effort::Default, 0.3, false);
+    const double reached = sortedQualities(first.bench.mesh).front();
+    held.held.dihedral = { lowestAngle(reached) };
+    const double bound = boundOfAngles<3>(held, Measure::Shape);
+    EXPECT_NEAR(bound, reached, 1e-5);
+    optimizeSliding<3>(rounds.bench.run, held);
+    EXPECT_EQ(rounds.bench.report.bound, bound);
+    EXPECT_TRUE(rounds.rows("long edges divided").empty());
+    optimizeSliding<3>(free.bench.run, surface);
+    EXPECT_FALSE(free.rows("long edges divided").empty());
+    EXPECT_LT(rounds.bench.report.history.size(), free.bench.report.history.size());
+  }
 }
 
 /// Once more with a surface that refuses that; if some turn even then, the mesh is that of the run

@@ -22,7 +22,6 @@
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
-#include "Bound/AngleBound.h"
 #include "Optimize/Optimizer.h"
 
 #include <algorithm>
@@ -54,19 +53,6 @@ void AddVolumes(const Request& request, const Model<D>& model, int when, Outcome
   }
 }
 
-double BoundOf(const meshopt::BoundaryCurves&, meshopt::Measure) { return 1.0; }
-
-/**
- * No mesh of the body can be better: what its ridges and corners force, where they stay as they
- * are. 1 if nothing is known.
- */
-double BoundOf(const meshopt::SlidingSurface& surface, meshopt::Measure measure)
-{
-  const meshopt::SurfaceAngles& angles = surface.angles();
-  return meshopt::angleBound(
-    measure, { angles.dihedral, angles.facial, meshopt::SurfaceAngles::slack });
-}
-
 /**
  * The run itself, and what can be said of it before the export.
  */
@@ -80,10 +66,6 @@ void Optimize(
   outcome.NumberOfCellsBefore = model.Mesh.numberOfInputCells();
   outcome.Report = meshopt::optimize(
     model.Mesh, model.Metric, request.Options, request.Control, request.Slide ? &surface : nullptr);
-  // Two bounds, both certified: the lesser holds.
-  outcome.Report.bound = request.Slide
-    ? std::min(outcome.Report.bound, BoundOf(surface, request.Options.measure))
-    : outcome.Report.bound;
   AddVolumes<D>(request, model, 1, outcome);
   outcome.NumberOfCells = model.Mesh.countCells();
   outcome.Sizes = Joined(DescribeSizes(outcome.Report, request),
