@@ -34,6 +34,7 @@ public:
     }
   }
 
+  /// False: the group was never added. True: it may have been. Any order of the ids.
   template <std::size_t N>
   bool mayHave(const std::array<Index, N>& ids) const
   {

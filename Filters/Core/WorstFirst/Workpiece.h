@@ -65,6 +65,7 @@ public:
   {
     return (this->bound() < 1.0 || this->slides()) && this->worst_ < FarBelowBound * this->bound();
   }
+  /// Whether nothing can lift the worst cell any more, but for rounding.
   bool hasReachedBound() const { return this->worst_ >= CapReached * this->bound(); }
   /// Whether cells at facets with tiny caps count. At the border of a part they do not.
   bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
