@@ -134,9 +134,7 @@ bool Polish<D, Shape>::run(double target, bool finely)
     const double worstOfAll = this->findWorst(target, wanted, worst);
     // If a cap holds the worst cell, the next ones are tried only if they are bad (under the second
     // stage), and have to gain more.
-    // Where the surface takes part, it is not known which cells are held: none is tried then.
-    const bool isHeld = workpiece.slides() && workpiece.hasReachedBound();
-    if (isHeld || worst.empty() || worst[0].first > std::max(worstOfAll, Stages[1]))
+    if (workpiece.isPolished() || worst.empty() || worst[0].first > std::max(worstOfAll, Stages[1]))
     {
       break;
     }

@@ -153,7 +153,8 @@ template <int D, class Shape>
 bool Stage<D, Shape>::isPolishSpent(const Task& task) const
 {
   return task.polishes() && !this->workpiece_.isPast(task.aim) &&
-    (!this->allowance_.hasLooks() || this->allowance_.evaluations(task.phase) < 0.0);
+    (!this->allowance_.hasLooks() || this->allowance_.evaluations(task.phase) < 0.0 ||
+      this->workpiece_.isPolished());
 }
 
 /// Whether the many bad cells are left as they are from now on, when the last pass over them crept:

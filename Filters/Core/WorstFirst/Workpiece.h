@@ -67,6 +67,13 @@ public:
   }
   /// Whether nothing can lift the worst cell any more, but for rounding.
   bool hasReachedBound() const { return this->worst_ >= CapReached * this->bound(); }
+  /// Whether polishing ends then: where the surface takes part, it is not known which other cells
+  /// are held; and a quick run leaves these as they are.
+  bool isPolished() const
+  {
+    return this->hasReachedBound() &&
+      (this->slides() || (this->effort() == Effort::Quick && this->isKeptAndPlain()));
+  }
   /// Whether cells at facets with tiny caps count. At the border of a part they do not.
   bool sparesTiny() const { return this->caps_.hasTiny() && this->bound() < Caps<D>::Tiny; }
 

@@ -145,12 +145,23 @@ TEST(CostModel, AQuickRunPolishesOnlySoMuchInAll)
   }
 }
 
+/// A look-ahead takes some 1e5. With more cells a quick run may spend as much as others.
 TEST(CostModel, ASmallMeshMayBePolishedForALookAheadOrTwo)
 {
+  const auto most = [](Effort effort, long cells)
+  {
+    CostModel costs(effort);
+    costs.open(cells, 0);
+    return costs.leftForPolish();
+  };
+  EXPECT_NEAR(most(Effort::Quick, 10), 1e5, 1e-6);
+  EXPECT_NEAR(most(Effort::Quick, 2000), 80.0 * 2000, 1e-6);
+  EXPECT_NEAR(most(Effort::Quick, 4000), 2e5, 1e-6);
+  EXPECT_NEAR(most(Effort::Default, 10), 2e5, 1e-6);
   CostModel costs(Effort::Quick);
   costs.open(10, 1);
   costs.notePolish(1, 0.1);
-  costs.notePolish(199999, 0.1);
+  costs.notePolish(99999, 0.1);
   EXPECT_GT(costs.leftForPolish(), 0.0);
   costs.notePolish(2, 0.1);
   EXPECT_LT(costs.leftForPolish(), 0.0);

@@ -90,6 +90,24 @@ TEST(Polish, TriesTheFewWorstCells)
   EXPECT_EQ(bench.report.history.back().stage, "polish towards 0.90");
 }
 
+/// A quick run leaves the others as they are once nothing can lift the worst one.
+TEST(Polish, AQuickRunEndsAtTheBound)
+{
+  const MeshInput<2> in = jitteredGrid<2>(10, 0.25);
+  const double worst = sortedQualities(EngineBench<2>(in, {}).mesh).front();
+  const auto polished = [&](Effort effort, double bound)
+  {
+    Options options = boundBy(bound, 0.9);
+    options.effort = effort;
+    EngineBench<2> bench(in, options);
+    EXPECT_TRUE(bench.polish.run(0.9, false));
+    return bench.triedCells().size();
+  };
+  EXPECT_EQ(polished(Effort::Quick, worst / CapReached - 1e-6), 0u);
+  EXPECT_GE(polished(Effort::Quick, worst / CapReached + 1e-6), PolishedCells);
+  EXPECT_GE(polished(Effort::Default, worst / CapReached - 1e-6), PolishedCells);
+}
+
 /// At the target of the run, if the worst cell is far below the bound. Then twice as many, up to
 /// the most, as long as there is something left to spend; not in a run that others follow.
 TEST(Polish, TakesMoreCellsWhereThereIsHope)
