@@ -37,6 +37,9 @@ constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 8;
+/// How often a run is repeated because facets have turned or pass through others: then it refuses
+/// more. If that does not help, the mesh stays as it was.
+constexpr int MostRepeats = 4;
 
 /// Improves the worst cells with another effort and with a part of the growth that is left.
 template <int D>
@@ -47,6 +50,17 @@ void optimizeWith(const Run<D>& all, Effort effort, double part, bool polishesWi
   run.polishesWidely = polishesWidely;
   run.limitGrowth(part);
   optimizeWorstFirst<D>(run);
+}
+
+/// If facets have turned, or pass through others, what the history says of it when they are undone;
+/// else null. The surface refuses the latter from now on.
+template <int D>
+const char* findUnsound(
+  Surface<D>& surface, const SimplexMesh<D>& before, const SimplexMesh<D>& now)
+{
+  const bool isTurned = surface.countTurned(now) > surface.countTurned(before);
+  const bool crosses = surface.refuseCrossings(before, now);
+  return isTurned ? "turned facets undone" : crosses ? "crossing facets undone" : nullptr;
 }
 
 template <int D>
@@ -144,18 +158,17 @@ void SurfaceRounds<D>::divideAndOptimize(
     {
       return;
     }
-    const bool isTurned = this->surface_.countTurned(run.mesh()) >
-      this->surface_.countTurned(before);
+    const char* unsound = findUnsound(this->surface_, before, run.mesh());
     const PassRecord& now = run.report.history.back();
     // At corners it has to help clearly: else the other ways have more room.
     const bool isBetter = way == AtCorners
       ? now.worst > DivisionsGain * worst
       : now.worst > worst || (now.worst == worst && now.belowTarget < below);
-    again = isTurned && !refuses && !run.clock.hasStopped();
-    if (isTurned || !isBetter)
+    again = unsound && !refuses && !run.clock.hasStopped();
+    if (unsound || !isBetter)
     {
       restore<D>(run, before);
-      run.record(again ? "turned facets undone" : "divisions undone");
+      run.record(again ? unsound : "divisions undone");
       run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
       if (!again) // the same division may help where no facet may turn
       {
@@ -246,15 +259,26 @@ void optimizeOnSurface(
   Run<D>& run, Surface<D>& surface, Effort effort, double part, bool polishesWidely)
 {
   const SimplexMesh<D> before = run.mesh();
-  optimizeWith<D>(run, effort, part, polishesWidely);
-  if (surface.countTurned(run.mesh()) > surface.countTurned(before))
+  for (int time = 0; time <= MostRepeats; ++time)
   {
-    restore<D>(run, before);
-    run.record("turned facets undone");
-    surface.refuseTurned(true);
+    if (time > 0)
+    {
+      surface.refuseTurned(true);
+    }
     optimizeWith<D>(run, effort, part, polishesWidely);
-    surface.refuseTurned(false);
+    if (time > 0)
+    {
+      surface.refuseTurned(false);
+    }
+    const char* unsound = findUnsound(surface, before, run.mesh());
+    if (!unsound)
+    {
+      return;
+    }
+    restore<D>(run, before);
+    run.record(unsound);
   }
+  run.report.stopReason = run.clock.hasStopped() ? run.stopped() : StopReason::NoFurtherGain;
 }
 
 template <int D>

@@ -68,6 +68,8 @@ public:
   /// none. The cost: a search in the surface of before for each facet.
   long countTurned(const SimplexMesh<3>& mesh) const override;
   void refuseTurned(bool on) override { this->refusesTurned_ = on; }
+  /// With tolerance 0 it never does.
+  bool refuseCrossings(const SimplexMesh<3>& before, const SimplexMesh<3>& now) override;
 
   Vec<3> at(Index curve, double parameter) const override
   {
@@ -138,6 +140,7 @@ private:
   bool mayJoinCorners(
     const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const;
   bool isFlat(const SurfacePiece<3>& piece) const;
+  bool isRefused(const SurfacePiece<3>& piece) const;
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
 
   std::vector<Patch> patches_;
@@ -158,6 +161,7 @@ private:
   Index numberOfTwins_ = 0;
   bool isExact_ = false;
   bool refusesTurned_ = false;
+  std::vector<BoxTree::Box> refused_; ///< nothing changes there: see refuseCrossings()
   /// Whether a change that was allowed has made a turned facet. (A pointer: surfaces are moved.)
   std::unique_ptr<std::atomic<bool>> madeTurned_ = std::make_unique<std::atomic<bool>>(false);
   double tolerance_ = 0.0;

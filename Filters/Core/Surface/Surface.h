@@ -102,6 +102,12 @@ public:
   /// Says whether changes are refused that make such facets. Less is gained then. Between stages
   /// only.
   virtual void refuseTurned(bool /*on*/) {}
+  /// Whether the surface of the second mesh, made from the first by allowed changes, newly passes
+  /// through itself. If so, changes at these places are refused from now on. Between stages only.
+  virtual bool refuseCrossings(const SimplexMesh<D>& /*before*/, const SimplexMesh<D>& /*now*/)
+  {
+    return false;
+  }
 
   /// Whether there is more to keep now than in the end.
   virtual bool mayRelease() const { return false; }

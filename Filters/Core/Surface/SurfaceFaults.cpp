@@ -201,44 +201,7 @@ bool cross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
 
 bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
 {
-  // On which side of the other facet each node is; those of both are on none.
-  using Sides = std::array<int, 3>;
-  const auto sidesOf = [&](const Facet<3>& nodes, const Facet<3>& face)
-  {
-    Sides sides;
-    std::transform(nodes.begin(), nodes.end(), sides.begin(),
-      [&](Index p)
-      {
-        return hasId(face, p)
-          ? 0
-          : orient(mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2]), mesh.point(p));
-      });
-    return sides;
-  };
-  // All beside the other facet on one side, as in most pairs whose boxes overlap: nothing crosses.
-  const auto areBeside = [](const Sides& s) { return s[0] != 0 && s[0] == s[1] && s[1] == s[2]; };
-  const Sides ofF = sidesOf(f, g);
-  if (areBeside(ofF))
-  {
-    return false;
-  }
-  const Sides ofG = sidesOf(g, f);
-  // Two triangles that cross have an edge that passes through the other one: all six are tried.
-  const auto oneWay = [&](const Facet<3>& edges, const Sides& sides, const Facet<3>& face)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      const int j = (i + 1) % 3;
-      if (sides[i] * sides[j] < 0 &&
-        pierces(mesh.point(edges[i]), mesh.point(edges[j]), mesh.point(face[0]),
-          mesh.point(face[1]), mesh.point(face[2])))
-      {
-        return true;
-      }
-    }
-    return false;
-  };
-  return oneWay(f, ofF, g) || oneWay(g, ofG, f);
+  return facetsCross(mesh, f, g);
 }
 
 /// Whether two facets have a fault, and of which kind.
@@ -307,6 +270,48 @@ std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>
     { return std::tie(a.low[0], a.facet) < std::tie(b.low[0], b.facet); });
   return result;
 }
+}
+
+bool facetsCross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
+{
+  // On which side of the other facet each node is; those of both are on none.
+  using Sides = std::array<int, 3>;
+  const auto sidesOf = [&](const Facet<3>& nodes, const Facet<3>& face)
+  {
+    Sides sides;
+    std::transform(nodes.begin(), nodes.end(), sides.begin(),
+      [&](Index p)
+      {
+        return hasId(face, p)
+          ? 0
+          : orient(mesh.point(face[0]), mesh.point(face[1]), mesh.point(face[2]), mesh.point(p));
+      });
+    return sides;
+  };
+  // All beside the other facet on one side, as in most pairs whose boxes overlap: nothing crosses.
+  const auto areBeside = [](const Sides& s) { return s[0] != 0 && s[0] == s[1] && s[1] == s[2]; };
+  const Sides ofF = sidesOf(f, g);
+  if (areBeside(ofF))
+  {
+    return false;
+  }
+  const Sides ofG = sidesOf(g, f);
+  // Two triangles that cross have an edge that passes through the other one: all six are tried.
+  const auto oneWay = [&](const Facet<3>& edges, const Sides& sides, const Facet<3>& face)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      const int j = (i + 1) % 3;
+      if (sides[i] * sides[j] < 0 &&
+        pierces(mesh.point(edges[i]), mesh.point(edges[j]), mesh.point(face[0]),
+          mesh.point(face[1]), mesh.point(face[2])))
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  return oneWay(f, ofF, g) || oneWay(g, ofG, f);
 }
 
 /// A sweep along x: only pairs whose boxes overlap are looked at.

@@ -33,6 +33,10 @@ template <int D>
 std::vector<SurfaceFault<D>> findSurfaceFaults(
   const SimplexMesh<D>& mesh, const std::vector<Index>& cells);
 
+/// Whether two triangles, whose nodes are given, pass through each other. Those that only touch, or
+/// lie in a plane, do not. Exact.
+bool facetsCross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g);
+
 /// Whether cells may overlap although none is inverted: if they fill more than all directions at
 /// some point, if points are `pinched` (PinchedPoints.h: one part may lie in another), or, in 3D,
 /// if the surface has a fault. The cost is the same as above.
