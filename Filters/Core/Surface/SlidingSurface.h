@@ -68,7 +68,8 @@ public:
   /// none. The cost: a search in the surface of before for each facet.
   long countTurned(const SimplexMesh<3>& mesh) const override;
   void refuseTurned(bool on) override { this->refusesTurned_ = on; }
-  /// With tolerance 0 it never does.
+  /// With tolerance 0 it never does. If it does, changes are refused also where the surface of
+  /// `before` passes through itself.
   bool refuseCrossings(const SimplexMesh<3>& before, const SimplexMesh<3>& now) override;
 
   Vec<3> at(Index curve, double parameter) const override

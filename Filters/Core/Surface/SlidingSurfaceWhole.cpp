@@ -89,8 +89,17 @@ bool SlidingSurface::refuseCrossings(const SimplexMesh<3>& before, const Simplex
   {
     return false;
   }
-  const std::vector<BoxTree::Box> boxes = findNewCrossings(before, now);
-  this->refused_.insert(this->refused_.end(), boxes.begin(), boxes.end());
-  return !boxes.empty();
+  const auto refuse = [this](const std::vector<BoxTree::Box>& boxes)
+  {
+    this->refused_.insert(this->refused_.end(), boxes.begin(), boxes.end());
+    return !boxes.empty();
+  };
+  const bool crosses = refuse(findNewCrossings(before, now));
+  if (crosses)
+  {
+    // Parts that have always passed through each other would else be found one after the other.
+    refuse(findNewCrossings({}, before));
+  }
+  return crosses;
 }
 }

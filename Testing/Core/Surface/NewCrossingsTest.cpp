@@ -89,4 +89,31 @@ TEST(NewCrossings, ASurfaceDoesNotChangeThereAnyMore)
   EXPECT_FALSE(box.surface.allows(there));
   EXPECT_TRUE(box.surface.allows(away));
 }
+
+/// As soon as one place is refused, so are those that have always been there.
+TEST(NewCrossings, PartsThatHaveAlwaysCrossedAreLeftAloneThen)
+{
+  MeshInput<3> in = jitteredGrid<3>(4, 0.0);
+  const MeshInput<3> one = in;
+  const auto n = static_cast<Index>(one.points.size());
+  for (const Vec<3>& x : one.points) // another cube reaches into the first
+  {
+    in.points.push_back(x + Vec<3>(0.9, 0.0, 0.1));
+  }
+  for (const Simplex<3>& t : one.cells)
+  {
+    in.cells.push_back({ t[0] + n, t[1] + n, t[2] + n, t[3] + n });
+  }
+  MeshInput<3> pressed = in;
+  *std::find(
+    pressed.points.begin(), pressed.points.end(), Vec<3>(0.25, 0.5, 1.0)) = { 0.25, 0.5, -0.2 };
+  SurfaceOptions options;
+  options.tolerance = 1e-2;
+  Sliding boxes(in, options);
+  const SurfaceChange<3> crossed = halvedAt(boxes.mesh, { 1.0, 0.5, 0.5 });
+  EXPECT_FALSE(boxes.surface.refuseCrossings(boxes.mesh, boxes.mesh));
+  EXPECT_TRUE(boxes.surface.allows(crossed));
+  EXPECT_TRUE(boxes.surface.refuseCrossings(boxes.mesh, buildMesh(pressed)));
+  EXPECT_FALSE(boxes.surface.allows(crossed));
+}
 }
