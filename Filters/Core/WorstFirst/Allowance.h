@@ -22,7 +22,8 @@ public:
     : workpiece_(workpiece)
     , costs_(workpiece.effort())
   {
-    this->costs_.open(workpiece.mesh().countCells(), countFreeNodes(workpiece.mesh()));
+    this->costs_.open(
+      workpiece.mesh().countCells(), countFreeNodes(workpiece.mesh()), workpiece.slides());
   }
 
   /// From now on anything may be spent.
@@ -32,14 +33,16 @@ public:
 
   // --- evaluations
   /// How many a pass may spend, beside what it earns by lifting cells; none if less than 0. Any
-  /// number in a metric, and where the surface takes part.
+  /// number in a metric, and where the surface takes part, unless it polishes widely.
   double evaluations(Phase phase) const
   {
-    if (!this->workpiece_.isKeptAndPlain())
+    const bool polishes = phase == Phase::Polishing;
+    const bool isWide = this->workpiece_.slides() && this->workpiece_.run().polishesWidely;
+    if (!this->workpiece_.isKeptAndPlain() && !(polishes && isWide))
     {
       return std::numeric_limits<double>::infinity();
     }
-    return phase == Phase::Polishing ? this->costs_.leftForPolish() : this->costs_.leftForPass();
+    return polishes ? this->costs_.leftForPolish() : this->costs_.leftForPass();
   }
   /// What a pass has earned that has lifted this number of cells.
   double earned(Phase phase, long lifted) const

@@ -6,7 +6,7 @@
 #ifndef meshopt_WorstFirst_CostModel_h
 #define meshopt_WorstFirst_CostModel_h
 
-#include "Base/Raised.h"
+#include "Base/SinceRise.h"
 #include "Run/Options.h"
 
 #include <algorithm>
@@ -44,9 +44,10 @@ public:
     : effort_(static_cast<int>(effort))
   {
   }
-  /// To be called first.
-  void open(long cells, long freeNodes)
+  /// To be called first. `slides`: the surface takes part.
+  void open(long cells, long freeNodes, bool slides = false)
   {
+    this->polishFactor_ = slides ? PolishFactorOfSliding : 1.0;
     this->cells_ = static_cast<double>(cells);
     this->freeNodes_ = static_cast<double>(freeNodes);
     const double share = std::min(1.0, LeastShare + SharePerNode * this->freeNodes_ / this->cells_);
@@ -101,25 +102,21 @@ public:
   /// To be called after a pass of polishing: what it has spent, and the worst quality at its end.
   void notePolish(std::int64_t evaluations, double worst)
   {
-    this->spent_ += static_cast<double>(evaluations);
+    this->sinceRise_.note(static_cast<double>(evaluations), worst);
     this->spentInAll_ += static_cast<double>(evaluations);
-    if (worst > raised(this->lastWorst_, ClearRise))
-    {
-      this->lastWorst_ = worst;
-      this->spent_ = 0.0;
-    }
   }
   /// What the next one may spend; nothing if less than 0.
   double leftForPolish() const
   {
     const double fewest = std::clamp(
       FewestPerCell * this->cells_, FewestPerRise[this->effort_], FewestPerRiseAtMost);
-    const double perRise = std::max(fewest,
-      PolishPerCell[this->effort_] * this->cells_ +
-        PolishPerNode[this->effort_] * this->freeNodes_);
-    return this->isLimited_
-      ? std::min(perRise - this->spent_, MostRises[this->effort_] * perRise - this->spentInAll_)
-      : Unlimited;
+    const double perRise = this->polishFactor_ *
+      std::max(fewest,
+        PolishPerCell[this->effort_] * this->cells_ +
+          PolishPerNode[this->effort_] * this->freeNodes_);
+    return this->isLimited_ ? std::min(perRise - this->sinceRise_.spent(),
+                                MostRises[this->effort_] * perRise - this->spentInAll_)
+                            : Unlimited;
   }
 
 private:
@@ -134,7 +131,7 @@ private:
   static constexpr double LeastShare = 1.0 / 3.0, SharePerNode = 5.0; ///< nodes by cells
   static constexpr double WasteShare = 0.3;    ///< of what is left, for one pass
   static constexpr double FewestPerPass = 3.0; ///< for each cell
-  /// What polishing may spend until the worst quality has risen by ClearRise, relatively; then it
+  /// What polishing may spend until the worst quality has risen clearly (SinceRise); then it
   /// may spend the same again. At least FewestPerRise, since in a small mesh one look-ahead takes
   /// 1e5; or FewestPerCell, if that is more, up to FewestPerRiseAtMost: with 1e5 in all quick runs,
   /// some surfaces of CGAL with 2000 to 4000 cells end 2 to 5 % lower.
@@ -142,11 +139,13 @@ private:
   static constexpr double PolishPerNode[] = { 300.0, 1250.0, 1250.0 };
   static constexpr double FewestPerRise[] = { 1e5, 2e5, 2e5 }, FewestPerRiseAtMost = 2e5;
   static constexpr double FewestPerCell = 80.0;
-  static constexpr double ClearRise = 0.05;
   /// What polishing may spend in all, as a multiple of what it may until one rise. On thin slabs of
   /// random points the worst cell rises again and again, and without this limit a quick run takes
   /// too long; with 4 they end clearly lower.
   static constexpr double MostRises[] = { 6.0, Unlimited, Unlimited };
+  /// Where the surface takes part, a change costs more, and polishing helps longer: with 2, needles
+  /// of CGAL end 2 % lower. Without any limit random solids take twice as long.
+  static constexpr double PolishFactorOfSliding = 4.0;
   static_assert(std::size(PricePerLifted) == NumberOfEfforts &&
     std::size(WastePerCell) == NumberOfEfforts && std::size(WastePerNode) == NumberOfEfforts &&
     std::size(FewestWaste) == NumberOfEfforts && std::size(PolishPerCell) == NumberOfEfforts &&
@@ -161,12 +160,12 @@ private:
   int effort_;
   bool isLimited_ = true;
   double cells_ = 0.0, freeNodes_ = 0.0;
-  double waste_ = 0.0; ///< that is still allowed; less than 0 if there was more
+  double polishFactor_ = 1.0; ///< what polishing may spend, in times of what it may elsewhere
+  double waste_ = 0.0;        ///< that is still allowed; less than 0 if there was more
   std::array<int, NumberOfKinds> impatience_{};
   double target_ = 0.0;     ///< of the stage
-  double spent_ = 0.0;      ///< on polishing since lastWorst_
+  SinceRise sinceRise_;     ///< of polishing
   double spentInAll_ = 0.0; ///< on polishing
-  double lastWorst_ = -1.0; ///< below all qualities
 };
 }
 }

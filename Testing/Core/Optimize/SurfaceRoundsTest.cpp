@@ -197,3 +197,25 @@ TEST(SurfaceRounds, DivisionsThatTurnFacetsAreUndone)
   }
   expectSound(rounds.bench.mesh);
 }
+
+/// Where each division is undone, the run ends when they have cost a few times what the first part
+/// has. With all three ways, first narrowly and then widely, six would be undone.
+TEST(SurfaceRounds, DivisionsInVainEndWhenTheyHaveCostTooMuch)
+{
+  std::vector<long> answers{ 0, 0 };
+  for (int k = 0; k < 20; ++k)
+  {
+    answers.insert(answers.end(), { 1, 0 });
+  }
+  for (const Effort effort : { Effort::Quick, Effort::Default })
+  {
+    Options options = upTo(0.9);
+    options.effort = effort;
+    Turning surface(answers);
+    Rounds rounds(surface, options);
+    optimizeSliding<3>(rounds.bench.run, surface);
+    const std::size_t undone = rounds.rows("divisions undone").size();
+    EXPECT_GE(undone, 3u);
+    EXPECT_LT(undone, 6u);
+  }
+}

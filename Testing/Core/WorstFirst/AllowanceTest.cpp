@@ -78,14 +78,35 @@ TEST(Allowance, IsUnlimitedInAMetricAndWhereTheSurfaceSlides)
 {
   const MeshInput<3> in = jitteredGrid<3>(3, 0.1);
   const StillSurface<3> judging(true), other(false);
-  const EngineBench<3> kept(in, {}), metric(in, inMetric()), slides(in, {}, &judging),
-    follows(in, {}, &other);
+  const EngineBench<3> kept(in, {}), metric(in, inMetric()), follows(in, {}, &other);
+  EngineBench<3> slides(in, {}, &judging);
+  slides.run.polishesWidely = false;
   for (const Phase phase : { Phase::Lifting, Phase::Polishing })
   {
     EXPECT_LT(kept.allowance.evaluations(phase), Any);
     EXPECT_LT(follows.allowance.evaluations(phase), Any);
     EXPECT_EQ(metric.allowance.evaluations(phase), Any);
     EXPECT_EQ(slides.allowance.evaluations(phase), Any);
+  }
+}
+
+TEST(Allowance, IsLimitedWhereARunOnASlidingSurfacePolishesWidely)
+{
+  const StillSurface<3> judging(true);
+  for (const Effort effort : { Effort::Quick, Effort::Default, Effort::Best })
+  {
+    EngineBench<3> bench(jitteredGrid<3>(3, 0.1), upTo(0.6, effort), &judging);
+    Allowance<3, MeanEdgeShape<3>>& allowance = bench.allowance;
+    ASSERT_TRUE(bench.run.polishesWidely);
+    CostModel costs(effort);
+    costs.open(6 * 3 * 3 * 3, 2 * 2 * 2, true);
+    EXPECT_EQ(allowance.evaluations(Phase::Polishing), costs.leftForPolish());
+    EXPECT_EQ(allowance.evaluations(Phase::Lifting), Any);
+    bench.run.polishesWidely = false;
+    EXPECT_EQ(allowance.evaluations(Phase::Polishing), Any);
+    bench.run.polishesWidely = true;
+    allowance.endLimits(); // past the target
+    EXPECT_EQ(allowance.evaluations(Phase::Polishing), Any);
   }
 }
 

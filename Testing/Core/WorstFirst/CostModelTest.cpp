@@ -62,6 +62,18 @@ TEST(CostModel, PastTheTargetNothingIsLimited)
   EXPECT_EQ(costs.leftForPolish(), std::numeric_limits<double>::infinity());
 }
 
+TEST(CostModel, PolishingMaySpendMoreWhereTheSurfaceTakesPart)
+{
+  CostModel kept(Effort::Quick), slides(Effort::Quick);
+  kept.open(1000, 100);
+  slides.open(1000, 100, true);
+  EXPECT_EQ(slides.leftForPass(), kept.leftForPass());
+  EXPECT_GT(slides.leftForPolish(), 2.0 * kept.leftForPolish());
+  slides.notePolish(1, 0.1);
+  slides.notePolish(static_cast<std::int64_t>(slides.leftForPolish()) + 1, 0.1);
+  EXPECT_LE(slides.leftForPolish(), 0.0); // since the worst has risen
+}
+
 TEST(CostModel, AQuickRunMayWasteLess)
 {
   CostModel quick(Effort::Quick), usual(Effort::Default);
