@@ -14,8 +14,11 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -65,8 +68,20 @@ std::string CheckLengths(vtkDataSetAttributes* attributes, vtkIdType wanted, con
   return error;
 }
 
+vtkIdType CountTypes(vtkUnstructuredGrid* grid)
+{
+  vtkSmartPointer<vtkUnsignedCharArray> types = grid->GetCellTypesArray();
+  return types ? types->GetNumberOfValues() : 0;
+}
+
 std::string CheckSizes(vtkUnstructuredGrid* grid)
 {
+  // GetCellType() would read what is not there.
+  if (CountTypes(grid) < grid->GetNumberOfCells())
+  {
+    return "The grid has " + std::to_string(grid->GetNumberOfCells()) + " cells, but types of " +
+      std::to_string(CountTypes(grid)) + " only.";
+  }
   if (grid->GetNumberOfPoints() > MaximumNumberOfPoints ||
     grid->GetNumberOfCells() > MaximumNumberOfCells)
   {
@@ -167,12 +182,13 @@ std::string CheckSimplex(vtkUnstructuredGrid* grid, vtkIdType cell, int nodes, v
 template <class Is>
 bool HasType(vtkUnstructuredGrid* grid, Is&& is)
 {
+  const vtkIdType n = std::min(grid->GetNumberOfCells(), CountTypes(grid));
   vtkIdType c = 0;
-  while (c < grid->GetNumberOfCells() && !is(grid->GetCellType(c)))
+  while (c < n && !is(grid->GetCellType(c)))
   {
     ++c;
   }
-  return c < grid->GetNumberOfCells();
+  return c < n;
 }
 
 } // namespace

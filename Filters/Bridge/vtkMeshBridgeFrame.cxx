@@ -73,8 +73,8 @@ double Box::GetMagnitude() const
 
 std::string CheckExtent(const Box& box)
 {
-  // Lengths are raised to the third power, and products of these must stay in range.
-  constexpr double least = 1e-100, most = 1e100;
+  // Lengths are raised to the third power, and products of two of these must stay in range.
+  constexpr double least = 1e-50, most = 1e50;
   const double extent = (box.High - box.Low).maxCoeff();
   const double magnitude = box.GetMagnitude();
   const bool isLarge = magnitude > most, isSmall = extent > 0.0 && extent < least;
@@ -85,9 +85,9 @@ std::string CheckExtent(const Box& box)
   std::ostringstream text;
   text << "The coordinates are too " << (isLarge ? "large (up to " : "small (extent ")
        << (isLarge ? magnitude : extent)
-       << "): squared and cubed lengths leave the range of double precision. Scale the mesh to "
+       << "): products of their powers leave the range of double precision. Scale the mesh to "
           "lengths "
-          "between 1e-100 and 1e100.";
+          "between 1e-50 and 1e50.";
   return text.str();
 }
 

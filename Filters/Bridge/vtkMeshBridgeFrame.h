@@ -72,8 +72,9 @@ struct Box
 };
 
 /**
- * A sentence if the box is so large or so small that cubed lengths leave the range of double
- * precision. An empty string otherwise, and also if it has no points or a bound is not finite.
+ * A sentence if the box is so large or so small that products of powers of lengths leave the range
+ * of double precision. An empty string otherwise, and also if it has no points or a bound is not
+ * finite.
  */
 std::string CheckExtent(const Box& box);
 

@@ -31,6 +31,24 @@ bool FitsIntoIndex(const std::vector<long long>& values)
       *range.second <= std::numeric_limits<Index>::max());
 }
 
+/**
+ * The values of the simplices alone; none if there is no array.
+ */
+std::vector<long long> ReadSimplices(vtkDataArray* array, const Cells& cells)
+{
+  std::vector<long long> values;
+  if (array)
+  {
+    const std::vector<long long> all = ReadIntegers(array);
+    values.reserve(cells.Simplices.size());
+    for (vtkIdType cell : cells.Simplices)
+    {
+      values.push_back(all[cell]);
+    }
+  }
+  return values;
+}
+
 } // namespace
 
 //------------------------------------------------------------------------------
@@ -68,17 +86,7 @@ int FindRank(const std::vector<long long>& distinct, long long value)
 
 std::vector<Index> ReadRegions(vtkDataArray* array, const Cells& cells)
 {
-  if (!array)
-  {
-    return {};
-  }
-  const std::vector<long long> all = ReadIntegers(array);
-  std::vector<long long> values;
-  values.reserve(cells.Simplices.size());
-  for (vtkIdType cell : cells.Simplices)
-  {
-    values.push_back(all[cell]);
-  }
+  const std::vector<long long> values = ReadSimplices(array, cells);
   if (FitsIntoIndex(values))
   {
     // The usual case: numbers stay as they are, and so they do in messages.
@@ -90,6 +98,12 @@ std::vector<Index> ReadRegions(vtkDataArray* array, const Cells& cells)
   std::transform(values.begin(), values.end(), regions.begin(),
     [&](long long value) { return FindRank(distinct, value); });
   return regions;
+}
+
+std::vector<long long> FindReplacedRegions(vtkDataArray* array, const Cells& cells)
+{
+  const std::vector<long long> values = ReadSimplices(array, cells);
+  return FitsIntoIndex(values) ? std::vector<long long>() : FindDistinct(values);
 }
 
 //------------------------------------------------------------------------------

@@ -39,6 +39,11 @@ int FindRank(const std::vector<long long>& distinct, long long value);
 std::vector<meshopt::Index> ReadRegions(vtkDataArray* array, const Cells& cells);
 
 /**
+ * The numbers, in ascending order, if ReadRegions() has replaced them by their ranks; else none.
+ */
+std::vector<long long> FindReplacedRegions(vtkDataArray* array, const Cells& cells);
+
+/**
  * Sizes at all points; empty without an array.
  */
 std::vector<double> ReadSizes(vtkDataArray* array);

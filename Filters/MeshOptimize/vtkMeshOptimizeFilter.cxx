@@ -266,7 +266,7 @@ void vtkMeshOptimizeFilter::StoreResults(const Results& results)
   this->WorstQualityAfter = report.worstAfter;
   this->MeanQualityBefore = report.meanBefore;
   this->MeanQualityAfter = report.meanAfter;
-  this->QualityBound = outcome.NumberOfCells > 0 ? report.bound : 0.0;
+  this->QualityBound = outcome.QualityBound();
   this->NumberOfCappedCells = report.cappedCells;
   this->NumberOfInvertedCellsBefore = report.invertedBefore;
   this->NumberOfInvertedCellsAfter = report.invertedAfter;

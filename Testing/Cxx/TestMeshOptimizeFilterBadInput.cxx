@@ -10,6 +10,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
 
 using namespace Testing;
 
@@ -232,6 +233,17 @@ TEST_P(MeshOptimizeFilterBadInput, TetrahedronMustHaveFourPoints)
   Grid shortCell = MakeBox(1, 0);
   AddCell(shortCell, VTK_TETRA, { 0, 1, 2 });
   ExpectError(shortCell, { "ell 6", "3 points instead of 4" });
+}
+
+TEST_P(MeshOptimizeFilterBadInput, EachCellMustHaveAType)
+{
+  Grid grid = MakeBox(2, 0);
+  vtkNew<vtkUnsignedCharArray> few;
+  few->InsertNextValue(VTK_TETRA);
+  vtkNew<vtkCellArray> cells;
+  cells->DeepCopy(grid->GetCells());
+  grid->SetCells(few, cells);
+  ExpectError(grid, { "48 cells", "types of 1 " });
 }
 
 //------------------------------------------------------------------------------

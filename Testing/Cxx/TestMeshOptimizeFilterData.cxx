@@ -226,6 +226,45 @@ TEST_P(MeshOptimizeFilterData, NaNDoesNotSpread)
 }
 
 /**
+ * VTK lets arrays be renamed so that two have one name. (Others of that name it replaces.)
+ */
+TEST_P(MeshOptimizeFilterData, ArraysOfOneNameAreAllKept)
+{
+  Grid input = MakeBox(4, 0.28);
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(input->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(input->GetCellData()) })
+  {
+    const vtkIdType n = data == input->GetPointData() ? input->GetNumberOfPoints()
+                                                      : input->GetNumberOfCells();
+    for (const char* name : { "a", "b", "c" })
+    {
+      auto array = NewArray<vtkIntArray>(name);
+      array->SetNumberOfTuples(n);
+      array->Fill(name[0]);
+      data->AddArray(array);
+    }
+    data->GetArray("b")->SetName("a");
+  }
+  OptimizeFilter filter(GetParam());
+  filter->SetInputData(input);
+  filter->SetBoundaryMode(GetParam() == vtkMeshOptimizeFilter::WorstFirst
+      ? vtkMeshOptimizeFilter::Slide
+      : vtkMeshOptimizeFilter::Fixed);
+  filter->Update();
+  for (vtkDataSetAttributes* data :
+    { static_cast<vtkDataSetAttributes*>(filter->GetOutput()->GetPointData()),
+      static_cast<vtkDataSetAttributes*>(filter->GetOutput()->GetCellData()) })
+  {
+    ASSERT_GE(data->GetNumberOfArrays(), 3);
+    for (int i = 0; i < 3; ++i)
+    {
+      EXPECT_STREQ(data->GetArrayName(i), i == 2 ? "c" : "a");
+      EXPECT_EQ(data->GetArray(i)->GetComponent(0, 0), 'a' + i);
+    }
+  }
+}
+
+/**
  * New cells take the data of an input cell in whose place they stand: their centres are near it.
  */
 TEST_P(MeshOptimizeFilterData, CellDataAreThoseOfACellInTheSamePlace)
@@ -351,6 +390,23 @@ TEST_P(MeshOptimizeFilterData, SurvivorsKeepTheirIds)
     EXPECT_TRUE(id == -1 || seen.insert(id).second) << id << " is there twice";
   }
   EXPECT_GT(freshCells, 0);
+}
+
+/**
+ * Where nothing is optimized, nothing is bound: the figure is that of the filter.
+ */
+TEST_P(MeshOptimizeFilterData, WhereAllCellsAreGhostsTheBoundIsNone)
+{
+  Grid input = MakeBox(2, 0.1);
+  auto ghost = NewArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName());
+  ghost->SetNumberOfTuples(input->GetNumberOfCells());
+  ghost->FillValue(vtkDataSetAttributes::DUPLICATECELL);
+  input->GetCellData()->AddArray(ghost);
+  OptimizeFilter filter(GetParam());
+  filter->SetInputData(input);
+  filter->Update();
+  EXPECT_EQ(filter->GetQualityBound(), 0.0);
+  EXPECT_EQ(Figure(filter->GetOutput(), "QualityBound"), 0.0);
 }
 
 /**

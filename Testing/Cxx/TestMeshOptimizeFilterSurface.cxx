@@ -7,6 +7,7 @@
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPolyData.h"
 #include "vtkTriangle.h"
+#include "vtkTypeInt64Array.h"
 
 #include <limits>
 
@@ -195,6 +196,32 @@ TEST(MeshOptimizeFilterSurface, WhatHasChangedIsReported)
   EXPECT_EQ(
     vtkTable::SafeDownCast(kept->GetOutputDataObject(1))->GetColumnByName("SurfaceChangeTried"),
     nullptr);
+}
+
+/// Numbers that do not fit into 32 bits, too.
+TEST(MeshOptimizeFilterSurface, RegionVolumesAreOfTheNumbersOfTheArray)
+{
+  Grid grid = MakeBadBox(3, 0.2);
+  vtkNew<vtkTypeInt64Array> number;
+  number->SetName("Number");
+  const double numbers[] = { -6000000001.0, 5000000000.0 };
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    number->InsertNextValue(static_cast<vtkTypeInt64>(numbers[c % 2]));
+  }
+  grid->GetCellData()->AddArray(number);
+  Sliding slid(0.01);
+  slid->SetInputData(grid);
+  slid->SetRegionArray("Number");
+  slid->Update();
+  vtkDataArray* volumes = slid->GetOutput()->GetFieldData()->GetArray("RegionVolumes");
+  ASSERT_NE(volumes, nullptr);
+  ASSERT_EQ(volumes->GetNumberOfTuples(), 2);
+  for (vtkIdType k = 0; k < 2; ++k)
+  {
+    EXPECT_EQ(volumes->GetComponent(k, 0), numbers[k]);
+    EXPECT_GT(volumes->GetComponent(k, 1), 0.0);
+  }
 }
 
 TEST(MeshOptimizeFilterSurface, TheToleranceIsAFractionUnlessAbsolute)

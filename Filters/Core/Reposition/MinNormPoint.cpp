@@ -250,7 +250,12 @@ void MinNormPoint<D>::solve(const std::vector<SparsePoint<D>>& points, int numbe
     }
   }
   this->scale_ = this->scale_ > 0.0 ? this->scale_ : 1.0;
-  this->append(points, start);
+  if (!this->append(points, start))
+  {
+    // Squares that are no numbers, or beyond their range: then there is no way to go.
+    this->formPoint(points);
+    return;
+  }
   this->weights_[0] = 1.0;
   this->formPoint(points);
 

@@ -67,6 +67,8 @@ public:
   /// and is at most `most` away from x.
   Vec<3> withinRoom(const Vec<3>& x, const Vec<3>& to, double most) const;
 
+  /// The corners of a facet, as they were given.
+  const std::array<Vec<3>, 3>& corners(int facet) const { return this->facets_[facet].x; }
   /// The tolerance that facets near to this facet of the reference may use.
   double tolerance(int facet) const;
 

@@ -303,15 +303,24 @@ SurfacePiece<3> SlidingSurface::oriented(const SurfacePiece<3>& piece) const
 }
 
 /// In its plane, and not folded.
+double SlidingSurface::Patch::offPlane(const std::array<Vec<3>, 3>& facet) const
+{
+  double off = 0.0;
+  for (const Vec<3>& x : facet)
+  {
+    off = std::max(off, std::fabs(this->plane.normal.dot(x - this->plane.origin)));
+  }
+  return off;
+}
+
 bool SlidingSurface::isFlat(const SurfacePiece<3>& piece) const
 {
   const Patch& patch = this->patches_[piece.patch];
   const Vec<3> n = (piece.x[1] - piece.x[0]).cross(piece.x[2] - piece.x[0]);
   // Inside of a region a facet may be seen from either side: its sign says nothing.
+  // What it replaces may be on the other side of the plane.
   return (n.dot(patch.plane.normal) > 0.0 || !patch.isSigned) &&
-    std::all_of(piece.x.begin(), piece.x.end(),
-      [&](const Vec<3>& x)
-      { return std::fabs(patch.plane.normal.dot(x - patch.plane.origin)) <= this->tolerance_; });
+    patch.offPlane(piece.x) <= this->tolerance_ - patch.off;
 }
 
 bool SlidingSurface::isRefused(const SurfacePiece<3>& piece) const

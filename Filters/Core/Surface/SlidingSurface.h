@@ -116,6 +116,9 @@ private:
     bool isSigned = true; ///< the other side has another region, or none
     SurfaceDivision::Plane plane;
     std::array<Vec<3>, 2> basis{ Vec<3>::Zero(), Vec<3>::Zero() }; ///< of the plane
+    double off = 0.0; ///< how far from the plane its facets were, at most
+
+    double offPlane(const std::array<Vec<3>, 3>& facet) const;
   };
 
   /// The part of the tolerance that curves may use. A facet beside a curve may be this far from it
@@ -141,6 +144,8 @@ private:
   bool mayJoinCorners(
     const SimplexMesh<3>& mesh, const std::vector<Index>& star, Index v, Index u) const;
   bool isFlat(const SurfacePiece<3>& piece) const;
+  double distanceOfPlanes(const SimplexMesh<3>& mesh) const;
+  Index patchOf(const SimplexMesh<3>& mesh, Index c, int i) const;
   bool isRefused(const SurfacePiece<3>& piece) const;
   SurfacePiece<3> oriented(const SurfacePiece<3>& piece) const;
 

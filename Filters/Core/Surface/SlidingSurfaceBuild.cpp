@@ -154,9 +154,10 @@ void SlidingSurface::addPatches(
     const double thickness = behind != thin.end() ? behind->second
       : before != thin.end()                      ? -before->second
                                                   : ReferenceSurface::Thick;
-    this->reference_.add(
-      { mesh.point(facet.nodes[0]), mesh.point(facet.nodes[1]), mesh.point(facet.nodes[2]) },
-      facet.patch, patch.isSigned, facet.other == None, thickness);
+    const std::array<Vec<3>, 3> x{ mesh.point(facet.nodes[0]), mesh.point(facet.nodes[1]),
+      mesh.point(facet.nodes[2]) };
+    patch.off = this->isExact_ ? std::max(patch.off, patch.offPlane(x)) : 0.0;
+    this->reference_.add(x, facet.patch, patch.isSigned, facet.other == None, thickness);
     // For inputFacet(): the reference knows facets by the order in which they were added.
     this->inputFacets_.push_back(sortedIds(facet.nodes));
   }

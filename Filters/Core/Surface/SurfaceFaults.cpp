@@ -264,11 +264,26 @@ std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>
     }
     result.push_back(box);
   }
-  // Ties by number, so that the order of equal boxes does not depend on the library.
-  std::sort(result.begin(), result.end(),
-    [](const Box<D>& a, const Box<D>& b)
-    { return std::tie(a.low[0], a.facet) < std::tie(b.low[0], b.facet); });
   return result;
+}
+
+/// Orders the boxes along the axis along which all together are the longest, and returns it. Along
+/// the thickness of a plate all would overlap.
+template <int D>
+int sortAlong(std::vector<Box<D>>& boxes)
+{
+  Eigen::AlignedBox<double, D> all;
+  for (const Box<D>& box : boxes)
+  {
+    all.extend(box.low).extend(box.high);
+  }
+  int axis = 0;
+  all.sizes().maxCoeff(&axis);
+  // Ties by number, so that the order of equal boxes does not depend on the library.
+  std::sort(boxes.begin(), boxes.end(),
+    [axis](const Box<D>& a, const Box<D>& b)
+    { return std::tie(a.low[axis], a.facet) < std::tie(b.low[axis], b.facet); });
+  return axis;
 }
 }
 
@@ -314,7 +329,7 @@ bool facetsCross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& 
   return oneWay(f, ofF, g) || oneWay(g, ofG, f);
 }
 
-/// A sweep along x: only pairs whose boxes overlap are looked at.
+/// A sweep: only pairs whose boxes overlap are looked at.
 template <int D>
 std::vector<SurfaceFault<D>> findSurfaceFaults(
   const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
@@ -329,10 +344,12 @@ std::vector<SurfaceFault<D>> findSurfaceFaults(
       faults.push_back({ Fault::NoArea, { f.nodes, f.nodes } });
     }
   }
-  const std::vector<Box<D>> sorted = boxes(mesh, facets); // by low x: the sweep meets all pairs
+  std::vector<Box<D>> sorted = boxes(mesh, facets);
+  const int axis = sortAlong(sorted);
   for (std::size_t i = 0; i < sorted.size(); ++i)
   {
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[0] <= sorted[i].high[0]; ++j)
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[axis] <= sorted[i].high[axis];
+         ++j)
     {
       typename Fault::Kind kind;
       if ((sorted[j].low.array() <= sorted[i].high.array()).all() &&

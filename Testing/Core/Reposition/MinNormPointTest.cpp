@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include <limits>
+
 using namespace meshopt;
 
 namespace
@@ -160,6 +162,23 @@ TEST(MinNormPoint, OnePointAndEqualPoints)
   solver.solve({ w, w, w }, 1);
   EXPECT_EQ(solver.corral(), std::vector<int>{ 0 }); // ties go to the lowest
   EXPECT_DOUBLE_EQ(solver.squaredNorm(), 25.25);
+}
+
+/// Such as gradients of cells whose volumes underflow.
+TEST(MinNormPoint, NoDirectionComesOfSquaresOutOfRange)
+{
+  for (double value :
+    { 1e200, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
+  {
+    SparsePoint<3> w;
+    w.count = 1;
+    w.value.fill(Vec<3>::Constant(value));
+    MinNormPoint<3> solver;
+    solver.solve({ w, w }, 1);
+    EXPECT_TRUE(solver.corral().empty());
+    EXPECT_TRUE(solver.weights().empty());
+    EXPECT_EQ(solver.squaredNorm(), 0.0);
+  }
 }
 
 TEST(MinNormPoint, OriginInsideIsFound)

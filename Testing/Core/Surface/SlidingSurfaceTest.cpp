@@ -76,6 +76,38 @@ TEST(SlidingSurface, ABoxGetsBetterAndStaysABox)
   }
 }
 
+/// A bump that is low enough to count as flat. Nodes are put on the plane of the face, which lies
+/// between the bump and what is around it: both are off.
+TEST(SlidingSurface, WhatIsReportedOfAlmostFlatFacesCountsBothSidesOfThePlane)
+{
+  const double tolerance = 1.5e-6; // less than 1e-6 of the diagonal
+  MeshInput<3> in = slidingBox(6, 0.3, 7);
+  for (Vec<3>& x : in.points)
+  {
+    const bool isOnTop = x[2] == 1.0 && std::hypot(x[0] - 0.5, x[1] - 0.5) < 0.25;
+    x[2] += isOnTop ? 5e-7 : 0.0;
+  }
+  const SimplexMesh<3> before = buildMesh(in);
+  const Outcome slid = optimized(in, tolerance);
+  const double there = sampledDistance(surfaceOf(slid.mesh), surfaceOf(before), 3);
+  const double back = sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 3);
+  EXPECT_GT(std::max(there, back), 1e-7);
+  EXPECT_LE(std::max(there, back), slid.distance + 1e-14);
+  EXPECT_LE(slid.distance, tolerance);
+}
+
+/// Nothing is off where nothing has changed.
+TEST(SlidingSurface, AnAlmostFlatFaceThatStaysIsNowhereElse)
+{
+  MeshInput<3> in = slidingBox(3, 0.0);
+  for (Vec<3>& x : in.points)
+  {
+    x[2] += x[2] == 1.0 && x[0] > 0.0 && x[0] < 1.0 && x[1] > 0.0 && x[1] < 1.0 ? 5e-7 : 0.0;
+  }
+  const Sliding made(in, tolerance(1.5e-6));
+  EXPECT_EQ(made.surface.distance(made.mesh), 0.0);
+}
+
 TEST(SlidingSurface, ACurvedBodyStaysWithinItsTolerance)
 {
   MeshInput<3> in = slidingBox(6, 0.3, 3);

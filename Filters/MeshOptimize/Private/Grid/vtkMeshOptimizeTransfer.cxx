@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -85,14 +86,25 @@ void FillNew(vtkAbstractArray* abstract, vtkIdType first, double value)
 }
 
 /**
- * Adds `array`, and makes it the active scalars, vectors, ... if array `index` of the input is
- * that. Except for the active global ids: these must be unique over all blocks and processes, and
- * new points and cells have none.
+ * Adds `array`, behind all others also if one of them has its name, and makes it the active
+ * scalars, vectors, ... if array `index` of the input is that. Except for the active global ids:
+ * these must be unique over all blocks and processes, and new points and cells have none.
  */
 void AddArray(
   vtkDataSetAttributes* input, int index, vtkAbstractArray* array, vtkDataSetAttributes* output)
 {
+  // VTK would replace an array of the same name, and this one's data would be lost.
+  const std::string name = array->GetName() ? array->GetName() : "";
+  const bool isSecond = !name.empty() && output->HasArray(name.c_str());
+  if (isSecond)
+  {
+    array->SetName((name + " " + std::to_string(index)).c_str());
+  }
   const int place = output->AddArray(array);
+  if (isSecond)
+  {
+    array->SetName(name.c_str());
+  }
   const int attribute = input->IsArrayAnAttribute(index);
   if (attribute >= 0 && attribute != vtkDataSetAttributes::GLOBALIDS)
   {

@@ -46,7 +46,7 @@ void AddFigure(vtkFieldData* fields, const char* name, Value value)
 }
 
 /**
- * One tuple for each region, by ascending number. All in doubles, which hold any region's number
+ * One tuple for each region, by ascending number. All in doubles, which hold numbers up to 2^53
  * exactly.
  */
 void AddVolumes(const Outcome& outcome, vtkFieldData* fields)
@@ -59,7 +59,7 @@ void AddVolumes(const Outcome& outcome, vtkFieldData* fields)
   volumes->SetComponentName(2, "After");
   for (const auto& [region, volume] : outcome.Volumes)
   {
-    volumes->InsertNextTuple3(region, volume[0], volume[1]);
+    volumes->InsertNextTuple3(static_cast<double>(region), volume[0], volume[1]);
   }
   fields->AddArray(volumes);
 }
@@ -134,7 +134,7 @@ void AddFigures(const Outcome& outcome, vtkDataObject* output)
   AddFigure<vtkDoubleArray>(fields, "WorstQualityAfter", report.worstAfter);
   AddFigure<vtkDoubleArray>(fields, "MeanQualityBefore", report.meanBefore);
   AddFigure<vtkDoubleArray>(fields, "MeanQualityAfter", report.meanAfter);
-  AddFigure<vtkDoubleArray>(fields, "QualityBound", report.bound);
+  AddFigure<vtkDoubleArray>(fields, "QualityBound", outcome.QualityBound());
   AddFigure<vtkIdTypeArray>(fields, "NumberOfCappedCells", report.cappedCells);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfInvertedCellsBefore", report.invertedBefore);
   AddFigure<vtkIdTypeArray>(fields, "NumberOfInvertedCellsAfter", report.invertedAfter);

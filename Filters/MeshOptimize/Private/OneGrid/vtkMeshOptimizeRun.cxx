@@ -17,6 +17,7 @@
 #include "vtkMeshBridgeCells.h"
 #include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeFrame.h"
+#include "vtkMeshBridgeValues.h"
 
 #include "vtkCellData.h"
 #include "vtkPointData.h"
@@ -42,13 +43,19 @@ namespace
 template <int D>
 void AddVolumes(const Request& request, const Model<D>& model, int when, Outcome& outcome)
 {
+  if (D != 3 || !request.Slide) // only a surface in space that slides can change a volume
+  {
+    return;
+  }
   const meshopt::SimplexMesh<D>& mesh = model.Mesh;
-  // Only a surface in space that slides can change a volume.
-  for (meshopt::Index c = 0; D == 3 && request.Slide && c < mesh.numberOfCellSlots(); ++c)
+  const std::vector<long long> replaced = vtkMeshBridge::FindReplacedRegions(
+    model.Arrays.Region, model.Cells);
+  for (meshopt::Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
     if (mesh.isAlive(c))
     {
-      outcome.Volumes[mesh.region(c)][when] += meshopt::signedVolume(mesh.corners(c));
+      const long long region = replaced.empty() ? mesh.region(c) : replaced[mesh.region(c)];
+      outcome.Volumes[region][when] += meshopt::signedVolume(mesh.corners(c));
     }
   }
 }

@@ -78,7 +78,7 @@ struct Outcome
   double SurfaceDistance = 0.0;    ///< proved, between the surface of before and that of after
   bool HasSurfaceDistance = false; ///< a surface of tetrahedra took part
   /// By region: before and after; only if a surface of tetrahedra took part.
-  std::map<int, std::array<double, 2>> Volumes;
+  std::map<long long, std::array<double, 2>> Volumes;
   meshopt::EdgeLengths Lengths; ///< at the end; no edges if neither sizes nor a metric are given
   std::string Sizes;            ///< information for the user about the wanted sizes, or empty
   std::string Twins;            ///< about facets that lie on one another, or empty
@@ -92,6 +92,8 @@ struct Outcome
 
   /// Of all regions together, relative to the volume before.
   double VolumeChange() const;
+  /// That of the report; 0 if no cell has been optimized.
+  double QualityBound() const { return this->NumberOfCells > 0 ? this->Report.bound : 0.0; }
 };
 
 /**
