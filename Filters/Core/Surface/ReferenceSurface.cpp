@@ -139,10 +139,11 @@ int ReferenceSurface::project(Index patch, const Vec<3>& x, Vec<3>& there) const
 }
 
 /// Only facets that face x are in its way, not those beside it.
-std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
+std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x, double most) const
 {
   constexpr double faces = 0.5; // cosine of the angle between a normal and the way there
-  const double reach = this->tolerance_ / RoomOfWalls;
+  // What is farther away leaves room for the whole motion.
+  const double reach = most / RoomOfWalls;
   std::vector<int> near, thin;
   findNear(this->all_, BoxTree::widened(Box(Eigen::Vector3d(x)), reach), near);
   std::vector<RoomLimit> limits;
@@ -156,7 +157,10 @@ std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x) const
     {
       const bool isGap = f.isOuter && along < 0.0;
       const double share = isGap ? RoomOfGaps : RoomOfWalls;
-      limits.push_back({ way, share * way.squaredNorm(), f.isThin() && !isGap });
+      if (share * length < most)
+      {
+        limits.push_back({ way, share * way.squaredNorm(), f.isThin() && !isGap });
+      }
     }
     if (!isApart && f.isThin())
     {
@@ -186,7 +190,7 @@ Vec<3> ReferenceSurface::withinRoom(const Vec<3>& x, const Vec<3>& to, double mo
   const double off = move.norm();
   // One factor for the whole way: the point stays on the straight line.
   double part = off > most ? most / off : 1.0;
-  for (const RoomLimit& limit : this->limits(x))
+  for (const RoomLimit& limit : this->limits(x, most))
   {
     part = std::min(part, limit.part(move));
   }

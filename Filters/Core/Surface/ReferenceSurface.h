@@ -59,10 +59,10 @@ public:
   /// -1 if the patch has none.
   int project(Index patch, const Vec<3>& x, Vec<3>& there) const;
 
-  /// What the sheets that face point x of the surface leave it: the same parts of their distance.
-  /// Where two sides of a thin region meet at an acute angle, none faces x: there the same part of
-  /// the mean thickness.
-  std::vector<RoomLimit> limits(const Vec<3>& x) const;
+  /// What the sheets that face point x of the surface leave it, if it moves by `most` at most: the
+  /// same parts of their distance. Where two sides of a thin region meet at an acute angle, none
+  /// faces x: there the same part of the mean thickness.
+  std::vector<RoomLimit> limits(const Vec<3>& x, double most) const;
   /// The farthest point on the way from x, a point of the surface, to `to`, that keeps these limits
   /// and is at most `most` away from x.
   Vec<3> withinRoom(const Vec<3>& x, const Vec<3>& to, double most) const;

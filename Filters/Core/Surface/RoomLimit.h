@@ -7,6 +7,7 @@
 #include "Mesh/Types.h"
 
 #include <cmath>
+#include <vector>
 
 namespace meshopt
 {
@@ -27,6 +28,9 @@ struct RoomLimit
     return counts > this->most ? this->most / counts : 1.0;
   }
 };
+
+/// Removes the limits that others imply, for motions of at most this length.
+void keepBinding(double length, std::vector<RoomLimit>& limits);
 }
 
 #endif

@@ -205,7 +205,10 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     // An exact surface moves within itself: there is no room to measure.
     for (std::size_t k = 0; k < points.size() && !this->isExact_; ++k)
     {
-      limits.push_back(this->reference_.limits(points[k]));
+      // An edge that is farther from the curve is refused for that: see follows().
+      const double most = 1.01 * this->curveRoom();
+      limits.push_back(this->reference_.limits(points[k], most));
+      keepBinding(most, limits.back());
     }
     SpaceCurve curve(std::move(points), chain.isClosed);
     curve.setLimits(std::move(limits));

@@ -22,6 +22,9 @@ constexpr double Ulps = 8.0;
 constexpr double Most = 0.1;
 /// Below this part of the diagonal, only what is flat can change at all.
 constexpr double ExactBelow = 1e-6;
+/// A surface that bends gently everywhere is not flat as a whole. That is not tried for the rest of
+/// it any more once these many times all facets have been filled in vain.
+constexpr std::size_t MostInVain = 100;
 
 /// Whether the triangle runs through its edge ab from a to b.
 bool runsForwards(const Facet<3>& f, Index a, Index b)
@@ -429,25 +432,35 @@ void SurfaceDivision::findPatches()
   }
   std::stable_sort(
     order.begin(), order.end(), [&](Index a, Index b) { return areas[a] > areas[b]; });
+  const auto release = [this]
+  {
+    for (Index k : this->filled_)
+    {
+      this->facets[k].patch = None;
+    }
+  };
+  std::size_t inVain = 0; // facets that were filled as a whole
   for (Index seed : order)
   {
     if (this->facets[seed].patch != None || this->facets[seed].isLocked)
     {
       continue;
     }
-    this->fill(seed, nullptr);
     Plane plane;
-    if (this->isExact && !this->fits(this->filled_, plane))
+    bool isWhole = !this->isExact || inVain <= MostInVain * this->facets.size();
+    if (isWhole)
+    {
+      this->fill(seed, nullptr);
+      isWhole = !this->isExact || this->fits(this->filled_, plane);
+      if (!isWhole)
+      {
+        release();
+        inVain += this->filled_.size();
+      }
+    }
+    if (!isWhole)
     {
       // Flat from facet to facet, but not as a whole: only what lies in the plane of the seed.
-      const auto release = [&]
-      {
-        for (Index k : this->filled_)
-        {
-          this->facets[k].patch = None;
-        }
-      };
-      release();
       plane = { this->mesh_.point(this->facets[seed].nodes[0]),
         this->normal(this->facets[seed]).normalized() };
       const Plane ofSeed = plane;

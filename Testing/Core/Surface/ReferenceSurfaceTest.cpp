@@ -238,7 +238,7 @@ TEST(ReferenceSurface, RoomIsKeptTowardsSheetsThatFaceThePoint)
   auto two = sheet(6, flat);
   const auto alone = reference(two, 0.1);
   const Vec<3> x(0.5, 0.5, 0.0), down(0.5, 0.5, -0.08), up(0.5, 0.5, 0.08);
-  EXPECT_TRUE(alone.limits(x).empty()); // neighbours do not count
+  EXPECT_TRUE(alone.limits(x, 0.1).empty()); // neighbours do not count
   EXPECT_EQ(alone.withinRoom(x, down, 0.1), down);
   EXPECT_NEAR((alone.withinRoom(x, down, 0.05) - Vec<3>(0.5, 0.5, -0.05)).norm(), 0.0, 1e-15);
   for (Piece piece : sheet(6, flat))
@@ -252,7 +252,9 @@ TEST(ReferenceSurface, RoomIsKeptTowardsSheetsThatFaceThePoint)
   }
   const auto wall = reference(two, 0.1);
   EXPECT_NEAR(wall.withinRoom(x, down, 0.1)[2], -0.04 / 7.0, 1e-15);
-  EXPECT_EQ(wall.withinRoom(x, up, 0.1), up); // the wall becomes thicker
+  EXPECT_FALSE(wall.limits(x, 0.041 / 7.0).empty());
+  EXPECT_TRUE(wall.limits(x, 0.039 / 7.0).empty()); // no motion is that long
+  EXPECT_EQ(wall.withinRoom(x, up, 0.1), up);       // the wall becomes thicker
   const Vec<3> along(0.58, 0.5, 0.0);
   EXPECT_EQ(wall.withinRoom(x, along, 0.1), along);
   // A region that is thin as a whole may not become much thicker either.

@@ -79,6 +79,44 @@ TEST(RoomLimit, APartOfTheMotion)
   EXPECT_EQ(limit.part(Vec<3>::Zero()), 1.0);
 }
 
+/// Motions are within all limits exactly if they are within those that are left.
+TEST(RoomLimit, WhatOthersImplyIsNotNeeded)
+{
+  TestRandom random(5);
+  std::size_t all = 0, left = 0;
+  for (int k = 0; k < 300; ++k)
+  {
+    std::vector<RoomLimit> limits, binding;
+    for (int i = 0; i < 40; ++i)
+    {
+      const Vec<3> way(random(), random(), random());
+      limits.push_back({ way, 0.2 * way.squaredNorm(), i % 7 == 0 });
+    }
+    binding = limits;
+    const double most = 0.3;
+    keepBinding(most, binding);
+    all += limits.size();
+    left += binding.size();
+    const auto part = [](const std::vector<RoomLimit>& of, const Vec<3>& u)
+    {
+      double result = 1.0;
+      for (const RoomLimit& limit : of)
+      {
+        result = std::min(result, limit.part(u));
+      }
+      return result;
+    };
+    for (int i = 0; i < 100; ++i)
+    {
+      const Vec<3> u = Vec<3>(random(), random(), random()).normalized() * most * 0.5 *
+        (1.0 + random());
+      EXPECT_EQ(part(limits, u) < 1.0, part(binding, u) < 1.0);
+    }
+  }
+  EXPECT_LT(left, 9 * all / 10);
+  EXPECT_GT(left, 300u);
+}
+
 /// What the header promises: of the distance from a facet at least the wanted part is left,
 /// wherever the point wants to go. Sharp for motions straight to it.
 TEST(RoomLimit, ThePartOfTheDistanceIsLeft)
