@@ -39,7 +39,7 @@ constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 8;
-/// Nor if they have cost so many times what the first part of the run has, by effort, since the
+/// Nor if they have cost so many times what the run has before them, by effort, since the
 /// worst quality last rose clearly (SinceRise). Some small solids took thirty times the first part
 /// for a rise of 7 % (fuzz_solids.py, seed 930012). In evaluations of quality.
 constexpr double MostPerRise[] = { 2.0, 4.0, 4.0 };
@@ -101,7 +101,7 @@ private:
   Run<D>& run_;
   Surface<D>& surface_;      ///< that of the run
   std::int64_t cost_ = 0;    ///< evaluations up to now
-  double costOfFirst_ = 0.0; ///< of them, in the first part of the run
+  double costOfFirst_ = 0.0; ///< of them, before the first division
   SinceRise sinceRise_;
 };
 

@@ -21,8 +21,8 @@ Index SlidingSurface::patchOf(const SimplexMesh<3>& mesh, Index c, int i) const
   return patch != None && mesh.region(c) == this->patches_[patch].region ? patch : None;
 }
 
-/// The same if it is exact. A new facet of a patch and what was there before may be on both sides
-/// of the plane. Facets that are as they were do not count.
+/// How far the patches are from what they were, if these are planes. A new facet and what was there
+/// before may be on both sides of the plane. Facets that are as they were do not count.
 double SlidingSurface::distanceOfPlanes(const SimplexMesh<3>& mesh) const
 {
   std::vector<std::pair<Facet<3>, int>> input;
