@@ -199,6 +199,10 @@ double facetCap(const Vec<3>& a, const Vec<3>& b, const Vec<3>& c, double enough
 {
   // A frame in the plane of the facet: the origin at its centre, the unit its longest edge.
   const Vec<3> u = b - a, v = c - a;
+  if (apex) // also where nothing is computed: callers go there
+  {
+    *apex = a + (u + v) / 3.0;
+  }
   const double unit = std::sqrt(
     std::max(u.squaredNorm(), std::max(v.squaredNorm(), (v - u).squaredNorm())));
   if (!std::isfinite(u.squaredNorm() + v.squaredNorm()))

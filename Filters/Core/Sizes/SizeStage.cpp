@@ -19,6 +19,7 @@ SizeStage<D>::SizeStage(Run<D>& run)
   , units_(run.metric)
   , pinched_(pinchedPoints<D>(run.mesh()))
   , tangled_(!this->pinched_.empty() || run.mesh().numberOfFoldedFacets() > 0 ||
+      hasLostSigns(run.mesh()) ||
       (run.report.invertedBefore > 0 && mayOverlap<D>(run.mesh(), this->pinched_)))
 {
   // Inverted cells are excluded by the precondition; nodes are stamped one by one (see moveNode()).

@@ -412,11 +412,37 @@ bool fillsMoreThanAll(const SimplexMesh<D>& mesh)
 }
 }
 
+template <int D>
+bool hasLostSigns(const SimplexMesh<D>& mesh)
+{
+  constexpr double shortest = 1e-90, most = 1e-70; // far from the smallest number of all, 5e-324
+  // Two numbers differ by so little only if both are tiny: most meshes have none such.
+  bool hasTiny = false;
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    const Vec<D> x = mesh.point(p).cwiseAbs();
+    hasTiny |= (x.array() > 0.0 && x.array() < most).any();
+  }
+  for (Index c = 0; c < mesh.numberOfCellSlots() && hasTiny; ++c)
+  {
+    for (int e = 0; e < Local<D>::numberOfEdges && mesh.isAlive(c); ++e)
+    {
+      const Vec<D>&a = mesh.point(mesh.nodes(c)[Local<D>::edges[e][0]]),
+            &b = mesh.point(mesh.nodes(c)[Local<D>::edges[e][1]]);
+      if (a != b && (a - b).template lpNorm<Eigen::Infinity>() < shortest)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// From the cheapest test to the dearest.
 template <int D>
 bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pinched)
 {
-  if (!pinched.empty() || fillsMoreThanAll(mesh))
+  if (!pinched.empty() || hasLostSigns(mesh) || fillsMoreThanAll(mesh))
   {
     return true;
   }
@@ -431,6 +457,8 @@ bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pin
   return !findSurfaceFaults<D>(mesh, cells).empty();
 }
 
+template bool hasLostSigns<2>(const SimplexMesh<2>&);
+template bool hasLostSigns<3>(const SimplexMesh<3>&);
 template bool mayOverlap<2>(const SimplexMesh<2>&, const std::vector<std::uint8_t>&);
 template bool mayOverlap<3>(const SimplexMesh<3>&, const std::vector<std::uint8_t>&);
 template std::vector<SurfaceFault<2>> findSurfaceFaults<2>(

@@ -37,12 +37,20 @@ std::vector<SurfaceFault<D>> findSurfaceFaults(
 /// lie in a plane, do not. Exact.
 bool facetsCross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g);
 
+/// Whether edges are so short that the volumes of their cells, or what exact signs are made of, are
+/// below the smallest numbers: signs say nothing there. Nodes at the same place do no harm. Hardly
+/// more than a look at the coordinates.
+template <int D>
+bool hasLostSigns(const SimplexMesh<D>& mesh);
+
 /// Whether cells may overlap although none is inverted: if they fill more than all directions at
 /// some point, if points are `pinched` (PinchedPoints.h: one part may lie in another), or, in 3D,
 /// if the surface has a fault. The cost is the same as above.
 template <int D>
 bool mayOverlap(const SimplexMesh<D>& mesh, const std::vector<std::uint8_t>& pinched);
 
+extern template bool hasLostSigns<2>(const SimplexMesh<2>&);
+extern template bool hasLostSigns<3>(const SimplexMesh<3>&);
 extern template bool mayOverlap<2>(const SimplexMesh<2>&, const std::vector<std::uint8_t>&);
 extern template bool mayOverlap<3>(const SimplexMesh<3>&, const std::vector<std::uint8_t>&);
 extern template std::vector<SurfaceFault<2>> findSurfaceFaults<2>(

@@ -23,7 +23,7 @@ public:
   /// `hadInverted`: the mesh had inverted cells at some time before.
   Tangle(const SimplexMesh<D>& mesh, bool hadInverted)
     : mesh_(mesh)
-    , mayOverlap_(hadInverted || mesh.numberOfFoldedFacets() > 0)
+    , mayOverlap_(hadInverted || mesh.numberOfFoldedFacets() > 0 || hasLostSigns(mesh))
   {
     if (this->mayOverlap_ || (D == 2 && mesh.countCells() < CellsPerChunk)) // elsewhere too slow
     {

@@ -10,5 +10,6 @@ TEST(Raised, RisesWhateverTheSign)
 {
   EXPECT_DOUBLE_EQ(raised(0.5, 0.02), 0.51);
   EXPECT_DOUBLE_EQ(raised(-0.5, 0.02), -0.49);
-  EXPECT_EQ(raised(0.0, 0.02), 0.0);
+  EXPECT_EQ(raised(0.0, 0.02), 1e-20) << "at least that";
+  EXPECT_EQ(raised(1e-300, 0.02), 1e-20);
 }

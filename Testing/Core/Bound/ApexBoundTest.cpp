@@ -96,6 +96,14 @@ TEST(FacetCap, SpecialFacets)
   EXPECT_EQ(facetCap(a, b, Vec<3>(3, 0, 0)), 0.0);
   EXPECT_EQ(facetCap(a, b, Vec<3>(0, std::nan(""), 0)), 1.0) << "nothing known";
   EXPECT_EQ(facetCap(Vec<3>(std::nan(""), 0, 0), b, c), 1.0);
+
+  // An apex is given all the same: a search begins there.
+  for (const Vec<3>& third : { Vec<3>(0, 0, 0), Vec<3>(3, 0, 0), Vec<3>(0.5, 1e-170, 0) })
+  {
+    Vec<3> apex(7, 7, 7);
+    EXPECT_LT(facetCap(a, b, third, std::numeric_limits<double>::infinity(), &apex), 1e-50);
+    EXPECT_LT((apex - (a + b + third) / 3.0).norm(), 3.0) << "near the facet";
+  }
 }
 
 TEST(EdgeBound, TableOfKnownValues)

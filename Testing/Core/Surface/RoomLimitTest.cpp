@@ -46,6 +46,23 @@ TEST(RoomLimit, TheNearestPointOfATriangleIsTheNearest)
   }
 }
 
+/// Squares of such lengths are 0, and 0 / 0 is no number.
+TEST(RoomLimit, ATinyTriangleHasANearestPoint)
+{
+  TestRandom random(2);
+  for (int k = 0; k < 3000; ++k)
+  {
+    std::array<Vec<3>, 3> t = randomTriangle(random);
+    for (Vec<3>& x : t)
+    {
+      x *= 1e-162;
+    }
+    const double scale = k % 2 ? 1.0 : 1e-162; // of the other point
+    const Vec<3> x = scale * Vec<3>(random(), random(), random());
+    EXPECT_LT(nearestInTriangle(t, x).norm(), 1e-160);
+  }
+}
+
 /// The whole motion if it is within the limit, else as much of it as the limit allows.
 TEST(RoomLimit, APartOfTheMotion)
 {

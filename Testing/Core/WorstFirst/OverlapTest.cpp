@@ -119,6 +119,49 @@ TEST(Overlap, MoreThanAllDirections)
   EXPECT_TRUE(mayOverlap<3>(buildMesh(in), {}));
 }
 
+/// The part of a grid around its first corner gets smaller by `factor`.
+MeshInput<3> tinyCorner(double factor, unsigned seed)
+{
+  MeshInput<3> in = jitteredGrid<3>(4, 0.35, seed);
+  for (Vec<3>& x : in.points)
+  {
+    x *= x.maxCoeff() < 0.6 ? factor : 1.0;
+  }
+  return in;
+}
+
+TEST(Overlap, SignsOfTinyCells)
+{
+  EXPECT_TRUE(hasLostSigns<3>(buildMesh(tinyCorner(1e-152, 1))));
+  EXPECT_TRUE(mayOverlap<3>(buildMesh(tinyCorner(1e-152, 1)), {}));
+  EXPECT_FALSE(hasLostSigns<3>(buildMesh(tinyCorner(1e-60, 1))));
+  EXPECT_FALSE(hasLostSigns<3>(buildMesh(tinyCorner(0.0, 1)))) << "all at one place";
+  MeshInput<3> noise = jitteredGrid<3>(3, 0.1); // long edges, of which one coordinate is tiny
+  for (Vec<3>& x : noise.points)
+  {
+    x[2] = x[2] == 0.0 ? 1e-120 * (1.0 + x[0]) : x[2];
+  }
+  EXPECT_FALSE(hasLostSigns<3>(buildMesh(noise)));
+}
+
+/// Removal of a node joined its facets to one that signs put on the wrong side: what came of it was
+/// no mesh (8). Or qualities rose by a hundredth, again and again, from 1e-300 (72).
+TEST(Overlap, TinyCellsStayAMesh)
+{
+  for (unsigned seed : { 1, 2, 3, 4, 5, 6, 7, 8, 72 })
+  {
+    SimplexMesh<3> mesh = buildMesh(tinyCorner(std::pow(10.0, -148.0 - seed % 14), seed));
+    const auto before = eulerCharacteristic(mesh);
+    Options options;
+    options.targetQuality = 0.3;
+    NodalMetric<3> metric;
+    const Report report = optimize<3>(mesh, metric, options, {});
+    EXPECT_TRUE(mesh.audit(false).empty()) << "seed " << seed;
+    EXPECT_EQ(eulerCharacteristic(mesh), before) << "seed " << seed;
+    EXPECT_GE(report.worstAfter, report.worstBefore) << "seed " << seed;
+  }
+}
+
 TEST(Overlap, WhatFillsACavityHangsTogether)
 {
   // the ring of cells around a cell, and a node joined to both of its sides
