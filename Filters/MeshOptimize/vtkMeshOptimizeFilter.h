@@ -328,7 +328,8 @@ public:
    * Slide, triangles: nodes slide along the curves that the boundary follows, edges on them are
    * split and contracted, and new nodes lie on the curve. Corners stay. The curves come from the
    * mesh's own boundary, or from input port 1 if that is connected. Points of FixedPointArray, and
-   * of lines and other cells that pass through, are corners.
+   * of lines and other cells that pass through, are corners. Where the boundary would cross itself,
+   * because a gap is narrower than the curves bulge, it stays as it is.
    *
    * Slide, tetrahedra: nodes slide on patches of the surface and along the curves between them;
    * facets and edges there are swapped, split and contracted. The surface stays within

@@ -57,7 +57,7 @@ void check(const Result<D>& run, long euler, const Options& o)
   for (std::size_t k = 1; k < run.report.history.size(); ++k)
   {
     const PassRecord& row = run.report.history[k];
-    if (row.stage.rfind("sizes", 0) != 0)
+    if (row.stage.rfind("sizes", 0) != 0 && row.stage != "crossing boundary undone")
     {
       EXPECT_GE(row.worst, run.report.history[k - 1].worst - 1e-12) << row.stage;
     }

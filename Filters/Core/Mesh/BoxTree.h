@@ -32,14 +32,14 @@ public:
     friend const Box& bounding_box(const Item& item) { return item.box; } // the name Eigen asks for
   };
 
-  /// The box around some points.
+  /// The box around some points, in space or in the plane (of height 0).
   template <class Points>
   static Box around(const Points& points)
   {
     Box box;
-    for (const Vec<3>& x : points)
+    for (const auto& x : points)
     {
-      box.extend(Eigen::Vector3d(x));
+      box.extend(Eigen::Vector3d(x[0], x[1], x.size() == 3 ? x[x.size() - 1] : 0.0));
     }
     return box;
   }

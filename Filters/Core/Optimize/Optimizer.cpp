@@ -51,6 +51,7 @@ private:
       (o.desiredSize > 0.0 || this->run_.metric.hasSizes());
   }
   bool untangle();
+  void optimizeOnCurves();
   void optimizeFromRidges();
   bool repairForSizes();
   void optimizeSizesToo();
@@ -92,15 +93,19 @@ void Optimizer<D>::optimize()
   }
   this->run_.limitGrowth();
   const Clock::Section part(this->run_.clock, isTangled ? Untangled : 0.0, 1.0);
-  if (this->wantsSizes())
-  {
-    this->optimizeSizesToo();
-  }
-  else if (this->surface_ && this->surface_->mayRelease())
+  if (this->surface_ && this->surface_->mayRelease() && !this->wantsSizes())
   {
     this->optimizeFromRidges();
   }
-  else if (this->run_.surface && this->run_.surface->judgesChanges())
+  else if (this->surface_ && !this->surface_->judgesChanges())
+  {
+    this->optimizeOnCurves();
+  }
+  else if (this->wantsSizes())
+  {
+    this->optimizeSizesToo();
+  }
+  else if (this->run_.surface)
   {
     optimizeSliding<D>(this->run_, *this->surface_);
   }
@@ -108,6 +113,39 @@ void Optimizer<D>::optimize()
   {
     optimizeWorstFirst<D>(this->run_);
   }
+}
+
+/// In the plane. Nothing tells at each change whether the boundary passes through another part of
+/// it, across a gap: this is looked at afterwards. If it does, all is done again, and what is there
+/// stays. If that does not help, the mesh stays as it was.
+template <int D>
+void Optimizer<D>::optimizeOnCurves()
+{
+  Run<D>& run = this->run_;
+  const SimplexMesh<D> mesh = run.mesh();
+  const NodalMetric<D> metric = run.metric;
+  const auto sizes = run.report.sizes;
+  for (int time = 0; time <= MostRepeats; ++time)
+  {
+    if (this->wantsSizes())
+    {
+      this->optimizeSizesToo();
+    }
+    else
+    {
+      optimizeWorstFirst<D>(run);
+    }
+    if (!this->surface_->refuseCrossings(mesh, run.mesh()))
+    {
+      return;
+    }
+    restore<D>(run, mesh);
+    run.metric = metric;
+    run.report.sizes = sizes;
+    run.limitGrowth();
+    run.record("crossing boundary undone");
+  }
+  run.report.stopReason = run.clock.hasStopped() ? run.stopped() : StopReason::NoFurtherGain;
 }
 
 /// With all ridges first, by single changes and with half of the budget; then without those that

@@ -44,9 +44,6 @@ constexpr int MostDivisions = 8;
 /// for a rise of 7 % (fuzz_solids.py, seed 930012). In evaluations of quality.
 constexpr double MostPerRise[] = { 2.0, 4.0, 4.0 };
 static_assert(std::size(MostPerRise) == NumberOfEfforts);
-/// How often a run is repeated because facets have turned or pass through others: then it refuses
-/// more. If that does not help, the mesh stays as it was.
-constexpr int MostRepeats = 4;
 
 /// Improves the worst cells with another effort and with a part of the growth that is left.
 template <int D>
@@ -244,6 +241,7 @@ void SurfaceRounds<D>::run()
   }
   this->noteCost();
   this->costOfFirst_ = static_cast<double>(this->cost_);
+  run.hasDivided = true; // from here on
   double left = 0.5;
   bool helps = true;
   for (int round = 0; round < MostDivisions && helps && this->isWorthDividing(); ++round)

@@ -9,6 +9,10 @@
 
 namespace meshopt
 {
+/// How often a run is repeated because facets have turned or pass through others: then it refuses
+/// more. If that does not help, the mesh stays as it was.
+inline constexpr int MostRepeats = 4;
+
 /// What no mesh of the body can exceed, by what its ridges and corners force where they stay as
 /// they are: certified. The value of the regular element if nothing is known.
 template <int D>

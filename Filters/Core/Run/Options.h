@@ -19,7 +19,7 @@ enum class Algorithm
 
 enum class Effort
 {
-  Quick = 0,   ///< up to the target, by single changes; look-ahead only to polish the worst
+  Quick = 0,   ///< up to the target, by single changes; look-ahead only for the few worst
   Default = 1, ///< up to the target, with look-ahead
   Best = 2     ///< past the target, with more look-ahead, until nothing lifts the worst cell
 };

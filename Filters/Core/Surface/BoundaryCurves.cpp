@@ -3,6 +3,7 @@
 #include "Surface/BoundaryCurves.h"
 
 #include "Base/SortUnique.h"
+#include "Surface/NewCrossings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -221,5 +222,18 @@ bool BoundaryCurves::mayJoin(
     return between && between->part == joined.part; // several pieces may join two corners
   }
   return true;
+}
+
+bool BoundaryCurves::refuseCrossings(const SimplexMesh<2>& before, const SimplexMesh<2>& now)
+{
+  return refuseNewCrossings(before, now, this->refused_);
+}
+
+bool BoundaryCurves::isRefused(const SimplexMesh<2>& mesh, Index a, Index b) const
+{
+  const auto touches = [&](const BoxTree::Box& box) {
+    return box.intersects(BoxTree::around(std::array{ mesh.point(a), mesh.point(b) }));
+  };
+  return std::any_of(this->refused_.begin(), this->refused_.end(), touches);
 }
 }

@@ -4,6 +4,7 @@
 #ifndef meshopt_Surface_BoundaryCurves_h
 #define meshopt_Surface_BoundaryCurves_h
 
+#include "Mesh/BoxTree.h"
 #include "Mesh/MeshEditor.h"
 #include "Surface/CurvePieces.h"
 #include "Surface/LineNetwork.h"
@@ -54,9 +55,11 @@ public:
   Place project(const Place& place, const Vec<2>& x, Vec<2>& there) const override;
   int tangents(const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v,
     std::array<Vec<2>, 2>& basis) const override;
+  /// Nothing where changes are refused: no node there moves, comes or goes.
   std::optional<Span> span(const SimplexMesh<2>& mesh, Index a, Index b) const override
   {
-    return this->pieces_.span(a, mesh.place(a), b, mesh.place(b));
+    return this->isRefused(mesh, a, b) ? std::nullopt
+                                       : this->pieces_.span(a, mesh.place(a), b, mesh.place(b));
   }
   std::optional<SlidingRange> range(
     const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v) const override;
@@ -70,6 +73,11 @@ public:
   /// would be farther from the new edge than a tenth of its length.
   bool mayJoin(
     const SimplexMesh<2>& mesh, const std::vector<Index>& star, Index v, Index u) const override;
+
+  /// Across a narrow gap, or next to an end, a curve may reach farther than the mesh before.
+  bool refuseCrossings(const SimplexMesh<2>& before, const SimplexMesh<2>& now) override;
+  /// Whether edge (a, b) is near such a place.
+  bool isRefused(const SimplexMesh<2>& mesh, Index a, Index b) const;
 
   double sagitta(const Span& s) const
   {
@@ -85,7 +93,8 @@ private:
 
   std::vector<PlaneCurve> curves_;
   CurvePieces pieces_;
-  std::vector<Index> wholes_; ///< of a part: the piece of the whole that each piece is on
+  std::vector<Index> wholes_;         ///< of a part: the piece of the whole that each piece is on
+  std::vector<BoxTree::Box> refused_; ///< nothing changes there: see refuseCrossings()
 };
 }
 

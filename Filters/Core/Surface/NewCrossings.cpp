@@ -13,12 +13,13 @@ namespace meshopt
 namespace
 {
 /// The kept facets (sorted ids), each once, in order.
-std::vector<Facet<3>> surfaceOf(const SimplexMesh<3>& mesh)
+template <int D>
+std::vector<Facet<D>> surfaceOf(const SimplexMesh<D>& mesh)
 {
-  std::vector<Facet<3>> facets;
+  std::vector<Facet<D>> facets;
   for (Index c = 0; c < mesh.numberOfCellSlots(); ++c)
   {
-    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
+    for (int i = 0; i <= D && mesh.isAlive(c); ++i)
     {
       if (mesh.isKept(c, i))
       {
@@ -30,47 +31,57 @@ std::vector<Facet<3>> surfaceOf(const SimplexMesh<3>& mesh)
   return facets;
 }
 
-BoxTree::Box boxAround(const SimplexMesh<3>& mesh, const Facet<3>& f)
+template <int D>
+BoxTree::Box boxAround(const SimplexMesh<D>& mesh, const Facet<D>& f)
 {
-  return BoxTree::around(std::array{ mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2]) });
+  std::array<Vec<D>, D> x;
+  std::transform(f.begin(), f.end(), x.begin(), [&](Index p) { return mesh.point(p); });
+  return BoxTree::around(x);
 }
 
-int countShared(const Facet<3>& f, const Facet<3>& g)
+template <int D>
+int countShared(const Facet<D>& f, const Facet<D>& g)
 {
   return static_cast<int>(std::count_if(f.begin(), f.end(), [&](Index p) { return hasId(g, p); }));
 }
 }
 
-std::vector<BoxTree::Box> findNewCrossings(const SimplexMesh<3>& before, const SimplexMesh<3>& now)
+template <int D>
+std::vector<BoxTree::Box> findNewCrossings(const SimplexMesh<D>& before, const SimplexMesh<D>& now)
 {
-  const std::vector<Facet<3>> old = surfaceOf(before), facets = surfaceOf(now);
+  const std::vector<Facet<D>> old = surfaceOf(before), facets = surfaceOf(now);
   std::vector<BoxTree::Item> changed;
   for (std::size_t k = 0; k < facets.size(); ++k)
   {
-    const Facet<3>& f = facets[k];
+    const Facet<D>& f = facets[k];
     const bool isOld = std::binary_search(old.begin(), old.end(), f) &&
       std::all_of(f.begin(), f.end(), [&](Index p) { return before.point(p) == now.point(p); });
     if (!isOld)
     {
-      changed.push_back({ static_cast<int>(k), boxAround(now, f) });
+      changed.push_back({ static_cast<int>(k), boxAround<D>(now, f) });
     }
   }
   BoxTree tree;
   tree.build(changed);
   std::vector<BoxTree::Box> boxes;
-  for (const Facet<3>& f : facets)
+  for (const Facet<D>& f : facets)
   {
-    const BoxTree::Box box = boxAround(now, f);
+    const BoxTree::Box box = boxAround<D>(now, f);
     tree.findTouching(box,
       [&](int k)
       {
-        if (countShared(f, facets[k]) < 2 && facetsCross(now, f, facets[k]))
+        if (countShared<D>(f, facets[k]) < D - 1 && facetsCross(now, f, facets[k]))
         {
           boxes.push_back(box);
-          boxes.push_back(boxAround(now, facets[k]));
+          boxes.push_back(boxAround<D>(now, facets[k]));
         }
       });
   }
   return boxes;
 }
+
+template std::vector<BoxTree::Box> findNewCrossings<2>(
+  const SimplexMesh<2>&, const SimplexMesh<2>&);
+template std::vector<BoxTree::Box> findNewCrossings<3>(
+  const SimplexMesh<3>&, const SimplexMesh<3>&);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file NewCrossings.h
-/// Where a surface that has changed passes through itself.
+/// Where a surface, or in the plane a boundary, that has changed passes through itself.
 ///
 /// That each facet is near the surface of before does not exclude it: in a narrow wedge, both sides
 /// may move by more than the gap between them. Next to its edge ReferenceSurface sees no gap.
@@ -15,9 +15,34 @@
 namespace meshopt
 {
 /// Boxes around the kept facets of `now` that pass through each other, if one of the two is not in
-/// `before` or has other corners there. Facets with a common edge, and those that only touch, do
-/// not. The signs are exact. The cost is linear in the mesh, and n log n in the facets.
-std::vector<BoxTree::Box> findNewCrossings(const SimplexMesh<3>& before, const SimplexMesh<3>& now);
+/// `before` or has other corners there. Facets with a common edge (2D: point), and those that only
+/// touch, do not. The signs are exact. The cost is linear in the mesh, and n log n in the facets.
+template <int D>
+std::vector<BoxTree::Box> findNewCrossings(const SimplexMesh<D>& before, const SimplexMesh<D>& now);
+
+/// Adds these boxes to `refused`, where nothing may change from now on. False if there are none.
+template <int D>
+bool refuseNewCrossings(
+  const SimplexMesh<D>& before, const SimplexMesh<D>& now, std::vector<BoxTree::Box>& refused)
+{
+  const auto refuse = [&refused](const std::vector<BoxTree::Box>& boxes)
+  {
+    refused.insert(refused.end(), boxes.begin(), boxes.end());
+    return !boxes.empty();
+  };
+  const bool crosses = refuse(findNewCrossings<D>(before, now));
+  if (crosses)
+  {
+    // Parts that have always passed through each other would else be found one after the other.
+    refuse(findNewCrossings<D>({}, before));
+  }
+  return crosses;
+}
+
+extern template std::vector<BoxTree::Box> findNewCrossings<2>(
+  const SimplexMesh<2>&, const SimplexMesh<2>&);
+extern template std::vector<BoxTree::Box> findNewCrossings<3>(
+  const SimplexMesh<3>&, const SimplexMesh<3>&);
 }
 
 #endif

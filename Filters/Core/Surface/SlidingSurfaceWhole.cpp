@@ -124,21 +124,6 @@ long SlidingSurface::countTurned(const SimplexMesh<3>& mesh) const
 
 bool SlidingSurface::refuseCrossings(const SimplexMesh<3>& before, const SimplexMesh<3>& now)
 {
-  if (this->isExact_)
-  {
-    return false;
-  }
-  const auto refuse = [this](const std::vector<BoxTree::Box>& boxes)
-  {
-    this->refused_.insert(this->refused_.end(), boxes.begin(), boxes.end());
-    return !boxes.empty();
-  };
-  const bool crosses = refuse(findNewCrossings(before, now));
-  if (crosses)
-  {
-    // Parts that have always passed through each other would else be found one after the other.
-    refuse(findNewCrossings({}, before));
-  }
-  return crosses;
+  return !this->isExact_ && refuseNewCrossings(before, now, this->refused_);
 }
 }

@@ -191,19 +191,6 @@ bool pierces(const Vec<3>& p, const Vec<3>& q, const Vec<3>& a, const Vec<3>& b,
   return agree && (sum >= 2 || sum <= -2);
 }
 
-/// An end that lies on the other edge is a touch, not a crossing.
-bool cross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
-{
-  const Vec<2>&a = mesh.point(f[0]), &b = mesh.point(f[1]), &c = mesh.point(g[0]),
-        &d = mesh.point(g[1]);
-  return orient(a, b, c) * orient(a, b, d) < 0 && orient(c, d, a) * orient(c, d, b) < 0;
-}
-
-bool cross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)
-{
-  return facetsCross(mesh, f, g);
-}
-
 /// Whether two facets have a fault, and of which kind.
 template <int D>
 bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
@@ -226,7 +213,7 @@ bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
   if (number != D - 1)
   {
     kind = SurfaceFault<D>::Crossing;
-    return cross(mesh, m, n);
+    return facetsCross(mesh, m, n);
   }
   kind = SurfaceFault<D>::Folded;
   const Vec<D>&p = mesh.point(shared[0]), &a = mesh.point(onlyF), &b = mesh.point(onlyG);
@@ -285,6 +272,14 @@ int sortAlong(std::vector<Box<D>>& boxes)
     { return std::tie(a.low[axis], a.facet) < std::tie(b.low[axis], b.facet); });
   return axis;
 }
+}
+
+/// An end that lies on the other edge is a touch, not a crossing.
+bool facetsCross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
+{
+  const Vec<2>&a = mesh.point(f[0]), &b = mesh.point(f[1]), &c = mesh.point(g[0]),
+        &d = mesh.point(g[1]);
+  return orient(a, b, c) * orient(a, b, d) < 0 && orient(c, d, a) * orient(c, d, b) < 0;
 }
 
 bool facetsCross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g)

@@ -36,8 +36,8 @@ public:
 
 private:
   bool run(Task task);
-  int passesThatRise() const { return this->workpiece_.effort() == Effort::Quick ? 1 : 2; }
-  int levelOf(Phase phase, int pass) const;
+  int passesThatRise(const Task& task) const;
+  int levelOf(const Task& task) const;
   long collect(const Task& task, std::vector<Index>& bad) const;
   bool isPolishSpent(const Task& task) const;
   bool givesUpMany(const Task& task, long badBefore) const;
@@ -66,14 +66,14 @@ bool Stage<D, Shape>::run(Task task)
 {
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
   std::vector<Index> bad;
-  // When polishing the first pass is at the highest level: it includes all cheaper operations, and
-  // those have just failed on these cells.
-  const int last = task.polishes() ? 0 : this->passesThatRise();
   bool raised = false;
   PassResult result;
   for (task.number = 0; task.number < MaximumPasses; ++task.number)
   {
-    task.level = this->levelOf(task.phase, task.number);
+    // When polishing the first pass is at the highest level: it includes all cheaper operations,
+    // and those have just failed on these cells.
+    const int last = task.polishes() ? 0 : this->passesThatRise(task);
+    task.level = this->levelOf(task);
     const long belowBefore = std::exchange(task.below, this->collect(task, bad));
     // Most cells of a large mesh can be stuck. A pass that does not lift the worst and creeps, or
     // does not make them clearly fewer, then ends the stage.
@@ -113,14 +113,25 @@ bool Stage<D, Shape>::run(Task task)
   return true;
 }
 
+/// A quick run does not look ahead, with one exception: where the surface takes part, for the few
+/// cells that keep it from its target. That costs less than to divide edges at these.
+template <int D, class Shape>
+int Stage<D, Shape>::passesThatRise(const Task& task) const
+{
+  const Workpiece<D, Shape>& workpiece = this->workpiece_;
+  const bool looksAhead = workpiece.slides() && !workpiece.run().hasDivided &&
+    task.target >= workpiece.options().targetQuality && task.below <= workpiece.fewCells();
+  return workpiece.effort() == Effort::Quick && !looksAhead ? 1 : 2;
+}
+
 /// It rises from pass to pass.
 template <int D, class Shape>
-int Stage<D, Shape>::levelOf(Phase phase, int pass) const
+int Stage<D, Shape>::levelOf(const Task& task) const
 {
   constexpr int levels[] = { Level::Topology, Level::Insertion, Level::LookAhead };
   // Polishing is for a few cells that all cheaper levels have failed on.
-  return phase == Phase::Polishing ? Level::LongLookAhead
-                                   : levels[std::min(pass, this->passesThatRise())];
+  return task.polishes() ? Level::LongLookAhead
+                         : levels[std::min(task.number, this->passesThatRise(task))];
 }
 
 /// Collects the cells under the target that are worth a try. Returns how many are under the target

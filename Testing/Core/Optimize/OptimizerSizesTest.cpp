@@ -3,6 +3,7 @@
 // state it leaves the metric.
 #include "Run/Summary.h"
 #include "SizeRuns.h"
+#include "Surface/NewCrossings.h"
 
 using namespace meshopt;
 
@@ -66,6 +67,39 @@ struct SharpCorners
     this->best = 1.5 * std::sqrt(3.0) * std::sin(angle) / ((1.0 + sine) * (1.0 + sine));
   }
 };
+
+/// Two discs of twelve edges each. Between the two edges that face each other is a gap, but not
+/// between the circles.
+MeshInput<2> twoDiscs(double gap)
+{
+  const Vec<2> apart(2.0 * std::cos(Pi / 12.0) + gap, 0.0);
+  MeshInput<2> in = fan(circle(12, 1.0, 0.5), Vec<2>::Zero());
+  const MeshInput<2> one = in;
+  const auto first = static_cast<Index>(one.points.size());
+  for (const Vec<2>& x : one.points)
+  {
+    in.points.push_back(apart - x);
+  }
+  for (const Simplex<2>& t : one.cells)
+  {
+    in.cells.push_back({ t[0] + first, t[1] + first, t[2] + first });
+  }
+  return in;
+}
+}
+
+/// What would cross stays as it is; the rest is as fine as wanted.
+TEST(OptimizerSizes, CurvesDoNotCrossEachOtherAcrossAGap)
+{
+  for (const double gap : { 0.02, 0.3 })
+  {
+    const MeshInput<2> in = twoDiscs(gap);
+    const SimplexMesh<2> before = buildMesh(in);
+    const Result<2> run = optimized(in, NodalMetric<2>(0.2), options(0.5, 0.9), true);
+    EXPECT_EQ(hasStage(run.report, "crossing boundary undone"), gap < 0.1);
+    EXPECT_TRUE(findNewCrossings(before, run.mesh).empty()) << gap;
+    EXPECT_GT(run.cells, 250);
+  }
 }
 
 /// Sizes are followed by the engine only; if there are any; and with beta, or where the boundary

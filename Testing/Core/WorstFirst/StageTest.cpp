@@ -111,6 +111,32 @@ TYPED_TEST(StageOf, PassesRiseToTheLevelOfTheEffort)
   }
 }
 
+/// A quick run looks ahead only where that spares it divisions of the surface.
+TEST(Stage3D, AQuickRunLooksAheadForTheLastCellsOnTheSurface)
+{
+  struct Case
+  {
+    bool takesPart, hasDivided;
+    double goal, target;
+    int level;
+  };
+  const Case cases[] = { { true, false, 0.45, 0.45, Level::LookAhead },
+    { false, false, 0.45, 0.45, Level::Insertion }, { true, true, 0.45, 0.45, Level::Insertion },
+    { true, false, 0.45, 0.6, Level::Insertion },
+    { true, false, 0.9, 0.9, Level::Insertion } }; // these are many
+  for (const Case& c : cases)
+  {
+    const StillSurface<3> surface(c.takesPart);
+    EngineBench<3> bench(jitteredGrid<3>(4, 0.25), frozen(upTo(c.target, Effort::Quick)), &surface);
+    bench.run.hasDivided = c.hasDivided;
+    const std::vector<Index> bad = bench.cellsUnder(c.goal);
+    ASSERT_EQ(bad.size() <= static_cast<std::size_t>(bench.workpiece.fewCells()), c.goal < 0.9);
+    EXPECT_TRUE(bench.stage.lift(c.goal));
+    EXPECT_EQ(bench.triedAt(bad.front()), c.level);
+    EXPECT_EQ(bench.rows(), c.level == Level::LookAhead ? 3u : 2u);
+  }
+}
+
 TYPED_TEST(StageOf, PolishingTriesOnlyWhatIsUnderItsOwnTarget)
 {
   constexpr int D = TypeParam::dimension;
