@@ -33,8 +33,8 @@ template <int D>
 std::vector<SurfaceFault<D>> findSurfaceFaults(
   const SimplexMesh<D>& mesh, const std::vector<Index>& cells);
 
-/// Whether two facets, whose nodes are given, pass through each other. Those that only touch, or lie
-/// in one plane (2D: on one line), do not. Exact.
+/// Whether two facets, whose nodes are given, pass through each other. Those that only touch, or
+/// lie in one plane (2D: on one line), do not. Exact.
 bool facetsCross(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g);
 bool facetsCross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& g);
 
