@@ -226,7 +226,32 @@ bool BoundaryCurves::mayJoin(
 
 bool BoundaryCurves::refuseCrossings(const SimplexMesh<2>& before, const SimplexMesh<2>& now)
 {
-  return refuseNewCrossings(before, now, this->refused_);
+  const auto counts = [this](const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g)
+  { return !this->areOnOneCurve(mesh, f, g); };
+  return refuseNewCrossings<2>(before, now, this->refused_, counts);
+}
+
+/// The lips of a closed crack lie on each other. Where they have different nodes, their edges cross
+/// by rounding, or by as much as the curve is away from them.
+bool BoundaryCurves::areOnOneCurve(
+  const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g) const
+{
+  constexpr double tolerance = 1e-6; // of the length of the curve
+  const auto hasOther = [&](const Facet<2>& edge, const Facet<2>& other)
+  {
+    const auto span = this->pieces_.span(
+      edge[0], mesh.place(edge[0]), edge[1], mesh.place(edge[1]));
+    return span &&
+      std::all_of(other.begin(), other.end(),
+        [&](Index p)
+        {
+          const PlaneCurve& curve = this->curves_[this->pieces_[span->part].curve];
+          double distance = 0.0;
+          curve.closest(mesh.point(p), distance);
+          return distance <= tolerance * curve.length();
+        });
+  };
+  return hasOther(f, g) || hasOther(g, f);
 }
 
 bool BoundaryCurves::isRefused(const SimplexMesh<2>& mesh, Index a, Index b) const

@@ -86,6 +86,7 @@ public:
   bool mayBeNeighbours(const Span& s) const { return this->pieces_.mayBeNeighbours(s); }
 
 private:
+  bool areOnOneCurve(const SimplexMesh<2>& mesh, const Facet<2>& f, const Facet<2>& g) const;
   void keep(const LineChain& chain);
   /// `geometry` may be nullptr.
   std::string buildAll(MeshEditor<2>& editor, const LineNetwork* geometry,

@@ -47,7 +47,8 @@ int countShared(const Facet<D>& f, const Facet<D>& g)
 }
 
 template <int D>
-std::vector<BoxTree::Box> findNewCrossings(const SimplexMesh<D>& before, const SimplexMesh<D>& now)
+std::vector<BoxTree::Box> findNewCrossings(
+  const SimplexMesh<D>& before, const SimplexMesh<D>& now, const CrossingCounts<D>& counts)
 {
   const std::vector<Facet<D>> old = surfaceOf(before), facets = surfaceOf(now);
   std::vector<BoxTree::Item> changed;
@@ -70,7 +71,8 @@ std::vector<BoxTree::Box> findNewCrossings(const SimplexMesh<D>& before, const S
     tree.findTouching(box,
       [&](int k)
       {
-        if (countShared<D>(f, facets[k]) < D - 1 && facetsCross(now, f, facets[k]))
+        if (countShared<D>(f, facets[k]) < D - 1 && facetsCross(now, f, facets[k]) &&
+          (!counts || counts(now, f, facets[k])))
         {
           boxes.push_back(box);
           boxes.push_back(boxAround<D>(now, facets[k]));
@@ -81,7 +83,7 @@ std::vector<BoxTree::Box> findNewCrossings(const SimplexMesh<D>& before, const S
 }
 
 template std::vector<BoxTree::Box> findNewCrossings<2>(
-  const SimplexMesh<2>&, const SimplexMesh<2>&);
+  const SimplexMesh<2>&, const SimplexMesh<2>&, const CrossingCounts<2>&);
 template std::vector<BoxTree::Box> findNewCrossings<3>(
-  const SimplexMesh<3>&, const SimplexMesh<3>&);
+  const SimplexMesh<3>&, const SimplexMesh<3>&, const CrossingCounts<3>&);
 }

@@ -214,6 +214,12 @@ double PlaneCurve::closest(const Vec<2>& x, double& distance) const
   return best;
 }
 
+BoxTree::Box PlaneCurve::box() const
+{
+  const BoxTree::Box box = BoxTree::around(this->points_);
+  return BoxTree::widened(box, box.diagonal().norm());
+}
+
 /// Sampled: good enough to compare segments, but no bound.
 double PlaneCurve::sagitta(double s0, double s1) const
 {

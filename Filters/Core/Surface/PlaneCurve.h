@@ -4,7 +4,7 @@
 #ifndef meshopt_Surface_PlaneCurve_h
 #define meshopt_Surface_PlaneCurve_h
 
-#include "Mesh/Types.h"
+#include "Mesh/BoxTree.h"
 
 #include <unsupported/Eigen/Splines>
 
@@ -34,6 +34,10 @@ public:
 
   /// Parameter of the point of the curve nearest to x, and the distance to it.
   double closest(const Vec<2>& x, double& distance) const;
+
+  /// A box that has the curve in it. For a spline, if no segment of it is farther from its chord
+  /// than the box of the points is long.
+  BoxTree::Box box() const;
 
   /// Greatest distance of the curve from its chord between two parameters (sampled).
   double sagitta(double s0, double s1) const;

@@ -94,22 +94,33 @@ std::string matchCorners(const LineNetwork& geometry, double tolerance, LineNetw
     ends.insert(ends.end(), l.begin(), l.end());
   }
   sortUnique(ends);
+  std::vector<BoxTree::Item> items;
+  for (Index p : ends)
+  {
+    items.push_back({ p, BoxTree::around(std::array{ boundary.points[p] }) });
+  }
+  BoxTree tree;
+  tree.build(items);
   for (std::size_t g = 0; g < geometry.points.size(); ++g)
   {
     bool found = !geometry.corners[g];
-    for (std::size_t k = 0; k < ends.size() && !found; ++k)
+    const auto look = [&](Index p) // at all such points: at the mouth of a crack there are several
     {
-      found = (boundary.points[ends[k]] - geometry.points[g]).norm() <= tolerance;
+      if ((boundary.points[p] - geometry.points[g]).norm() <= tolerance)
+      {
+        boundary.corners[p] = 1;
+        found = true;
+      }
+    };
+    if (!found)
+    {
+      const BoxTree::Box there = BoxTree::around(std::array{ geometry.points[g] });
+      tree.findTouching(BoxTree::widened(there, tolerance), look);
     }
     if (!found)
     {
       return "The geometry has a corner at its " + nameOf(geometry, static_cast<Index>(g)) +
         ", but the boundary of the mesh has no point there.";
-    }
-    for (Index p : ends) // all such points: at the mouth of a crack there are several
-    {
-      boundary.corners[p] |= std::uint8_t(
-        geometry.corners[g] && (boundary.points[p] - geometry.points[g]).norm() <= tolerance);
     }
   }
   return {};
@@ -137,22 +148,42 @@ void tellEndsApart(const LineNetwork& boundary, const std::vector<Index>& points
   }
 }
 
+/// The curves of a geometry, and a tree of them.
+struct Curves
+{
+  explicit Curves(const std::vector<PlaneCurve>& given)
+    : curves(given)
+  {
+    std::vector<BoxTree::Item> items;
+    for (const PlaneCurve& curve : given)
+    {
+      items.push_back({ static_cast<Index>(items.size()), curve.box() });
+    }
+    this->tree.build(items);
+  }
+  const std::vector<PlaneCurve>& curves;
+  BoxTree tree;
+};
+
 /// The curve that is nearest to a chain of the mesh's boundary. `farthest` is the point of the
 /// chain with the greatest distance to it, `distance` that distance. None if there are no curves.
-Index nearestCurve(const std::vector<PlaneCurve>& curves, const LineNetwork& boundary,
-  const LineChain& chain, double tolerance, Index& farthest, double& distance)
+Index nearestCurve(const Curves& all, const LineNetwork& boundary, const LineChain& chain,
+  double tolerance, Index& farthest, double& distance)
 {
   const auto& points = boundary.points;
+  const Vec<2>& first = points[chain.points[0]];
+  const Vec<2> middleOfFirst = 0.5 * (first + points[chain.points[1]]);
   Index nearest = None;
   double best = std::numeric_limits<double>::infinity();
-  for (std::size_t g = 0; g < curves.size(); ++g)
+  const auto look = [&](Index g)
   {
+    const PlaneCurve& curve = all.curves[g];
     double worst = -1.0;
     Index at = None;
     for (Index p : chain.points)
     {
       double d = 0.0;
-      curves[g].closest(points[p], d);
+      curve.closest(points[p], d);
       at = d > worst ? p : at;
       worst = std::max(worst, d);
       // Too far away already to be the nearest one.
@@ -163,17 +194,21 @@ Index nearestCurve(const std::vector<PlaneCurve>& curves, const LineNetwork& bou
     }
     // Several curves may join the same two corners: the middle of the first edge tells them apart.
     double middle = 0.0;
-    curves[g].closest(Vec<2>(0.5 * (points[chain.points[0]] + points[chain.points[1]])), middle);
+    curve.closest(middleOfFirst, middle);
     // The middle counts little: it only decides between curves that are equally near.
     const double rank = std::max(worst, tolerance) + 1e-3 * middle;
-    if (rank < best)
+    // Of equals the first: the order in which the tree is searched must not matter.
+    if (rank < best || (rank == best && g < nearest))
     {
       best = rank;
-      nearest = static_cast<Index>(g);
+      nearest = g;
       farthest = at;
       distance = worst;
     }
-  }
+    return best * best;
+  };
+  // No curve is nearer than its box is to the first point.
+  all.tree.findNearest(Vec<3>(first[0], first[1], 0.0), look);
   return nearest;
 }
 
@@ -185,12 +220,12 @@ struct PlacedChain
 };
 
 /// Puts a chain of the boundary on the curve nearest to it.
-std::string placeOn(const std::vector<PlaneCurve>& curves, const LineNetwork& boundary,
-  const LineChain& chain, double tolerance, PlacedChain& placed)
+std::string placeOn(const Curves& all, const LineNetwork& boundary, const LineChain& chain,
+  double tolerance, PlacedChain& placed)
 {
   Index farthest = chain.points[0];
   double distance = std::numeric_limits<double>::infinity();
-  placed.curve = nearestCurve(curves, boundary, chain, tolerance, farthest, distance);
+  placed.curve = nearestCurve(all, boundary, chain, tolerance, farthest, distance);
   if (distance > tolerance)
   {
     std::ostringstream text;
@@ -198,7 +233,7 @@ std::string placeOn(const std::vector<PlaneCurve>& curves, const LineNetwork& bo
          << " is " << distance << " away from it.";
     return text.str();
   }
-  const PlaneCurve& curve = curves[placed.curve];
+  const PlaneCurve& curve = all.curves[placed.curve];
   const double period = curve.isClosed() ? curve.length() : 0.0;
   std::vector<double>& s = placed.parameters;
   s.clear();
@@ -326,10 +361,11 @@ std::string WholeBoundary::make(LineNetwork& boundary, const LineNetwork* given,
   const double tolerance = Tolerance * size;
   error = matchCorners(geometry, tolerance, boundary);
   markCorners(boundary, TurnsNever);
+  const Curves all(this->curves);
   for (const LineChain& chain : chains(boundary))
   {
     PlacedChain placed;
-    error = error.empty() ? placeOn(this->curves, boundary, chain, tolerance, placed) : error;
+    error = error.empty() ? placeOn(all, boundary, chain, tolerance, placed) : error;
     if (error.empty())
     {
       this->add(chain, placed.curve, placed.parameters, places);

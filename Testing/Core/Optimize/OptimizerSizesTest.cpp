@@ -102,6 +102,23 @@ TEST(OptimizerSizes, CurvesDoNotCrossEachOtherAcrossAGap)
   }
 }
 
+/// They have nodes at different places, so that their edges cross: a slit that is straight, by
+/// rounding, and one that is bent.
+TEST(OptimizerSizes, TheLipsOfASlitMayBeDividedIndependently)
+{
+  for (const double bend : { 0.0, 0.15 })
+  {
+    MeshInput<2> in = slitSquare(8, 0.25, 0.75);
+    for (Vec<2>& x : in.points)
+    {
+      x = Vec<2>(x[0] - 0.3 * x[1], x[1] + 0.3 * x[0] + bend * std::sin(3.0 * x[0]));
+    }
+    const Result<2> run = optimized(in, NodalMetric<2>(0.03), options(0.5, 0.9), true);
+    EXPECT_FALSE(hasStage(run.report, "crossing boundary undone")) << bend;
+    EXPECT_FALSE(findNewCrossings<2>(buildMesh(in), run.mesh).empty()) << bend;
+  }
+}
+
 /// Sizes are followed by the engine only; if there are any; and with beta, or where the boundary
 /// slides.
 TEST(OptimizerSizes, FollowedOnlyWhereTheyAreAskedFor)

@@ -171,6 +171,34 @@ TEST(BoundaryCurves, FinerGeometry)
   EXPECT_EQ(four.curves.numberOfPieces(), 4u);
 }
 
+/// Each line is found among many, which are short and close to each other.
+TEST(BoundaryCurves, GeometryOfManyTeeth)
+{
+  constexpr Index n = 60;
+  std::vector<Vec<2>> teeth, fine;
+  for (Index k = 0; k < n; ++k)
+  {
+    teeth.push_back(onCircle(double(k) / n, k % 2 ? 1.0 : 0.8));
+  }
+  for (Index k = 0; k < n; ++k)
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      fine.push_back(teeth[k] + 0.25 * i * (teeth[(k + 1) % n] - teeth[k]));
+    }
+  }
+  const Made made = make(fan(teeth, Vec<2>::Zero()), loop(fine));
+  ASSERT_EQ(made.error, "");
+  EXPECT_EQ(made.curves.numberOfPieces(), std::size_t(n));
+  for (Index p = 0; p < n; ++p)
+  {
+    const auto span = made.curves.span(made.mesh, p, (p + 1) % n);
+    ASSERT_TRUE(span);
+    const Vec<2> x = made.curves.at(span->part, 0.5 * (span->from + span->to));
+    EXPECT_LT((x - 0.5 * (teeth[p] + teeth[(p + 1) % n])).norm(), 1e-12) << p;
+  }
+}
+
 /// A closed line with one corner begins and ends there.
 TEST(BoundaryCurves, GeometryWithOneCorner)
 {
