@@ -241,7 +241,7 @@ void SurfaceRounds<D>::run()
   }
   this->noteCost();
   this->costOfFirst_ = static_cast<double>(this->cost_);
-  run.hasDivided = true; // from here on
+  run.dividesEdges = true;
   double left = 0.5;
   bool helps = true;
   for (int round = 0; round < MostDivisions && helps && this->isWorthDividing(); ++round)

@@ -31,7 +31,7 @@ struct Run
   long mostCells = AnyGrowth;     ///< by the growth budget of the whole run
   Effort effort = options.effort; ///< of the stage at work: the first ones may take less
   bool polishesWidely = true;     ///< more than the few worst cells, if these are stuck
-  bool hasDivided = false;        ///< edges of the surface, or seen that none helps
+  bool dividesEdges = false;      ///< of the surface, past the first part of the run
   double bound = 1.0;             ///< of the worst quality, certified, where the surface takes part
 
   const SimplexMesh<D>& mesh() const { return this->editor.mesh(); }

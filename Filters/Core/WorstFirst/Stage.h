@@ -119,7 +119,7 @@ template <int D, class Shape>
 int Stage<D, Shape>::passesThatRise(const Task& task) const
 {
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
-  const bool looksAhead = workpiece.slides() && !workpiece.run().hasDivided &&
+  const bool looksAhead = workpiece.slides() && !workpiece.run().dividesEdges &&
     task.target >= workpiece.options().targetQuality && task.below <= workpiece.fewCells();
   return workpiece.effort() == Effort::Quick && !looksAhead ? 1 : 2;
 }

@@ -124,7 +124,7 @@ TEST(SurfaceRounds, TheLastRunFollowsIfNoEdgeMayBeDivided)
   Rounds rounds(surface, options), byHand(surface, options);
   optimizeSliding<3>(rounds.bench.run, surface);
   EXPECT_TRUE(rounds.rows("divisions undone").empty());
-  EXPECT_TRUE(rounds.bench.run.hasDivided) << "the last run knows that it is not the first";
+  EXPECT_TRUE(rounds.bench.run.dividesEdges) << "the last run knows that it is not the first";
   optimizeOnSurface<3>(byHand.bench.run, surface, Effort::Default, 0.3, false);
   const std::vector<double> first = sortedQualities(byHand.bench.mesh);
   optimizeOnSurface<3>(byHand.bench.run, surface, Effort::Default, 1.0, true);

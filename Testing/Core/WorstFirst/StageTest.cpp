@@ -116,7 +116,7 @@ TEST(Stage3D, AQuickRunLooksAheadForTheLastCellsOnTheSurface)
 {
   struct Case
   {
-    bool takesPart, hasDivided;
+    bool takesPart, dividesEdges;
     double goal, target;
     int level;
   };
@@ -128,7 +128,7 @@ TEST(Stage3D, AQuickRunLooksAheadForTheLastCellsOnTheSurface)
   {
     const StillSurface<3> surface(c.takesPart);
     EngineBench<3> bench(jitteredGrid<3>(4, 0.25), frozen(upTo(c.target, Effort::Quick)), &surface);
-    bench.run.hasDivided = c.hasDivided;
+    bench.run.dividesEdges = c.dividesEdges;
     const std::vector<Index> bad = bench.cellsUnder(c.goal);
     ASSERT_EQ(bad.size() <= static_cast<std::size_t>(bench.workpiece.fewCells()), c.goal < 0.9);
     EXPECT_TRUE(bench.stage.lift(c.goal));
