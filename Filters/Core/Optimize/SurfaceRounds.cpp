@@ -38,18 +38,24 @@ constexpr std::size_t AtCorners = 0, NumberOfWays = 1 + std::size(PartsBelow);
 constexpr double ShortGrowth = 0.75, PartRemoved = 0.12, AboveWorstThere = 1.2;
 /// No more divisions if the worst quality then is less than this many times what it was.
 constexpr double DivisionsGain = 1.02;
-constexpr int MostDivisions = 8;
+constexpr int MostDivisions = 16;
 /// Nor if they have cost so many times what the run has before them, by effort, since the
 /// worst quality last rose clearly (SinceRise). Some small solids took thirty times the first part
 /// for a rise of 7 % (fuzz_solids.py, seed 930012). In evaluations of quality.
 constexpr double MostPerRise[] = { 2.0, 4.0, 4.0 };
 static_assert(std::size(MostPerRise) == NumberOfEfforts);
+/// What comes of a division is improved up to AimAboveWorst times the worst quality, at least up to
+/// LeastAim: the many cells that are better would take most of the time and of the growth, each
+/// time. They have their turn at the end. Where that is above NearTarget times the target, the
+/// target itself.
+constexpr double AimAboveWorst = 1.3, LeastAim = 0.3, NearTarget = 0.9;
 
 /// Improves the worst cells with another effort and with a part of the growth that is left.
 template <int D>
-void optimizeWith(const Run<D>& all, Effort effort, double part, bool polishesWidely)
+void optimizeWith(const Run<D>& all, Effort effort, double part, bool polishesWidely, double target)
 {
   Run<D> run = all;
+  run.target = target;
   run.effort = effort;
   run.polishesWidely = polishesWidely;
   run.limitGrowth(part);
@@ -86,6 +92,13 @@ private:
   };
 
   double worst() const { return this->run_.report.history.back().worst; }
+  /// The target of what follows a division, if the worst quality was `worst` before it.
+  double aim(double worst) const
+  {
+    const double target = this->run_.options.targetQuality;
+    const double aim = std::max(LeastAim, AimAboveWorst * worst);
+    return aim < NearTarget * target ? aim : target;
+  }
   void noteCost();
   bool isSpent() const;
   bool isWorthDividing() const;
@@ -160,7 +173,7 @@ void SurfaceRounds<D>::divideAndOptimize(
     const bool isKnown = std::find(inVain.begin(), inVain.end(), divided) != inVain.end();
     if (made.isDivided && !isKnown && !run.clock.hasStopped())
     {
-      optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely);
+      optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely, this->aim(worst));
     }
     this->surface_.refuseTurned(false);
     if (!made.isDivided && !made.isCoarser)
@@ -295,7 +308,7 @@ void optimizeOnSurface(
     {
       surface.refuseTurned(true);
     }
-    optimizeWith<D>(run, effort, part, polishesWidely);
+    optimizeWith<D>(run, effort, part, polishesWidely, run.options.targetQuality);
     if (time > 0)
     {
       surface.refuseTurned(false);

@@ -33,6 +33,7 @@ struct Run
   bool polishesWidely = true;     ///< more than the few worst cells, if these are stuck
   bool dividesEdges = false;      ///< of the surface, past the first part of the run
   double bound = 1.0;             ///< of the worst quality, certified, where the surface takes part
+  double target = options.targetQuality; ///< of the part at work: divisions aim at less
 
   const SimplexMesh<D>& mesh() const { return this->editor.mesh(); }
 

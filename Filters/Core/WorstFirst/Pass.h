@@ -82,7 +82,7 @@ void Pass<D, Shape>::drainAll(const Task& task, const std::vector<Index>& bad)
   this->drain(task, bad, MaximumChunks);
   // Past the target they may wait: there are many stages. Before it the next pass would spend more
   // on them than they need. When polishing, it is the same again.
-  const bool past = !task.polishes() && task.target > this->workpiece_.options().targetQuality;
+  const bool past = !task.polishes() && task.target > this->workpiece_.target();
   const bool mayWait = past || (task.polishes() && !this->result_.isInVain(bad.size()));
   if (mayWait || this->chunks_.heldUp().empty())
   {
@@ -155,7 +155,7 @@ void Pass<D, Shape>::instruct(const Task& task)
   constexpr long any = std::numeric_limits<long>::max();
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
   const int n = this->chunks_.size();
-  const bool onTheWay = !task.polishes() && !(task.target > workpiece.options().targetQuality);
+  const bool onTheWay = !task.polishes() && !(task.target > workpiece.target());
   const bool polishesOnTheWay = task.polishes() && !workpiece.isPast(task.aim);
   // Where the surface takes part, or in a metric, it does not pay to lift one of many bad cells by
   // making others bad: all changes are then guarded at the target. Otherwise the guard only keeps

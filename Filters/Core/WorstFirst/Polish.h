@@ -55,7 +55,6 @@ template <int D, class Shape>
 bool Polish<D, Shape>::runAndRepair(double target, bool isLast)
 {
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
-  const Options& options = workpiece.options();
   const int most = PolishCycles[static_cast<int>(workpiece.effort())];
   bool more = true, again = true;
   int idle = 0; // cycles in a row without gain: the repair in between may help the next one
@@ -69,13 +68,13 @@ bool Polish<D, Shape>::runAndRepair(double target, bool isLast)
     }
     const double now = workpiece.worst();
     idle = now > before * (1.0 + WideGain) ? 0 : idle + 1;
-    again = cycle + 1 < most && !(target < options.targetQuality) &&
+    again = cycle + 1 < most && !(target < workpiece.target()) &&
       idle <= (workpiece.slides() ? 0 : MostIdleCycles) && workpiece.isFarBelowBound() &&
       this->allowance_.evaluations(Phase::Polishing) >= 0.0;
     // Where the target is out of reach, the best effort does first what the usual one does: it then
     // ends no lower. (Only caps of edges may differ, by their rounding: they are listed up to
     // another limit.)
-    const bool isFinal = isLast || (!(target < options.targetQuality) && now < target);
+    const bool isFinal = isLast || (!(target < workpiece.target()) && now < target);
     if (isFinal && !again)
     {
       this->budget_.openReserve();
@@ -139,8 +138,8 @@ bool Polish<D, Shape>::run(double target, bool finely)
       break;
     }
     const double before = workpiece.worst();
-    const bool isHopeful = !past && !(target < workpiece.options().targetQuality) &&
-      this->allowance_.hasLooks() && workpiece.isFarBelowBound();
+    const bool isHopeful = !past && !(target < workpiece.target()) && this->allowance_.hasLooks() &&
+      workpiece.isFarBelowBound();
     const double gain = worst[0].first > worstOfAll ? CoarseGain : leastGain;
     const bool nearCap = this->isNearCap(worst[0].second, reached);
     // The target lies just above the last of these cells, so that the stage takes them and no

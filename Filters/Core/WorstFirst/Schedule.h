@@ -54,17 +54,17 @@ private:
 template <int D, class Shape>
 std::vector<double> Schedule<D, Shape>::targets() const
 {
-  const Options& options = this->workpiece_.options();
+  const double target = this->workpiece_.target();
   std::vector<double> result;
   for (double s : Stages)
   {
     // A little below the target, so that a stage equal to it is not run twice.
-    if (s < options.targetQuality - SameTarget)
+    if (s < target - SameTarget)
     {
       result.push_back(s);
     }
   }
-  result.push_back(options.targetQuality);
+  result.push_back(target);
   const double bound = this->workpiece_.bound();
   for (double s : Stages)
   {
@@ -97,7 +97,7 @@ void Schedule<D, Shape>::optimize()
     this->allowance_.endLimits();
     if (this->polish_.run(targets.back(), true))
     {
-      this->stage_.lift(this->workpiece_.options().targetQuality);
+      this->stage_.lift(this->workpiece_.target());
     }
   }
   this->workpiece_.run().report.stopReason = this->reporter_.reason(this->budget_);
@@ -117,7 +117,7 @@ bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
   for (std::size_t k = 0; k < targets.size() && more && idle < mostIdle; ++k)
   {
     const double target = targets[k];
-    if (this->stage_.leavesMany() && target < workpiece.options().targetQuality)
+    if (this->stage_.leavesMany() && target < workpiece.target())
     {
       continue;
     }
@@ -129,7 +129,7 @@ bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
     this->reporter_.setDone(static_cast<double>(k) / static_cast<double>(targets.size()));
     const double before = workpiece.worst();
     more = this->stage_.lift(target);
-    if (more && (k == 0 || past || target == workpiece.options().targetQuality))
+    if (more && (k == 0 || past || target == workpiece.target()))
     {
       // Nothing comes after the last stage: it may use the reserve.
       more = this->polish_.runAndRepair(target, k + 1 == targets.size());

@@ -120,7 +120,7 @@ int Stage<D, Shape>::passesThatRise(const Task& task) const
 {
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
   const bool looksAhead = workpiece.slides() && !workpiece.run().dividesEdges &&
-    task.target >= workpiece.options().targetQuality && task.below <= workpiece.fewCells();
+    task.target >= workpiece.target() && task.below <= workpiece.fewCells();
   return workpiece.effort() == Effort::Quick && !looksAhead ? 1 : 2;
 }
 

@@ -29,11 +29,11 @@ public:
     const Options& options = run.options;
     // Caps are needed up to the highest target of any stage: a cell above that is never tried.
     const double highest = run.effort == Effort::Best
-      ? std::max(*(std::end(Stages) - 1), options.targetQuality)
-      : options.targetQuality;
+      ? std::max(*(std::end(Stages) - 1), run.target)
+      : run.target;
     // No cap is certified if the metric varies or if the surface itself can change.
     this->caps_.build(run.mesh(), options.measure, highest, run.metric.isTrivial() && !run.surface);
-    this->caps_.setFull(options.targetQuality / TinyReached);
+    this->caps_.setFull(run.target / TinyReached);
     run.report.bound = std::min(this->caps_.bound(), run.bound);
     this->findWorstOfPart();
   }
@@ -50,7 +50,9 @@ public:
   Weights<D, Shape>& weights() { return this->weights_; }
 
   // --- targets and bounds
-  bool isPast(double target) const { return target > this->options().targetQuality + SameTarget; }
+  /// Of this run of the engine.
+  double target() const { return this->run_.target; }
+  bool isPast(double target) const { return target > this->target() + SameTarget; }
   /// What no cell can exceed, or need not.
   double bound() const
   {

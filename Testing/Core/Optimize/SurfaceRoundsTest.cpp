@@ -3,6 +3,9 @@
 #include "Optimize/SurfaceRounds.h"
 
 #include "Bound/ApexBound.h"
+#include "Metric/NodalMetric.h"
+#include "Optimize/Optimizer.h"
+#include "SlidingBoxes.h"
 #include "WorstFirst/EngineBench.h"
 
 using namespace meshopt;
@@ -127,6 +130,7 @@ TEST(SurfaceRounds, TheLastRunFollowsIfNoEdgeMayBeDivided)
   EXPECT_TRUE(rounds.bench.run.dividesEdges) << "the last run knows that it is not the first";
   optimizeOnSurface<3>(byHand.bench.run, surface, Effort::Default, 0.3, false);
   const std::vector<double> first = sortedQualities(byHand.bench.mesh);
+  byHand.bench.run.dividesEdges = true;
   optimizeOnSurface<3>(byHand.bench.run, surface, Effort::Default, 1.0, true);
   EXPECT_EQ(sortedQualities(rounds.bench.mesh), sortedQualities(byHand.bench.mesh));
   EXPECT_NE(sortedQualities(rounds.bench.mesh), first);
@@ -143,6 +147,39 @@ TEST(SurfaceRounds, NothingFollowsWhereTheTargetIsReached)
   Rounds once(surface, upTo(0.2));
   optimizeOnSurface<3>(once.bench.run, surface, Effort::Default, 0.3, false);
   EXPECT_EQ(once.bench.report.history.size(), rows);
+}
+
+/// What follows a division aims at little more than the worst quality of before: the many that are
+/// better wait for the last run. The rows of all count what is under the target of the user.
+TEST(SurfaceRounds, WhatFollowsADivisionAimsLow)
+{
+  Sliding sliding(gear(12, 1.0), tolerance(1e-3));
+  NodalMetric<3> metric;
+  Options options = upTo(0.6, Effort::Quick);
+  options.growthBudget = 2.0;
+  const Report report = optimize<3>(sliding.mesh, metric, options, {}, &sliding.surface);
+  const auto targetOf = [](const PassRecord& row)
+  {
+    const std::size_t at = row.stage.find("towards ");
+    return at == std::string::npos ? 0.0 : std::stod(row.stage.substr(at + 8));
+  };
+  const auto isTowards = [&](const PassRecord& row) { return targetOf(row) > 0.0; };
+  const auto divided = std::find_if(report.history.begin(), report.history.end(),
+    [](const PassRecord& row) { return row.stage == "long edges divided"; });
+  ASSERT_NE(divided, report.history.end());
+  const double worst = (divided - 1)->worst;
+  ASSERT_GT(worst, 0.3);
+  ASSERT_LT(worst, 0.4);
+  const auto end = std::find_if_not(divided + 1, report.history.end(), isTowards);
+  ASSERT_GT(end - divided, 3);
+  double most = 0.0;
+  for (auto row = divided + 1; row != end; ++row)
+  {
+    most = std::max(most, targetOf(*row));
+    EXPECT_GT(row->belowTarget, 40) << row->stage; // of 72 cells and more
+  }
+  EXPECT_NEAR(most, 1.3 * worst, 0.005); // two digits are written
+  EXPECT_EQ(targetOf(report.history.back()), 0.6);
 }
 
 /// At a ridge that allows no more than the first run reaches, divisions would be in vain, and so

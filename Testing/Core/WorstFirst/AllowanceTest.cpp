@@ -114,8 +114,7 @@ TEST(Allowance, IsThriftyWhereManyCellsAreBadUpToTheTarget)
 {
   const MeshInput<3> in = jitteredGrid<3>(3, 0.1);
   const StillSurface<3> judging(true), other(false);
-  const EngineBench<3> kept(in, upTo(0.6)), metric(in, inMetric()), slides(in, {}, &judging),
-    follows(in, {}, &other);
+  const EngineBench<3> kept(in, upTo(0.6)), metric(in, inMetric()), follows(in, {}, &other);
   EXPECT_EQ(kept.workpiece.fewCells(), 20); // of 162
   EXPECT_TRUE(kept.allowance.isThrifty(task(kept, Phase::Lifting, 0.6, 1)));
   EXPECT_TRUE(kept.allowance.isThrifty(task(kept, Phase::Lifting, 0.3, 1)));
@@ -124,7 +123,17 @@ TEST(Allowance, IsThriftyWhereManyCellsAreBadUpToTheTarget)
   EXPECT_FALSE(kept.allowance.isThrifty(task(kept, Phase::Polishing, 0.6, 1)));
   EXPECT_TRUE(follows.allowance.isThrifty(task(follows, Phase::Lifting, 0.6, 1)));
   EXPECT_FALSE(metric.allowance.isThrifty(task(metric, Phase::Lifting, 0.6, 1)));
-  EXPECT_FALSE(slides.allowance.isThrifty(task(slides, Phase::Lifting, 0.6, 1)));
+  // On a sliding surface they are more; and once edges are divided, only in a quick run.
+  for (const Effort effort : { Effort::Quick, Effort::Default, Effort::Best })
+  {
+    EngineBench<3> slides(in, upTo(0.6, effort), &judging);
+    Task many = task(slides, Phase::Lifting, 0.6, 1);
+    EXPECT_FALSE(slides.allowance.isThrifty(many));
+    many.below = worstfirst::FewCells + 1;
+    EXPECT_TRUE(slides.allowance.isThrifty(many));
+    slides.run.dividesEdges = true;
+    EXPECT_EQ(slides.allowance.isThrifty(many), effort == Effort::Quick);
+  }
 }
 
 TEST(Allowance, RemembersTriesInVainOnlyWhereItIsThrifty)

@@ -98,7 +98,7 @@ TEST(LongEdges, ARunGetsThroughARowOfNeedles)
   NodalMetric<3> metric;
   Options options;
   options.growthBudget = 12.0;
-  options.targetQuality = 0.45;
+  options.targetQuality = 0.5;
   const Report report = optimize<3>(sliding.mesh, metric, options, {}, &sliding.surface);
   expectSound(sliding.mesh);
   EXPECT_LE(sliding.surface.distance(sliding.mesh), 1e-3);
