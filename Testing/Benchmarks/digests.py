@@ -2,8 +2,8 @@
 """Does the optimizer still give the same bytes? Digests of outputs and histories, recorded once and compared later.
 
     eval "$(./bootstrap.sh env)"
-    /usr/bin/python3 Testing/Benchmarks/digests.py record FILE.json [options] MESH.vtu ...
-    /usr/bin/python3 Testing/Benchmarks/digests.py compare FILE.json [options] MESH.vtu ...
+    /usr/bin/python3 Testing/Benchmarks/digests.py record FILE.json MESH.vtu ... [options]
+    /usr/bin/python3 Testing/Benchmarks/digests.py compare FILE.json MESH.vtu ... [options]
 
     --only PART ...   of: meshes plane two_cracks adapt adapt_3d fuzz_boundary fuzz_filter (default: all)
     --threads N ...   for the meshes and the plane meshes (default: 1 2 4)
