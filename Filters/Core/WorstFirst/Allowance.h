@@ -64,9 +64,9 @@ public:
   // --- tries
   /// Whether tries are counted more strictly, and changes must gain more: where so many cells are
   /// bad that they cannot all be worth their tries. Not in a metric, where fewer are stuck for
-  /// good. Where the surface takes part, a few hundred always are; and not once its edges are
-  /// divided, but in a quick run: with it the usual effort takes half the time there, but needles
-  /// of CGAL end 4 % lower.
+  /// good. Where the surface takes part, never for FewCells or less, so that small bodies get all
+  /// tries; and once edges are divided, only in a quick run: with the usual effort it would halve
+  /// the time there, but needles of CGAL end 4 % lower.
   bool isThrifty(const Task& task) const
   {
     const Workpiece<D, Shape>& workpiece = this->workpiece_;
