@@ -12,6 +12,9 @@
 /// cannot be opened makes no better element than the best prefix has. A positive worst quality
 /// makes the cavity star-shaped around the node. O(k log k) for k cells.
 ///
+/// If all up to some quality is hopeless (CavityLimits), the cells behind hopeless facets have to
+/// be taken in whatever else is, and so in any order: that takes O(k), and ends sooner.
+///
 /// A node of the surface lies in kept facets or at an edge of the surface (Opening). Facets of its
 /// patches that are connected with these are opened, too: they are not joined to the node, but
 /// vanish, and what is left of them is joined to it as new facets of the surface.
@@ -37,7 +40,8 @@ struct CavityLimits
   /// Growth ends after a detour: that many cells, and as many as the best prefix has, without a
   /// better one.
   int detour = 12;
-  /// Growth also ends once a facet that cannot be opened makes an element of at most this quality.
+  /// No cavity with an element of at most this quality is wanted: growth also ends once a facet
+  /// that cannot be opened makes one. No detour counts before all hopeless facets are opened.
   double hopeless = -std::numeric_limits<double>::infinity();
 };
 
@@ -104,7 +108,10 @@ private:
   bool isOpened(const SimplexMesh<D>& mesh, Index c, int i) const;
   bool opens(const SimplexMesh<D>& mesh, Index c, int i);
   bool isWall(const MeshEditor<D>& editor, Index c, int i) const;
-  bool take(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, int limit);
+  bool take(MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c,
+    const CavityLimits& limits);
+  bool takeHopeless(
+    MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const CavityLimits& limits);
   double quality(const QualityModel<D, Shape>& model, const SimplexMesh<D>& mesh, Index c, int i,
     const int* numbers) const;
   double plainQuality(const int* numbers) const;
@@ -115,7 +122,8 @@ private:
 
   LocalNumbers numbers_;
   std::vector<PointData> points_;
-  std::vector<Front> heap_;
+  std::vector<Front> heap_;     ///< in no order during takeHopeless()
+  std::vector<Index> hopeless_; ///< cells behind hopeless facets
   std::vector<Index> cells_;
   std::vector<Facet<D>> facets_;
   std::vector<Index> behind_;
@@ -124,6 +132,8 @@ private:
   std::uint32_t mark_ = 0;
   Index p_ = None;
   Vec<D> x_;
+  bool ordersHeap_ = true;
+  bool skipsInverted_ = false; ///< inverted elements are hopeless, whatever their quality
   int swallowed_ = 0;
   double oldWorst_ = 0.0;
   double worstWall_ = 0.0; ///< of the elements on facets that cannot be opened, without an opening
@@ -157,19 +167,24 @@ double Cavity<D, Shape>::plainQuality(const int* numbers) const
 {
   const PointData &a = this->points_[numbers[0]], &b = this->points_[numbers[1]];
   const Vec<D> u = b.x - a.x, w = this->x_ - a.x;
+  const auto sum = [&] { return a.weight + b.weight + EdgeSum<Shape>::weight(u.squaredNorm()); };
   ++evaluationsOfThread;
-  const double sum = a.weight + b.weight + EdgeSum<Shape>::weight(u.squaredNorm());
   if constexpr (D == 3)
   {
     const PointData& c = this->points_[numbers[2]];
     const Vec<D> v = c.x - a.x;
-    return EdgeSum<Shape>::quality(u.cross(v).dot(w),
-      sum + c.weight + EdgeSum<Shape>::weight(v.squaredNorm()) +
+    const double volume = u.cross(v).dot(w);
+    if (this->skipsInverted_ && volume <= 0.0)
+    {
+      return -std::numeric_limits<double>::infinity();
+    }
+    return EdgeSum<Shape>::quality(volume,
+      sum() + c.weight + EdgeSum<Shape>::weight(v.squaredNorm()) +
         EdgeSum<Shape>::weight((u - v).squaredNorm()));
   }
   else
   {
-    return EdgeSum<Shape>::quality(u[0] * w[1] - u[1] * w[0], sum);
+    return EdgeSum<Shape>::quality(u[0] * w[1] - u[1] * w[0], sum());
   }
 }
 
@@ -234,7 +249,7 @@ bool Cavity<D, Shape>::opens(const SimplexMesh<D>& mesh, Index c, int i)
 /// Takes cell c into the cavity. False if points or edges would then vanish that must not.
 template <int D, class Shape>
 bool Cavity<D, Shape>::take(
-  MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, int limit)
+  MeshEditor<D>& editor, const QualityModel<D, Shape>& model, Index c, const CavityLimits& limits)
 {
   const SimplexMesh<D>& mesh = editor.mesh();
   int local[D + 1];
@@ -293,6 +308,10 @@ bool Cavity<D, Shape>::take(
     {
       this->worstWall_ = std::min(this->worstWall_, q);
     }
+    else if (!this->opening_ && q <= limits.hopeless)
+    {
+      this->hopeless_.push_back(mesh.cellOf(h));
+    }
     else
     {
       this->push({ q, mesh.handle(c, i), h == None ? None : mesh.cellOf(h) });
@@ -309,7 +328,7 @@ bool Cavity<D, Shape>::take(
     if (this->points_[local[i]].facets == 0)
     {
       ++this->swallowed_;
-      if (!mesh.isFree(mesh.nodes(c)[i]) || this->swallowed_ > limit)
+      if (!mesh.isFree(mesh.nodes(c)[i]) || this->swallowed_ > limits.swallowed)
       {
         return false;
       }
@@ -330,7 +349,10 @@ template <int D, class Shape>
 void Cavity<D, Shape>::push(const Front& f)
 {
   this->heap_.push_back(f);
-  std::push_heap(this->heap_.begin(), this->heap_.end());
+  if (this->ordersHeap_)
+  {
+    std::push_heap(this->heap_.begin(), this->heap_.end());
+  }
 }
 
 /// Facets that lie inside by now leave the heap when they come to the top.
@@ -345,6 +367,34 @@ void Cavity<D, Shape>::dropInside(const MeshEditor<D>& editor)
   }
 }
 
+/// Takes in all that lies behind hopeless facets, the nearest first: so it meets those that cannot
+/// be opened soonest. False if the cavity is hopeless.
+template <int D, class Shape>
+bool Cavity<D, Shape>::takeHopeless(
+  MeshEditor<D>& editor, const QualityModel<D, Shape>& model, const CavityLimits& limits)
+{
+  bool more = this->worstWall_ > limits.hopeless;
+  if (this->hopeless_.empty())
+  {
+    return more;
+  }
+  this->ordersHeap_ = false;
+  for (std::size_t k = 0; k < this->hopeless_.size() && more; ++k)
+  {
+    const Index c = this->hopeless_[k];
+    more = editor.isMarked(c, this->mark_) ||
+      (static_cast<int>(this->cells_.size()) < limits.cells &&
+        this->take(editor, model, c, limits) && this->worstWall_ > limits.hopeless);
+  }
+  this->hopeless_.clear();
+  this->ordersHeap_ = true;
+  if (more)
+  {
+    std::make_heap(this->heap_.begin(), this->heap_.end());
+  }
+  return more;
+}
+
 template <int D, class Shape>
 double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape>& model,
   Index seed, const Node& node, const CavityLimits& limits)
@@ -354,6 +404,8 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
   this->numbers_.clear();
   this->points_.clear();
   this->heap_.clear();
+  this->hopeless_.clear();
+  this->skipsInverted_ = limits.hopeless >= 0.0;
   this->cells_.clear();
   this->mark_ = editor.newMark();
   this->p_ = node.point;
@@ -362,8 +414,8 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
   double best = -std::numeric_limits<double>::infinity();
   std::size_t bestSize = 0;
   this->worstWall_ = std::numeric_limits<double>::infinity();
-  bool more = this->take(editor, model, seed, limits.swallowed);
-  while (more)
+  bool more = this->take(editor, model, seed, limits);
+  while (more && this->takeHopeless(editor, model, limits))
   {
     this->dropInside(editor);
     // The worst facet on the boundary is the worst quality of the whole prefix.
@@ -382,7 +434,7 @@ double Cavity<D, Shape>::grow(MeshEditor<D>& editor, const QualityModel<D, Shape
     {
       break;
     }
-    more = this->take(editor, model, this->heap_.front().behind, limits.swallowed);
+    more = this->take(editor, model, this->heap_.front().behind, limits);
   }
   this->cells_.resize(bestSize);
   this->finish(editor);

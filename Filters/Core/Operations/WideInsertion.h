@@ -33,8 +33,10 @@ public:
       std::clamp<double>(CellsPerFace * side * side, FewestCells, MostCells));
     this->findCells(judge.editor(), t);
     CavityLimits limits;
-    limits.cells = limits.detour = this->mostCells_;
     limits.swallowed = judge.switches().removeNodes ? judge.wide() : 0;
+    limits.detour = this->mostCells_;
+    limits.cells = std::min<int>(
+      limits.detour, std::max<int>(FewestCells, CellsPerNode * limits.swallowed));
     limits.hopeless = Hopeless * judge.mesh().quality(t);
     std::size_t from = 0;
     for (std::size_t to : BestCells)
@@ -58,6 +60,10 @@ private:
   /// mesh were one, between FewestCells and MostCells. Flat cells can lie in tens of layers, and be
   /// as long as the mesh is wide.
   static constexpr double CellsPerFace = 1.15, FewestCells = 400, MostCells = 10000;
+  /// Nor more than this for each node that may vanish. Of the cavities that gain, hardly any has
+  /// more; and most of the time goes to others that grow up to a limit. With 5, the worst cells of
+  /// some slabs of random points end at a third.
+  static constexpr int CellsPerNode = 8;
   /// Cells that give seeds: the best of the first FirstCells around, and of each next group, which
   /// has twice as many cells as all before it and FirstCells more. At first the first of BestCells
   /// of each; most seeds are in vain, so for the worst cell of the mesh more are tried if that does

@@ -48,11 +48,10 @@ inline constexpr double FarBelowBound = 0.97;
 inline constexpr std::size_t MostBelowBound = 80;
 /// A round on more than PolishedCells cells, or a cycle of polishing and repair, has gained if the
 /// worst quality has risen by more than WideGain, relatively. The cycles end after more than
-/// MostIdleCycles in a row without gain, and after PolishCycles in all, by effort.
+/// MostIdleCycles in a row without gain, and after PolishCycles in all.
 inline constexpr double WideGain = 0.02;
 inline constexpr int MostIdleCycles = 2;
-inline constexpr int PolishCycles[] = { 4, 8, 8 };
-static_assert(std::size(PolishCycles) == NumberOfEfforts);
+inline constexpr int PolishCycles = 8;
 /// Up to the target, polishing may spend 1 look-ahead per CellsPerLook cells in a run; in small
 /// meshes FewestLooks in all. Each takes as long as a pass over thousands of cells.
 inline constexpr Index CellsPerLook = 75;

@@ -136,13 +136,13 @@ private:
   /// 1e5; or FewestPerCell, if that is more, up to FewestPerRiseAtMost: with 1e5 in all quick runs,
   /// some surfaces of CGAL with 2000 to 4000 cells end 2 to 5 % lower.
   static constexpr double PolishPerCell[] = { 8.0, 34.0, 34.0 };
-  static constexpr double PolishPerNode[] = { 300.0, 1250.0, 1250.0 };
+  static constexpr double PolishPerNode[] = { 450.0, 1250.0, 1250.0 };
   static constexpr double FewestPerRise[] = { 1e5, 2e5, 2e5 }, FewestPerRiseAtMost = 2e5;
   static constexpr double FewestPerCell = 80.0;
   /// What polishing may spend in all, as a multiple of what it may until one rise. On thin slabs of
-  /// random points the worst cell rises again and again, and without this limit a quick run takes
-  /// too long; with 4 they end clearly lower.
-  static constexpr double MostRises[] = { 6.0, Unlimited, Unlimited };
+  /// random points the worst cell rises again and again: with 6, slabs of 30 000 points end at a
+  /// tenth to a half of the bound, without limit a quick run takes too long.
+  static constexpr double MostRises[] = { 16.0, Unlimited, Unlimited };
   /// Where the surface takes part, a change costs more, and polishing helps longer: with 2, needles
   /// of CGAL end 2 % lower. Without any limit random solids take twice as long.
   static constexpr double PolishFactorOfSliding = 4.0;

@@ -55,7 +55,6 @@ template <int D, class Shape>
 bool Polish<D, Shape>::runAndRepair(double target, bool isLast)
 {
   const Workpiece<D, Shape>& workpiece = this->workpiece_;
-  const int most = PolishCycles[static_cast<int>(workpiece.effort())];
   bool more = true, again = true;
   int idle = 0; // cycles in a row without gain: the repair in between may help the next one
   for (int cycle = 0; more && again; ++cycle)
@@ -68,7 +67,7 @@ bool Polish<D, Shape>::runAndRepair(double target, bool isLast)
     }
     const double now = workpiece.worst();
     idle = now > before * (1.0 + WideGain) ? 0 : idle + 1;
-    again = cycle + 1 < most && !(target < workpiece.target()) &&
+    again = cycle + 1 < PolishCycles && !(target < workpiece.target()) &&
       idle <= (workpiece.slides() ? 0 : MostIdleCycles) && workpiece.isFarBelowBound() &&
       this->allowance_.evaluations(Phase::Polishing) >= 0.0;
     // Where the target is out of reach, the best effort does first what the usual one does: it then
