@@ -20,6 +20,9 @@ namespace
 constexpr double RoomOfWalls = 1.0 / 7.0;
 /// The same for a gap, outside.
 constexpr double RoomOfGaps = 0.25;
+/// Where it is sought: at first as far away as the facet is long, or this part of the whole way;
+/// then farther away each time, since with a large tolerance most of the surface is in reach.
+constexpr double LeastReach = 1e-3, WiderReach = 4.0;
 }
 
 void ReferenceSurface::add(
@@ -57,6 +60,7 @@ void ReferenceSurface::add(
 void ReferenceSurface::finish(double tolerance, double least)
 {
   this->tolerance_ = tolerance;
+  Box box;
   std::vector<BoxTree::Item> all;
   std::vector<std::vector<BoxTree::Item>> ofPatch;
   for (const Facet& f : this->facets_)
@@ -64,8 +68,10 @@ void ReferenceSurface::finish(double tolerance, double least)
     const auto patch = static_cast<std::size_t>(f.patch);
     ofPatch.resize(std::max(ofPatch.size(), patch + 1));
     all.push_back({ static_cast<int>(all.size()), BoxTree::around(f.x) });
+    box.extend(all.back().box);
     ofPatch[patch].push_back(all.back());
   }
+  this->diameter_ = all.empty() ? 0.0 : box.diagonal().norm();
   this->all_.build(all);
   this->patches_.resize(ofPatch.size());
   for (std::size_t k = 0; k < ofPatch.size(); ++k)
@@ -84,7 +90,21 @@ void ReferenceSurface::finish(double tolerance, double least)
 double ReferenceSurface::room(const Facet& f, std::vector<int>& near) const
 {
   // A sheet farther away than this leaves room for the whole tolerance.
-  const Vec<3> reach = f.normal * (this->tolerance_ / RoomOfWalls);
+  const double most = std::min(this->tolerance_ / RoomOfWalls, this->diameter_);
+  double reach = std::min(most, std::max(f.l, LeastReach * most));
+  double room = this->roomWithin(reach, f, near);
+  // What lies beyond the reach leaves at least this much room.
+  while (room > RoomOfWalls * reach && reach < most)
+  {
+    reach = std::min(most, WiderReach * reach);
+    room = this->roomWithin(reach, f, near);
+  }
+  return room;
+}
+
+double ReferenceSurface::roomWithin(double distance, const Facet& f, std::vector<int>& near) const
+{
+  const Vec<3> reach = f.normal * distance;
   Box box;
   for (const Vec<3>& x : f.x)
   {

@@ -126,12 +126,15 @@ private:
   bool isNear(const Piece& piece, const std::vector<int>& near, double part = 1.0) const;
   bool isInsideOut(const Piece& piece, const std::vector<int>& near) const;
   double room(const Facet& f, std::vector<int>& near) const;
+  /// The same, if only sheets up to a distance are looked at.
+  double roomWithin(double distance, const Facet& f, std::vector<int>& near) const;
   static void findNear(const BoxTree& tree, const Box& box, std::vector<int>& found);
 
   std::vector<Facet> facets_;
   BoxTree all_;
   std::vector<BoxTree> patches_; ///< by number: what is nearest to a point in each
   double tolerance_ = 0.0;
+  double diameter_ = 0.0;
 };
 }
 

@@ -182,6 +182,35 @@ TEST(ReferenceSurface, AThinWallKeepsItsThickness)
   EXPECT_TRUE(surface.covers(front, little));
 }
 
+// The other sheet is farther away than a facet is long, by up to sixty times.
+TEST(ReferenceSurface, AThickWallLeavesASeventhOfItsThickness)
+{
+  constexpr double share = 0.75; // of the tolerance, beside needles and the sides of curves
+  for (double thickness : { 0.02, 0.3, 3.0, 10.0 })
+  {
+    const auto front = sheet(8, [](double, double) { return 0.0; });
+    auto wall = front;
+    for (Piece piece : front)
+    {
+      std::swap(piece.x[1], piece.x[2]);
+      for (Vec<3>& x : piece.x)
+      {
+        x[2] -= thickness;
+      }
+      wall.push_back(piece);
+    }
+    for (double tolerance : { 0.1 * thickness, 20.0 * thickness, 1e300 })
+    {
+      const ReferenceSurface surface = reference(wall, tolerance);
+      for (int k = 0; k < static_cast<int>(wall.size()); ++k)
+      {
+        const double room = std::min(tolerance, thickness / 7.0);
+        EXPECT_NEAR(surface.tolerance(k), share * room, 1e-9 * thickness);
+      }
+    }
+  }
+}
+
 TEST(ReferenceSurface, HeightsBoundTheDistance)
 {
   const auto shape = [](double u, double v) { return 0.05 * std::sin(5 * u) * std::cos(4 * v); };
