@@ -23,6 +23,7 @@ constexpr double RoomOfGaps = 0.25;
 /// Where it is sought: at first as far away as the facet is long, or this part of the whole way;
 /// then farther away each time, since with a large tolerance most of the surface is in reach.
 constexpr double LeastReach = 1e-3, WiderReach = 4.0;
+static_assert(RoomOfWalls <= RoomOfGaps); // room() relies on it
 }
 
 void ReferenceSurface::add(

@@ -140,8 +140,8 @@ private:
   static constexpr double FewestPerRise[] = { 1e5, 2e5, 2e5 }, FewestPerRiseAtMost = 2e5;
   static constexpr double FewestPerCell = 80.0;
   /// What polishing may spend in all, as a multiple of what it may until one rise. On thin slabs of
-  /// random points the worst cell rises again and again: with 6, slabs of 30 000 points end at a
-  /// tenth to a half of the bound, without limit a quick run takes too long.
+  /// random points the worst cell rises again and again: with 6, most slabs of 30 000 points end
+  /// at a tenth to a half of the bound; without limit a quick run takes too long.
   static constexpr double MostRises[] = { 16.0, Unlimited, Unlimited };
   /// Where the surface takes part, a change costs more, and polishing helps longer: with 2, needles
   /// of CGAL end 2 % lower. Without any limit random solids take twice as long.
