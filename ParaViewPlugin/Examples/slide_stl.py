@@ -13,6 +13,7 @@ LoadPlugin(".../MeshOptimize.so", ns=globals()).
 """
 import argparse
 import math
+import sys
 
 import numpy as np
 from paraview import servermanager
@@ -121,6 +122,9 @@ if arguments.make:
     write_stl(arguments.surface)
 surface = STLReader(FileNames=[arguments.surface])
 mesh = TetrahedralizeTetGen(Input=surface, MaximumRadiusEdgeRatio=1.6, KeepSurface=1)
+mesh.UpdatePipeline()
+if mesh.GetDataInformation().GetNumberOfCells() == 0:
+    sys.exit(f"{arguments.surface}: no tetrahedra")  # the errors above say why
 if arguments.which:
     print("tolerance   worst element   surface moved   elements   seconds")
     for tolerance in (0, 1e-4, 1e-3, 1e-2):
