@@ -49,6 +49,7 @@ static_assert(std::size(MostPerRise) == NumberOfEfforts);
 /// time. They have their turn at the end. Where that is above NearTarget times the target, the
 /// target itself.
 constexpr double AimAboveWorst = 1.3, LeastAim = 0.3, NearTarget = 0.9;
+constexpr const char* CrossingUndone = "crossing facets undone"; ///< in the history
 
 /// Improves the worst cells with another effort and with a part of the growth that is left.
 template <int D>
@@ -60,17 +61,6 @@ void optimizeWith(const Run<D>& all, Effort effort, double part, bool polishesWi
   run.polishesWidely = polishesWidely;
   run.limitGrowth(part);
   optimizeWorstFirst<D>(run);
-}
-
-/// If facets have turned, or pass through others, what the history says of it when they are undone;
-/// else null. The surface refuses the latter from now on.
-template <int D>
-const char* findUnsound(
-  Surface<D>& surface, const SimplexMesh<D>& before, const SimplexMesh<D>& now)
-{
-  const bool isTurned = surface.countTurned(now) > surface.countTurned(before);
-  const bool crosses = surface.refuseCrossings(before, now);
-  return isTurned ? "turned facets undone" : crosses ? "crossing facets undone" : nullptr;
 }
 
 template <int D>
@@ -151,8 +141,8 @@ typename SurfaceRounds<D>::Division SurfaceRounds<D>::divide(std::size_t way)
   return made;
 }
 
-/// Divides in one way, and improves what comes of it. If a facet has turned then, does the same
-/// once more with a surface that refuses such changes. The mesh stays as it was if it is no better.
+/// Divides in one way, and improves what comes of it. If facets pass through others then, does the
+/// same once more. The mesh stays as it was if it is no better.
 /// `inVain`: the mean qualities of divided meshes that were no better; the same again is the same
 /// mesh.
 template <int D>
@@ -165,9 +155,8 @@ void SurfaceRounds<D>::divideAndOptimize(
   const long below = run.report.history.back().belowTarget;
   const StopReason reason = run.report.stopReason;
   bool again = true;
-  for (bool refuses = false; again; refuses = true)
+  for (int time = 0; again; ++time)
   {
-    this->surface_.refuseTurned(refuses);
     const Division made = this->divide(way);
     const double divided = run.report.history.back().mean;
     const bool isKnown = std::find(inVain.begin(), inVain.end(), divided) != inVain.end();
@@ -175,24 +164,23 @@ void SurfaceRounds<D>::divideAndOptimize(
     {
       optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely, this->aim(worst));
     }
-    this->surface_.refuseTurned(false);
     if (!made.isDivided && !made.isCoarser)
     {
       return;
     }
-    const char* unsound = findUnsound(this->surface_, before, run.mesh());
+    const bool crosses = this->surface_.refuseCrossings(before, run.mesh());
     const PassRecord& now = run.report.history.back();
     // At corners it has to help clearly: else the other ways have more room.
     const bool isBetter = way == AtCorners
       ? now.worst > DivisionsGain * worst
       : now.worst > worst || (now.worst == worst && now.belowTarget < below);
-    again = unsound && !refuses && !run.clock.hasStopped();
-    if (unsound || !isBetter)
+    again = crosses && time == 0 && !run.clock.hasStopped();
+    if (crosses || !isBetter)
     {
       restore<D>(run, before);
-      run.record(again ? unsound : "divisions undone");
+      run.record(again ? CrossingUndone : "divisions undone");
       run.report.stopReason = run.clock.hasStopped() ? run.stopped() : reason;
-      if (!again) // the same division may help where no facet may turn
+      if (!again) // the same division may help where more is refused
       {
         inVain.push_back(divided);
       }
@@ -304,22 +292,13 @@ void optimizeOnSurface(
   const SimplexMesh<D> before = run.mesh();
   for (int time = 0; time <= MostRepeats; ++time)
   {
-    if (time > 0)
-    {
-      surface.refuseTurned(true);
-    }
     optimizeWith<D>(run, effort, part, polishesWidely, run.options.targetQuality);
-    if (time > 0)
-    {
-      surface.refuseTurned(false);
-    }
-    const char* unsound = findUnsound(surface, before, run.mesh());
-    if (!unsound)
+    if (!surface.refuseCrossings(before, run.mesh()))
     {
       return;
     }
     restore<D>(run, before);
-    run.record(unsound);
+    run.record(CrossingUndone);
   }
   run.report.stopReason = run.clock.hasStopped() ? run.stopped() : StopReason::NoFurtherGain;
 }

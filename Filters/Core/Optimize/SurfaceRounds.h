@@ -9,8 +9,8 @@
 
 namespace meshopt
 {
-/// How often a run is repeated because facets have turned or pass through others: then it refuses
-/// more. If that does not help, the mesh stays as it was.
+/// How often a run is repeated because facets pass through others: then it refuses more. If that
+/// does not help, the mesh stays as it was.
 inline constexpr int MostRepeats = 4;
 
 /// What no mesh of the body can exceed, by what its ridges and corners force where they stay as
@@ -23,9 +23,8 @@ template <int D>
 void restore(Run<D>& run, const SimplexMesh<D>& mesh);
 
 /// Improves the worst cells with another effort and with a part of the growth that is left
-/// (optimizeWorstFirst()). `surface`: that of the run. If a facet has turned then
-/// (Surface::countTurned()), does the same once more from the mesh before, with a surface that
-/// refuses such changes.
+/// (optimizeWorstFirst()). `surface`: that of the run. If facets pass through others then
+/// (Surface::refuseCrossings()), does the same once more from the mesh before.
 template <int D>
 void optimizeOnSurface(
   Run<D>& run, Surface<D>& surface, Effort effort, double part, bool polishesWidely);
@@ -33,7 +32,7 @@ void optimizeOnSurface(
 /// Where the surface takes part (Surface::judgesChanges()): if the engine reaches neither the
 /// target nor boundOfAngles(), long edges are divided at the worst cells and the engine runs again,
 /// as long as that helps. Where the growth budget is short, nodes vanish elsewhere. The worst
-/// quality never falls, and no facet turns.
+/// quality never falls.
 template <int D>
 void optimizeSliding(Run<D>& run, Surface<D>& surface);
 

@@ -390,21 +390,13 @@ bool SlidingSurface::allows(const SurfaceChange<3>& change) const
   return true;
 }
 
-/// Where one of the parts looks the wrong way although the whole did not, this is noted.
+/// Parts are the same points, but one may look the wrong way where the whole did not.
 bool SlidingSurface::allowsDivision(
   const std::vector<SurfacePiece<3>>& gone, const std::vector<SurfacePiece<3>>& come) const
 {
-  if (!ReferenceSurface::isDivision(gone, come))
-  {
-    return false;
-  }
-  const bool isTurned = std::any_of(come.begin(), come.end(),
-    [this](const SurfacePiece<3>& piece) { return this->reference_.isTurned(piece); });
-  if (isTurned && !this->refusesTurned_)
-  {
-    this->madeTurned_->store(true, std::memory_order_relaxed);
-  }
-  return !isTurned || !this->refusesTurned_;
+  return ReferenceSurface::isDivision(gone, come) &&
+    std::none_of(come.begin(), come.end(),
+      [this](const SurfacePiece<3>& piece) { return this->reference_.isTurned(piece); });
 }
 
 bool SlidingSurface::allowsAngle(

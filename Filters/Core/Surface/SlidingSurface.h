@@ -14,7 +14,6 @@
 #include "Surface/SurfaceAngles.h"
 #include "Surface/SurfaceDivision.h"
 
-#include <atomic>
 #include <map>
 #include <memory>
 
@@ -64,10 +63,6 @@ public:
 
   /// The distance that is proved between the surface of before and that of `mesh` (both ways).
   double distance(const SimplexMesh<3>& mesh) const;
-  /// Of facets that are higher than the tolerance: others look nowhere. With tolerance 0 there are
-  /// none. The cost: a search in the surface of before for each facet.
-  long countTurned(const SimplexMesh<3>& mesh) const override;
-  void refuseTurned(bool on) override { this->refusesTurned_ = on; }
   /// With tolerance 0 it never does. If it does, changes are refused also where the surface of
   /// `before` passes through itself.
   bool refuseCrossings(const SimplexMesh<3>& before, const SimplexMesh<3>& now) override;
@@ -166,10 +161,7 @@ private:
   std::vector<std::uint32_t> setsOfPoint_, setsOfCurve_; ///< empty if there are none
   Index numberOfTwins_ = 0;
   bool isExact_ = false;
-  bool refusesTurned_ = false;
   std::vector<BoxTree::Box> refused_; ///< nothing changes there: see refuseCrossings()
-  /// Whether a change that was allowed has made a turned facet. (A pointer: surfaces are moved.)
-  std::unique_ptr<std::atomic<bool>> madeTurned_ = std::make_unique<std::atomic<bool>>(false);
   double tolerance_ = 0.0;
   double featureCosine_ = 0.0, halfCosine_ = 0.0; ///< of the feature angle, and of half of it
   std::shared_ptr<Release> release_;              ///< null: there is nothing to give up

@@ -103,25 +103,6 @@ double SlidingSurface::distance(const SimplexMesh<3>& mesh) const
   return std::max(std::hypot(most, mostOfCurves), mostOfAll);
 }
 
-long SlidingSurface::countTurned(const SimplexMesh<3>& mesh) const
-{
-  long turned = 0;
-  for (Index c = 0; c < mesh.numberOfCellSlots() && *this->madeTurned_; ++c)
-  {
-    for (int i = 0; i < 4 && mesh.isAlive(c); ++i)
-    {
-      const Index patch = this->patchOf(mesh, c, i);
-      if (patch != None)
-      {
-        const Facet<3> f = mesh.facet(c, i);
-        turned += this->reference_.isTurned(this->oriented(
-          { { mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2]) }, patch, mesh.region(c) }));
-      }
-    }
-  }
-  return turned;
-}
-
 bool SlidingSurface::refuseCrossings(const SimplexMesh<3>& before, const SimplexMesh<3>& now)
 {
   return !this->isExact_ && refuseNewCrossings(before, now, this->refused_);

@@ -95,13 +95,6 @@ public:
     return true;
   }
 
-  /// How many facets lie where the surface of before looks the other way. A change that is allowed
-  /// may make some: parts of a divided facet, which are the same points. If none of the changes so
-  /// far has, this is 0, and costs nothing.
-  virtual long countTurned(const SimplexMesh<D>&) const { return 0; }
-  /// Says whether changes are refused that make such facets. Less is gained then. Between stages
-  /// only.
-  virtual void refuseTurned(bool /*on*/) {}
   /// Whether the surface of the second mesh, made from the first by allowed changes, newly passes
   /// through itself. If so, changes at these places are refused from now on. Between stages only.
   virtual bool refuseCrossings(const SimplexMesh<D>& /*before*/, const SimplexMesh<D>& /*now*/)

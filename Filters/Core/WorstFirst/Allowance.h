@@ -22,8 +22,7 @@ public:
     : workpiece_(workpiece)
     , costs_(workpiece.effort())
   {
-    this->costs_.open(
-      workpiece.mesh().countCells(), countFreeNodes(workpiece.mesh()), workpiece.slides());
+    this->costs_.open(workpiece.mesh().countCells(), countFreeNodes(workpiece.mesh()));
   }
 
   /// From now on anything may be spent.
@@ -33,16 +32,15 @@ public:
 
   // --- evaluations
   /// How many a pass may spend, beside what it earns by lifting cells; none if less than 0. Any
-  /// number in a metric, and where the surface takes part, unless it polishes widely.
+  /// number in a metric, and where the surface takes part, unless it polishes.
   double evaluations(Phase phase) const
   {
     const bool polishes = phase == Phase::Polishing;
-    const bool isWide = this->workpiece_.slides() && this->workpiece_.run().polishesWidely;
-    if (!this->workpiece_.isKeptAndPlain() && !(polishes && isWide))
+    if (!this->workpiece_.isKeptAndPlain() && !(polishes && this->workpiece_.slides()))
     {
       return std::numeric_limits<double>::infinity();
     }
-    return polishes ? this->costs_.leftForPolish() : this->costs_.leftForPass();
+    return polishes ? this->costs_.leftForPolish(this->polishFactor()) : this->costs_.leftForPass();
   }
   /// What a pass has earned that has lifted this number of cells.
   double earned(Phase phase, long lifted) const
@@ -97,6 +95,13 @@ public:
   void noteLooks(long looks) { this->looks_ += looks; }
 
 private:
+  double polishFactor() const
+  {
+    const Workpiece<D, Shape>& workpiece = this->workpiece_;
+    return !workpiece.slides()         ? 1.0
+      : workpiece.run().polishesWidely ? CostModel::PolishFactorOfSliding
+                                       : CostModel::PolishFactorOfFew;
+  }
   /// Limited where there is hope: see Workpiece::isFarBelowBound().
   long mostLooks() const
   {

@@ -44,10 +44,9 @@ public:
     : effort_(static_cast<int>(effort))
   {
   }
-  /// To be called first. `slides`: the surface takes part.
-  void open(long cells, long freeNodes, bool slides = false)
+  /// To be called first.
+  void open(long cells, long freeNodes)
   {
-    this->polishFactor_ = slides ? PolishFactorOfSliding : 1.0;
     this->cells_ = static_cast<double>(cells);
     this->freeNodes_ = static_cast<double>(freeNodes);
     const double share = std::min(1.0, LeastShare + SharePerNode * this->freeNodes_ / this->cells_);
@@ -105,12 +104,18 @@ public:
     this->sinceRise_.note(static_cast<double>(evaluations), worst);
     this->spentInAll_ += static_cast<double>(evaluations);
   }
-  /// What the next one may spend; nothing if less than 0.
-  double leftForPolish() const
+  /// Factors of what polishing may spend where the surface takes part. There a change costs more,
+  /// and polishing widely helps longer: with 2, needles of CGAL end 2 % lower; without any limit
+  /// random solids take twice as long. To divide edges at the few worst cells helps more than to
+  /// polish these alone: without a limit surfaces of CGAL take an eighth longer and random solids
+  /// twice as long, and end no higher.
+  static constexpr double PolishFactorOfSliding = 4.0, PolishFactorOfFew = 0.15;
+  /// What the next pass may spend; nothing if less than 0.
+  double leftForPolish(double factor = 1.0) const
   {
     const double fewest = std::clamp(
       FewestPerCell * this->cells_, FewestPerRise[this->effort_], FewestPerRiseAtMost);
-    const double perRise = this->polishFactor_ *
+    const double perRise = factor *
       std::max(fewest,
         PolishPerCell[this->effort_] * this->cells_ +
           PolishPerNode[this->effort_] * this->freeNodes_);
@@ -143,9 +148,6 @@ private:
   /// random points the worst cell rises again and again: with 6, most slabs of 30 000 points end
   /// at a tenth to a half of the bound; without limit a quick run takes too long.
   static constexpr double MostRises[] = { 16.0, Unlimited, Unlimited };
-  /// Where the surface takes part, a change costs more, and polishing helps longer: with 2, needles
-  /// of CGAL end 2 % lower. Without any limit random solids take twice as long.
-  static constexpr double PolishFactorOfSliding = 4.0;
   static_assert(std::size(PricePerLifted) == NumberOfEfforts &&
     std::size(WastePerCell) == NumberOfEfforts && std::size(WastePerNode) == NumberOfEfforts &&
     std::size(FewestWaste) == NumberOfEfforts && std::size(PolishPerCell) == NumberOfEfforts &&
@@ -160,8 +162,7 @@ private:
   int effort_;
   bool isLimited_ = true;
   double cells_ = 0.0, freeNodes_ = 0.0;
-  double polishFactor_ = 1.0; ///< what polishing may spend, in times of what it may elsewhere
-  double waste_ = 0.0;        ///< that is still allowed; less than 0 if there was more
+  double waste_ = 0.0; ///< that is still allowed; less than 0 if there was more
   std::array<int, NumberOfKinds> impatience_{};
   double target_ = 0.0;     ///< of the stage
   SinceRise sinceRise_;     ///< of polishing

@@ -79,18 +79,17 @@ TEST(Allowance, IsUnlimitedInAMetricAndWhereTheSurfaceSlides)
   const MeshInput<3> in = jitteredGrid<3>(3, 0.1);
   const StillSurface<3> judging(true), other(false);
   const EngineBench<3> kept(in, {}), metric(in, inMetric()), follows(in, {}, &other);
-  EngineBench<3> slides(in, {}, &judging);
-  slides.run.polishesWidely = false;
+  const EngineBench<3> slides(in, {}, &judging);
   for (const Phase phase : { Phase::Lifting, Phase::Polishing })
   {
     EXPECT_LT(kept.allowance.evaluations(phase), Any);
     EXPECT_LT(follows.allowance.evaluations(phase), Any);
     EXPECT_EQ(metric.allowance.evaluations(phase), Any);
-    EXPECT_EQ(slides.allowance.evaluations(phase), Any);
   }
+  EXPECT_EQ(slides.allowance.evaluations(Phase::Lifting), Any);
 }
 
-TEST(Allowance, IsLimitedWhereARunOnASlidingSurfacePolishesWidely)
+TEST(Allowance, IsLimitedWhereARunOnASlidingSurfacePolishes)
 {
   const StillSurface<3> judging(true);
   for (const Effort effort : { Effort::Quick, Effort::Default, Effort::Best })
@@ -99,12 +98,12 @@ TEST(Allowance, IsLimitedWhereARunOnASlidingSurfacePolishesWidely)
     Allowance<3, MeanEdgeShape<3>>& allowance = bench.allowance;
     ASSERT_TRUE(bench.run.polishesWidely);
     CostModel costs(effort);
-    costs.open(6 * 3 * 3 * 3, 2 * 2 * 2, true);
-    EXPECT_EQ(allowance.evaluations(Phase::Polishing), costs.leftForPolish());
-    EXPECT_EQ(allowance.evaluations(Phase::Lifting), Any);
+    costs.open(6 * 3 * 3 * 3, 2 * 2 * 2);
+    EXPECT_EQ(allowance.evaluations(Phase::Polishing),
+      costs.leftForPolish(CostModel::PolishFactorOfSliding));
     bench.run.polishesWidely = false;
-    EXPECT_EQ(allowance.evaluations(Phase::Polishing), Any);
-    bench.run.polishesWidely = true;
+    EXPECT_EQ(
+      allowance.evaluations(Phase::Polishing), costs.leftForPolish(CostModel::PolishFactorOfFew));
     allowance.endLimits(); // past the target
     EXPECT_EQ(allowance.evaluations(Phase::Polishing), Any);
   }

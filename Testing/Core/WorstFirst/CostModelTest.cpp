@@ -62,16 +62,20 @@ TEST(CostModel, PastTheTargetNothingIsLimited)
   EXPECT_EQ(costs.leftForPolish(), std::numeric_limits<double>::infinity());
 }
 
-TEST(CostModel, PolishingMaySpendMoreWhereTheSurfaceTakesPart)
+TEST(CostModel, WhatPolishingMaySpendHasAFactor)
 {
-  CostModel kept(Effort::Quick), slides(Effort::Quick);
-  kept.open(1000, 100);
-  slides.open(1000, 100, true);
-  EXPECT_EQ(slides.leftForPass(), kept.leftForPass());
-  EXPECT_GT(slides.leftForPolish(), 2.0 * kept.leftForPolish());
-  slides.notePolish(1, 0.1);
-  slides.notePolish(static_cast<std::int64_t>(slides.leftForPolish()) + 1, 0.1);
-  EXPECT_LE(slides.leftForPolish(), 0.0); // since the worst has risen
+  const double wide = CostModel::PolishFactorOfSliding, few = CostModel::PolishFactorOfFew;
+  CostModel costs(Effort::Quick);
+  costs.open(1000, 100);
+  const double kept = costs.leftForPolish();
+  EXPECT_GT(costs.leftForPolish(wide), 2.0 * kept);
+  EXPECT_LT(costs.leftForPolish(few), 0.5 * kept);
+  costs.notePolish(1, 0.1);
+  costs.notePolish(static_cast<std::int64_t>(0.9 * kept), 0.1);
+  EXPECT_LE(costs.leftForPolish(few), 0.0); // since the worst has risen
+  EXPECT_GT(costs.leftForPolish(), 0.0);
+  costs.notePolish(static_cast<std::int64_t>(costs.leftForPolish(wide)) + 1, 0.1);
+  EXPECT_LE(costs.leftForPolish(wide), 0.0);
 }
 
 TEST(CostModel, AQuickRunMayWasteLess)

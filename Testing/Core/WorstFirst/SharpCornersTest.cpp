@@ -6,6 +6,7 @@
 #include "Optimize/Optimizer.h"
 
 #include <algorithm>
+#include <array>
 
 using namespace meshopt;
 
@@ -73,19 +74,32 @@ TEST(SharpCorners, OtherCornersStayAsTheyAre)
   EXPECT_EQ(divided(sliding, 1.0, AnyGrowth).done, 0);
 }
 
-/// A run divides them where its first part has not reached the target, and ends higher.
-TEST(SharpCorners, ARunDividesThem)
+/// Runs divide them where their first parts have not reached the target, and end higher (three
+/// blades together: what one run does depends on small things, too).
+TEST(SharpCorners, RunsDivideThem)
 {
-  Sliding sliding(blade(0.03, 0.1), tolerance(0.03));
-  NodalMetric<3> metric;
-  Options options;
-  options.growthBudget = 30.0;
-  options.effort = Effort::Quick;
-  const Report report = optimize<3>(sliding.mesh, metric, options, {}, &sliding.surface);
-  expectSound(sliding.mesh);
-  EXPECT_LE(sliding.surface.distance(sliding.mesh), 0.03);
-  const auto first = std::find_if(report.history.begin(), report.history.end(),
-    [](const PassRecord& row) { return row.stage == "edges at corners divided"; });
-  ASSERT_NE(first, report.history.end());
-  EXPECT_GT(report.worstAfter, 1.02 * (first - 1)->worst);
+  constexpr std::array<double, 2> blades[] = { { 0.04, 0.1 }, { 0.06, 0.05 }, { 0.06, 0.1 } };
+  double before = 0.0, after = 0.0;
+  int divided = 0;
+  for (const auto [half, height] : blades)
+  {
+    Sliding sliding(blade(half, height), tolerance(0.01));
+    NodalMetric<3> metric;
+    Options options;
+    options.growthBudget = 30.0;
+    options.effort = Effort::Quick;
+    const Report report = optimize<3>(sliding.mesh, metric, options, {}, &sliding.surface);
+    expectSound(sliding.mesh);
+    EXPECT_LE(sliding.surface.distance(sliding.mesh), 0.01);
+    const auto first = std::find_if(report.history.begin(), report.history.end(),
+      [](const PassRecord& row) { return row.stage == "edges at corners divided"; });
+    if (first != report.history.end())
+    {
+      ++divided;
+      before += (first - 1)->worst;
+      after += report.worstAfter;
+    }
+  }
+  EXPECT_GE(divided, 2);
+  EXPECT_GT(after, 1.1 * before);
 }
