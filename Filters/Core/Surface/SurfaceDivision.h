@@ -73,7 +73,7 @@ struct SurfaceDivision
     std::vector<Index> points;
     bool isClosed = false;
     bool isSharp = true;  ///< all its edges have two facets that exceed the feature angle
-    bool isFixed = false; ///< an edge where the surface touches itself
+    bool isFixed = false; ///< an edge where the surface touches itself, or between locked facets
     bool isLine = false;  ///< its edges have a number of SurfaceOptions::lines
   };
   /// The plane of a flat patch.
@@ -131,6 +131,7 @@ private:
   bool fits(const std::vector<Index>& facets, Plane& plane) const;
   void findCorners(const SurfaceOptions& options);
   bool isTouching(const Edge& edge) const;
+  bool isLocked(const Edge& edge) const;
   bool isPinched(Index p, const std::vector<Index>& facets, const std::vector<Index>& edges) const;
   bool turns(Index p, const std::vector<Index>& curves, double angle) const;
   std::vector<Index> signature(Index edge) const;

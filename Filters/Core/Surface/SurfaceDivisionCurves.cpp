@@ -35,6 +35,13 @@ bool SurfaceDivision::isTouching(const Edge& edge) const
   return outer > 2;
 }
 
+/// Whether all facets at it stay as they are. (Then its ends are fixed, and it is a chain alone.)
+bool SurfaceDivision::isLocked(const Edge& edge) const
+{
+  return std::all_of(this->incidences_.begin() + edge.first, this->incidences_.begin() + edge.last,
+    [this](Index k) { return this->facets[k].isLocked; });
+}
+
 /// Whether the surface touches itself at point p. `around`: its facets; `curves`: its edges on
 /// curves, none or two. There must be one fan of facets around a point of a patch, and one from
 /// curve to curve for each facet at a curve.
@@ -210,7 +217,8 @@ void SurfaceDivision::findChains()
     {
       used[e] = 1;
       chain.isSharp = chain.isSharp && this->edges_[e].isSharp;
-      chain.isFixed = chain.isFixed || this->isTouching(this->edges_[e]);
+      chain.isFixed = chain.isFixed || this->isTouching(this->edges_[e]) ||
+        this->isLocked(this->edges_[e]);
       chain.isLine = chain.isLine || this->edges_[e].label != None;
       const std::array<Index, 2>& nodes = this->edges_[e].nodes;
       p = nodes[0] == p ? nodes[1] : nodes[0];

@@ -306,6 +306,46 @@ TEST(SurfaceDivision, FacetsThatLieOnEachOtherAreLocked)
   }
 }
 
+/// Nothing there may change: to measure its room would be in vain, and takes long in a mesh whose
+/// cells share no points.
+TEST(SurfaceDivision, AnEdgeBetweenLockedFacetsIsNoCurve)
+{
+  const MeshInput<3> grid = jitteredGrid<3>(2, 0.0);
+  MeshInput<3> apart;
+  std::size_t wanted = 0;
+  for (const Simplex<3>& cell : grid.cells)
+  {
+    const auto first = static_cast<Index>(apart.points.size());
+    apart.cells.push_back({ first, first + 1, first + 2, first + 3 });
+    std::array<bool, 4> isOuter; // the facet opposite each node
+    for (int i = 0; i < 4; ++i)
+    {
+      apart.points.push_back(grid.points[cell[i]]);
+      isOuter[i] = false;
+      for (int d = 0; d < 3; ++d)
+      {
+        for (const double side : { 0.0, 1.0 })
+        {
+          const auto lies = [&](int k) { return k == i || grid.points[cell[k]][d] == side; };
+          isOuter[i] = isOuter[i] || (lies(0) && lies(1) && lies(2) && lies(3));
+        }
+      }
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        wanted += isOuter[i] || isOuter[j]; // an edge lies in the two facets opposite the others
+      }
+    }
+  }
+  SurfaceOptions options;
+  options.tolerance = 1e-2;
+  const Sliding made(apart, options);
+  EXPECT_EQ(made.surface.numberOfCurves(), wanted);
+  EXPECT_LT(wanted, 6 * apart.cells.size());
+}
+
 TEST(SurfaceDivision, WhereTheSurfaceTouchesItselfIsACorner)
 {
   MeshInput<3> in = jitteredGrid<3>(2, 0.0);

@@ -299,7 +299,8 @@ std::string DescribeTwins(const meshopt::SlidingSurface& surface)
   return n == 0 ? ""
                 : std::to_string(n) +
       " facets of the surface lie on other facets but have points of their own: the lips of a "
-      "closed crack, or two blocks. They stay as they are, so that they stay together.";
+      "closed crack, or two blocks. They stay as they are, so that they stay together. If points "
+      "are doubled by mistake, the filter Clean to Grid joins them.";
 }
 
 } // namespace vtkMeshOptimizeBridge
