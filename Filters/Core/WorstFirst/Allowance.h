@@ -98,9 +98,10 @@ private:
   double polishFactor() const
   {
     const Workpiece<D, Shape>& workpiece = this->workpiece_;
-    return !workpiece.slides()         ? 1.0
-      : workpiece.run().polishesWidely ? CostModel::PolishFactorOfSliding
-                                       : CostModel::PolishFactorOfFew;
+    return !workpiece.slides() ? 1.0
+      : workpiece.run().polishesWidely
+      ? CostModel::PolishFactorOfSliding
+      : CostModel::PolishFactorOfFew[static_cast<int>(workpiece.effort())];
   }
   /// Limited where there is hope: see Workpiece::isFarBelowBound().
   long mostLooks() const

@@ -107,9 +107,11 @@ public:
   /// Factors of what polishing may spend where the surface takes part. There a change costs more,
   /// and polishing widely helps longer: with 2, needles of CGAL end 2 % lower; without any limit
   /// random solids take twice as long. To divide edges at the few worst cells helps more than to
-  /// polish these alone: without a limit surfaces of CGAL take an eighth longer and random solids
-  /// twice as long, and end no higher.
-  static constexpr double PolishFactorOfSliding = 4.0, PolishFactorOfFew = 0.15;
+  /// polish these alone, by effort: without a limit surfaces of CGAL take a tenth longer and random
+  /// solids twice as long, and end no higher.
+  static constexpr double PolishFactorOfSliding = 4.0;
+  static constexpr double PolishFactorOfFew[] = { 0.4, 0.15, 0.15 };
+  static_assert(std::size(PolishFactorOfFew) == NumberOfEfforts);
   /// What the next pass may spend; nothing if less than 0.
   double leftForPolish(double factor = 1.0) const
   {

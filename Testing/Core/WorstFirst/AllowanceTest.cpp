@@ -102,8 +102,8 @@ TEST(Allowance, IsLimitedWhereARunOnASlidingSurfacePolishes)
     EXPECT_EQ(allowance.evaluations(Phase::Polishing),
       costs.leftForPolish(CostModel::PolishFactorOfSliding));
     bench.run.polishesWidely = false;
-    EXPECT_EQ(
-      allowance.evaluations(Phase::Polishing), costs.leftForPolish(CostModel::PolishFactorOfFew));
+    EXPECT_EQ(allowance.evaluations(Phase::Polishing),
+      costs.leftForPolish(CostModel::PolishFactorOfFew[static_cast<int>(effort)]));
     allowance.endLimits(); // past the target
     EXPECT_EQ(allowance.evaluations(Phase::Polishing), Any);
   }

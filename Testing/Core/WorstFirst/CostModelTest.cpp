@@ -64,12 +64,12 @@ TEST(CostModel, PastTheTargetNothingIsLimited)
 
 TEST(CostModel, WhatPolishingMaySpendHasAFactor)
 {
-  const double wide = CostModel::PolishFactorOfSliding, few = CostModel::PolishFactorOfFew;
+  const double wide = CostModel::PolishFactorOfSliding, few = CostModel::PolishFactorOfFew[0];
   CostModel costs(Effort::Quick);
   costs.open(1000, 100);
   const double kept = costs.leftForPolish();
   EXPECT_GT(costs.leftForPolish(wide), 2.0 * kept);
-  EXPECT_LT(costs.leftForPolish(few), 0.5 * kept);
+  EXPECT_LT(costs.leftForPolish(few), 0.8 * kept);
   costs.notePolish(1, 0.1);
   costs.notePolish(static_cast<std::int64_t>(0.9 * kept), 0.1);
   EXPECT_LE(costs.leftForPolish(few), 0.0); // since the worst has risen
