@@ -24,7 +24,7 @@ void restore(Run<D>& run, const SimplexMesh<D>& mesh);
 
 /// Improves the worst cells with another effort and with a part of the growth that is left
 /// (optimizeWorstFirst()). `surface`: that of the run. If facets pass through others then
-/// (Surface::refuseCrossings()), does the same once more from the mesh before.
+/// (Surface::refuseCrossings()), does the same again from the mesh before, up to MostRepeats times.
 template <int D>
 void optimizeOnSurface(
   Run<D>& run, Surface<D>& surface, Effort effort, double part, bool polishesWidely);

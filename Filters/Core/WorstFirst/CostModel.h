@@ -104,12 +104,13 @@ public:
     this->sinceRise_.note(static_cast<double>(evaluations), worst);
     this->spentInAll_ += static_cast<double>(evaluations);
   }
-  /// Factors of what polishing may spend where the surface takes part. There a change costs more,
-  /// and polishing widely helps longer: with 2, needles of CGAL end 2 % lower; without any limit
-  /// random solids take twice as long. To divide edges at the few worst cells helps more than to
-  /// polish these alone, by effort: without a limit surfaces of CGAL take a tenth longer and random
-  /// solids twice as long, and end no higher.
+  /// What polishing may spend where the surface takes part, in times of what it may elsewhere: the
+  /// `factor` of leftForPolish(). There a change costs more, and polishing widely helps longer: with
+  /// 2, needles of CGAL end 2 % lower; without any limit random solids take twice as long.
   static constexpr double PolishFactorOfSliding = 4.0;
+  /// The same between divisions of edges, for the few worst cells alone, by effort. Another division
+  /// helps more: without a limit surfaces of CGAL take a tenth longer and random solids twice as
+  /// long, and end no higher. With each effort these are about as many evaluations.
   static constexpr double PolishFactorOfFew[] = { 0.4, 0.15, 0.15 };
   static_assert(std::size(PolishFactorOfFew) == NumberOfEfforts);
   /// What the next pass may spend; nothing if less than 0.
