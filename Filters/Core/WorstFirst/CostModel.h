@@ -105,8 +105,8 @@ public:
     this->spentInAll_ += static_cast<double>(evaluations);
   }
   /// What polishing may spend where the surface takes part, in times of what it may elsewhere: the
-  /// `factor` of leftForPolish(). There a change costs more, and polishing widely helps longer: with
-  /// 2, needles of CGAL end 2 % lower; without any limit random solids take twice as long.
+  /// `factor` of leftForPolish(). There a change costs more, and polishing widely helps longer:
+  /// with 2, needles of CGAL end 2 % lower; without any limit random solids take twice as long.
   static constexpr double PolishFactorOfSliding = 4.0;
   /// The same between divisions of edges, for the few worst cells alone, by effort. Another division
   /// helps more: without a limit surfaces of CGAL take a tenth longer and random solids twice as
