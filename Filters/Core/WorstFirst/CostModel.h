@@ -108,9 +108,9 @@ public:
   /// `factor` of leftForPolish(). There a change costs more, and polishing widely helps longer:
   /// with 2, needles of CGAL end 2 % lower; without any limit random solids take twice as long.
   static constexpr double PolishFactorOfSliding = 4.0;
-  /// The same between divisions of edges, for the few worst cells alone, by effort. Another division
-  /// helps more: without a limit surfaces of CGAL take a tenth longer and random solids twice as
-  /// long, and end no higher. With each effort these are about as many evaluations.
+  /// The same between divisions of edges, for the few worst cells alone, by effort. There another
+  /// division helps more: without a limit surfaces of CGAL take a tenth longer and random solids
+  /// twice as long, and end no higher. With each effort these are about as many evaluations.
   static constexpr double PolishFactorOfFew[] = { 0.4, 0.15, 0.15 };
   static_assert(std::size(PolishFactorOfFew) == NumberOfEfforts);
   /// What the next pass may spend; nothing if less than 0.
