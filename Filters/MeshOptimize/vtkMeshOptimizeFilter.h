@@ -31,6 +31,9 @@
  * - point data: a point that has not moved keeps its values. For other points, floating point
  *   arrays are interpolated in the input cell that contains the point (constants are exact, linear
  *   fields up to rounding); all other arrays take the value of the nearest node of that cell.
+ *   Arrays of boundary conditions (Constraint, Traction) stay 0 inside: those that are 0 at all
+ *   points inside and all over some facet of the surface. (Of integers, also if no point is
+ *   inside. Not on several ranks.)
  * - cell data: a new cell takes the values of the input cell whose place it takes.
  * - global ids: points and cells of the input keep them; new ones have -1. The array is no longer
  *   the active global id array, since ids that are unique over blocks and processes cannot be made

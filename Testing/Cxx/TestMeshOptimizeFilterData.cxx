@@ -471,4 +471,27 @@ TEST_P(MeshOptimizeFilterData, GhostCellsComeOutAsTheyWentIn)
     SameFacets(KeptFacets(input), KeptFacets(output))); // ghosts and the others still fit together
 }
 
+// vtkStringArray::GetTuples() loses the second value of each tuple.
+TEST_P(MeshOptimizeFilterData, PairsOfStringsStay)
+{
+  Grid input = MakeBox(3, 0.2);
+  auto pairs = NewArray<vtkStringArray>("pairs", 2);
+  for (vtkIdType c = 0; c < input->GetNumberOfCells(); ++c)
+  {
+    pairs->InsertNextValue("first " + std::to_string(c));
+    pairs->InsertNextValue("second " + std::to_string(c));
+  }
+  input->GetCellData()->AddArray(pairs);
+  OptimizeFilter filter(GetParam());
+  ChangeNothing(filter.Get());
+  filter->SetInputData(input);
+  filter->Update();
+  auto after = filter->GetOutput()->GetCellData()->GetAbstractArray("pairs");
+  ASSERT_EQ(after->GetNumberOfValues(), pairs->GetNumberOfValues());
+  for (vtkIdType i = 0; i < pairs->GetNumberOfValues(); ++i)
+  {
+    EXPECT_EQ(after->GetVariantValue(i).ToString(), pairs->GetValue(i));
+  }
+}
+
 } // namespace

@@ -46,6 +46,7 @@ struct Model
   /// Lines that ride on it: the same with two points.
   std::vector<std::pair<std::array<meshopt::Index, 2>, vtkIdType>> RidingLines;
   std::vector<NodeSetArray> NodeSets; ///< the same
+  std::vector<int> Conditions; ///< indices of point arrays: vtkMeshOptimizeConditions.h
 };
 
 } // namespace vtkMeshOptimizeBridge

@@ -3,11 +3,12 @@
 // point: a mean of two ids is no id.
 #include "Grid/vtkMeshOptimizeTransfer.h"
 
+#include "vtkMeshBridgeTuples.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
-#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
@@ -28,27 +29,6 @@ bool IsFloating(vtkAbstractArray* array)
 bool IsNamed(vtkAbstractArray* array, const char* name)
 {
   return array->GetName() && std::strcmp(array->GetName(), name) == 0;
-}
-
-/**
- * An array like `source`; its tuple i is tuple ids[i] of `source`.
- * (vtkDataSetAttributes::CopyData() drops global ids or makes them active again, and points need
- * more than copies.)
- */
-vtkSmartPointer<vtkAbstractArray> Gather(vtkAbstractArray* source, vtkIdList* ids)
-{
-  vtkSmartPointer<vtkAbstractArray> array = vtkSmartPointer<vtkAbstractArray>::Take(
-    vtkAbstractArray::CreateArray(source->GetDataType()));
-  array->SetName(source->GetName());
-  array->SetNumberOfComponents(source->GetNumberOfComponents());
-  array->SetNumberOfTuples(ids->GetNumberOfIds());
-  array->CopyComponentNames(source);
-  if (source->HasInformation())
-  {
-    array->CopyInformation(source->GetInformation(), 1);
-  }
-  source->GetTuples(ids, array);
-  return array;
 }
 
 /**
@@ -141,7 +121,8 @@ void ListSources(const OutputMap& map, const std::vector<Sample>& samples, bool 
 
 /**
  * Ids belong to a point, values to its place: a point that has moved keeps the first and gets
- * others of the second.
+ * others of the second. (vtkDataSetAttributes::CopyData() drops global ids or makes them active
+ * again, and points need more than copies.)
  */
 void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
   const std::vector<Sample>& samples, vtkDataSetAttributes* output)
@@ -155,7 +136,8 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
     const int attribute = input->IsArrayAnAttribute(i);
     const bool isIdentity = attribute == vtkDataSetAttributes::GLOBALIDS ||
       attribute == vtkDataSetAttributes::PEDIGREEIDS;
-    vtkSmartPointer<vtkAbstractArray> array = Gather(source, isIdentity ? byIdentity : byPlace);
+    vtkSmartPointer<vtkAbstractArray> array = vtkMeshBridge::Select(
+      source, isIdentity ? byIdentity : byPlace);
     if (IsFloating(source) && !isIdentity)
     {
       for (std::size_t k = 0; k < samples.size(); ++k)
@@ -204,7 +186,7 @@ void TransferCellData(
     {
       continue;
     }
-    vtkSmartPointer<vtkAbstractArray> array = Gather(source, sources);
+    vtkSmartPointer<vtkAbstractArray> array = vtkMeshBridge::Select(source, sources);
     if (input->IsArrayAnAttribute(i) == vtkDataSetAttributes::GLOBALIDS)
     {
       FillNew(array, map.NumberOfOldCells, -1.0);

@@ -2,6 +2,7 @@
 // One grid from input to output, as steps that read like the header says: each is one call.
 #include "OneGrid/vtkMeshOptimizeRun.h"
 
+#include "Boundary/vtkMeshOptimizeConditions.h"
 #include "Boundary/vtkMeshOptimizeRiding.h"
 #include "Boundary/vtkMeshOptimizeSets.h"
 #include "Boundary/vtkMeshOptimizeSurface.h"
@@ -153,9 +154,10 @@ void Export(const Request& request, const typename SurfaceOf<D>::type& surface, 
     samples = SampleInput(model, map);
   }
   TransferPointData(input->GetPointData(), map, samples, output->GetPointData());
+  // After the other data: what was interpolated in arrays of conditions and sets is overwritten.
+  ClearConditionsInside(model, map, output->GetPointData());
   if (request.Slide)
   {
-    // After the other data: what was interpolated in the arrays of sets is overwritten.
     TransferNodeSets(model, surface, map, output->GetPointData());
   }
   TransferCellData(input->GetCellData(), map, output->GetCellData());
@@ -234,6 +236,7 @@ std::string OptimizeSimplices(
   outcome.NumberOfReorientedCells = model.Mesh.numberOfReorientedCells();
   outcome.Overlap = DescribeOverlap(model.Mesh);
   outcome.Twins = DescribeTwins(surface);
+  FindConditions(model);
   if (request.OptimizeBelow > 0.0)
   {
     OptimizeZone<D>(request, surface, model, outcome);

@@ -7,7 +7,6 @@
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
-#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkStringArray.h"
 
@@ -264,28 +263,10 @@ Schema Schema::From(Reader& reader)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source)
-{
-  auto array = vtkSmartPointer<vtkAbstractArray>::Take(
-    vtkAbstractArray::CreateArray(source->GetDataType()));
-  array->SetName(source->GetName());
-  array->SetNumberOfComponents(source->GetNumberOfComponents());
-  array->CopyComponentNames(source);
-  // Information tells units, for example, which a copy must keep.
-  if (source->HasInformation())
-  {
-    array->CopyInformation(source->GetInformation(), 1);
-  }
-  return array;
-}
-
 vtkSmartPointer<vtkAbstractArray> Select(
   vtkAbstractArray* source, const std::vector<vtkIdType>& ids)
 {
-  vtkSmartPointer<vtkAbstractArray> array = MakeLike(source);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(ids.size()));
-  source->GetTuples(MakeList(ids), array);
-  return array;
+  return vtkMeshBridge::Select(source, MakeList(ids));
 }
 
 Part MakePart(int corners, const Schema& points, const Schema& cells)

@@ -7,6 +7,7 @@
 #define vtkMeshRanksPart_h
 
 #include "Ranks/vtkMeshRanksExchange.h"
+#include "vtkMeshBridgeTuples.h"
 
 #include "Mesh/Types.h"
 
@@ -95,10 +96,7 @@ struct Part
   const double* GetPoint(vtkIdType p) const { return &this->Coordinates[3 * p]; }
 };
 
-/**
- * An array without tuples that has the name, type, components and information of another.
- */
-vtkSmartPointer<vtkAbstractArray> MakeLike(vtkAbstractArray* source);
+using vtkMeshBridge::MakeLike;
 
 /**
  * A part of the tuples `ids` of `source`, as an array of its own.
