@@ -52,11 +52,14 @@ constexpr double AimAboveWorst = 1.3, LeastAim = 0.3, NearTarget = 0.9;
 constexpr const char* CrossingUndone = "crossing facets undone"; ///< in the history
 
 /// Improves the worst cells with another effort and with a part of the growth that is left.
+/// `toBeat`: see Run.
 template <int D>
-void optimizeWith(const Run<D>& all, Effort effort, double part, bool polishesWidely, double target)
+void optimizeWith(const Run<D>& all, Effort effort, double part, bool polishesWidely, double target,
+  double toBeat = 0.0)
 {
   Run<D> run = all;
   run.target = target;
+  run.toBeat = toBeat;
   run.effort = effort;
   run.polishesWidely = polishesWidely;
   run.limitGrowth(part);
@@ -162,7 +165,7 @@ void SurfaceRounds<D>::divideAndOptimize(
     const bool isKnown = std::find(inVain.begin(), inVain.end(), divided) != inVain.end();
     if (made.isDivided && !isKnown && !run.clock.hasStopped())
     {
-      optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely, this->aim(worst));
+      optimizeWith<D>(run, effort, PartOfGrowth, polishesWidely, this->aim(worst), worst);
     }
     if (!made.isDivided && !made.isCoarser)
     {

@@ -34,6 +34,9 @@ struct Run
   bool dividesEdges = false;      ///< of the surface, past the first part of the run
   double bound = 1.0;             ///< of the worst quality, certified, where the surface takes part
   double target = options.targetQuality; ///< of the part at work: divisions aim at less
+  /// The worst quality before a division, or 0: what follows begins just above it, and ends if that
+  /// is out of reach.
+  double toBeat = 0.0;
 
   const SimplexMesh<D>& mesh() const { return this->editor.mesh(); }
 

@@ -35,9 +35,12 @@ namespace meshopt
 ///
 /// Beside a sharp edge inside a patch, what stands for one side reaches into the prisms of the
 /// other, and is turned away there, or too high. Such a facet must be within the tolerance of other
-/// facets of the reference (isNear()); and R must be covered as far as before, by area. Areas prove
-/// less than heights: they do not see facets that overlap, and where the border moves with a curve,
-/// a strip of the width that the curve may move is allowed for.
+/// facets of the reference (isNear()); and R must be covered as far as before, by area. Or so must
+/// the area that stands for R, less what is turned away: as seen along the normal, each point has
+/// as many facets that look up, less those that look down, as before, so a fold may be smoothed,
+/// which takes as much of both. Areas prove less than heights: they do not see facets that overlap,
+/// and where the border moves with a curve, a strip of the width that the curve may move is allowed
+/// for.
 class ReferenceSurface
 {
 public:
@@ -125,6 +128,9 @@ private:
   bool isFlatOn(const Facet& r, const Piece& piece, double allowed) const;
   bool isNear(const Piece& piece, const std::vector<int>& near, double part = 1.0) const;
   bool isInsideOut(const Piece& piece, const std::vector<int>& near) const;
+  bool isLow(const Piece& piece) const;
+  bool turnsInsideOut(const std::vector<Piece>& gone, const std::vector<Piece>& come,
+    const std::vector<int>& near) const;
   double room(const Facet& f, std::vector<int>& near) const;
   /// The same, if only sheets up to a distance are looked at.
   double roomWithin(double distance, const Facet& f, std::vector<int>& near) const;

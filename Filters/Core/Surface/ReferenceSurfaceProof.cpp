@@ -202,12 +202,12 @@ bool ReferenceSurface::covers(
   }
   for (std::size_t k = 0; k < come.size(); ++k)
   {
-    if ((unclear[k] && !this->isNear(come[k], near)) || this->isInsideOut(come[k], near))
+    if (unclear[k] && !this->isNear(come[k], near))
     {
       return false;
     }
   }
-  return true;
+  return !this->turnsInsideOut(gone, come, near);
 }
 
 /// The same for one facet of the reference. Notes in `unclear` which of `come` are turned away from
@@ -255,20 +255,28 @@ bool ReferenceSurface::covers(const Facet& r, const std::vector<Piece>& gone,
   {
     return true; // those with the same border then cover the same points
   }
-  double after = 0.0, before = 0.0;
-  for (const Piece& piece : come)
+  // Facets that are turned away take part of what others cover: see the header.
+  struct Area
   {
-    const Heights h = this->heights(r, piece);
-    after += stands(h, allowed) ? h.area : 0.0;
-  }
-  for (const Piece& piece : gone)
+    double standing = 0.0, net = 0.0;
+  };
+  const auto covered = [&](const std::vector<Piece>& pieces, double most)
   {
-    const Heights h = this->heights(r, piece);
-    before += stands(h, r.tolerance) ? h.area : 0.0;
-  }
+    Area area;
+    for (const Piece& piece : pieces)
+    {
+      const Heights h = this->heights(r, piece);
+      const bool isTurned = h.most >= 0.0 && h.cosine < 0.0 && h.least <= Reach * r.tolerance;
+      area.standing += stands(h, most) ? h.area : 0.0;
+      area.net += stands(h, most) ? h.area : isTurned ? -h.area : 0.0;
+    }
+    return area;
+  };
+  const Area after = covered(come, allowed), before = covered(gone, r.tolerance);
   // Areas are doubled, and so is the strip along the border that may be missing.
   constexpr double rounding = 1e-9;
-  return after >= before - (rounding * r.q + 2.0 * sideways) * r.l;
+  const double strip = (rounding * r.q + 2.0 * sideways) * r.l;
+  return after.standing >= before.standing - strip || after.net >= before.net - strip;
 }
 
 /// Whether the facet would stand for all of a reference facet of any size: the usual case, and
@@ -326,6 +334,33 @@ bool ReferenceSurface::isNear(const Piece& piece, const std::vector<int>& near, 
   return true;
 }
 
+/// Whether more than before is inside out, by area; of facets that are not low, too. Parts of a
+/// facet may be so where the whole is not, and a mesh must find its way out of that.
+bool ReferenceSurface::turnsInsideOut(const std::vector<Piece>& gone,
+  const std::vector<Piece>& come, const std::vector<int>& near) const
+{
+  // Of all of them, and of those that are not low.
+  const auto areas = [&](const std::vector<Piece>& pieces)
+  {
+    std::array<double, 2> sums{ 0.0, 0.0 };
+    for (const Piece& piece : pieces)
+    {
+      const double area = this->isInsideOut(piece, near) ? normalOf(piece).norm() : 0.0;
+      sums[0] += area;
+      sums[1] += this->isLow(piece) ? 0.0 : area;
+    }
+    return sums;
+  };
+  const auto after = areas(come);
+  if (!(after[0] > 0.0))
+  {
+    return false; // the usual case
+  }
+  constexpr double rounding = 1.0 + 1e-9;
+  const auto before = areas(gone);
+  return after[0] > rounding * before[0] || after[1] > rounding * before[1];
+}
+
 /// Whether the reference nearest to the centre of a facet looks the other way, as beyond the tip of
 /// a sharp edge.
 bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& near) const
@@ -352,11 +387,17 @@ bool ReferenceSurface::isInsideOut(const Piece& piece, const std::vector<int>& n
   return away < this->tolerance_ * this->tolerance_ && same * away <= distance(false);
 }
 
-bool ReferenceSurface::isTurned(const Piece& piece) const
+/// Whether the facet is no higher than the tolerance.
+bool ReferenceSurface::isLow(const Piece& piece) const
 {
   const double longest = std::max({ (piece.x[1] - piece.x[0]).norm(),
     (piece.x[2] - piece.x[0]).norm(), (piece.x[2] - piece.x[1]).norm() });
-  if (normalOf(piece).norm() <= this->tolerance_ * longest)
+  return normalOf(piece).norm() <= this->tolerance_ * longest;
+}
+
+bool ReferenceSurface::isTurned(const Piece& piece) const
+{
+  if (this->isLow(piece))
   {
     return false;
   }

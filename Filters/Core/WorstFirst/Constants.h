@@ -21,6 +21,9 @@ inline constexpr double Stages[] = { 0.30, 0.45, 0.60, 0.64, 0.67, 0.69, 0.705, 
   0.75, 0.76 };
 /// More of them for the best effort where the surface of tetrahedra takes part.
 inline constexpr double StagesOfSliding[] = { 0.77, 0.78, 0.79, 0.80 };
+/// After a division the first stage is at BeatenBy times the worst quality before it, for the few
+/// cells that the division has made worse. The next is at AboveBeaten times that, or more.
+inline constexpr double BeatenBy = 1.02, AboveBeaten = 1.1;
 inline constexpr double SameTarget = 1e-9;    // targets that differ by less are the same
 inline constexpr int MaximumPasses = 10;      // of one stage
 inline constexpr int MostIdle = 2;            // stages in a row, past the target, without gain

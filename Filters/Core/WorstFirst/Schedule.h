@@ -56,10 +56,15 @@ std::vector<double> Schedule<D, Shape>::targets() const
 {
   const double target = this->workpiece_.target();
   std::vector<double> result;
+  const double first = BeatenBy * this->workpiece_.run().toBeat;
+  if (first > 0.0 && first < target)
+  {
+    result.push_back(first);
+  }
   for (double s : Stages)
   {
     // A little below the target, so that a stage equal to it is not run twice.
-    if (s < target - SameTarget)
+    if (s >= AboveBeaten * first && s < target - SameTarget)
     {
       result.push_back(s);
     }
@@ -104,7 +109,7 @@ void Schedule<D, Shape>::optimize()
 }
 
 /// Stage after stage up to the target, or beyond it. Polishes after the first stage, at the target,
-/// and after each stage above it. False if the run has to end.
+/// and after each stage above it. False if the run has to end, or has not beaten what it should.
 template <int D, class Shape>
 bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
 {
@@ -133,6 +138,11 @@ bool Schedule<D, Shape>::runStages(const std::vector<double>& targets)
     {
       // Nothing comes after the last stage: it may use the reserve.
       more = this->polish_.runAndRepair(target, k + 1 == targets.size());
+    }
+    // What comes next is for cells that are better: it seldom helps the worst.
+    if (k == 0 && workpiece.worst() < workpiece.run().toBeat)
+    {
+      return false;
     }
     // Past the target the run ends after some stages that did not lift the worst cell.
     const bool stuck = workpiece.worst() < before + Gain;

@@ -7,6 +7,7 @@
 #include "Optimize/Optimizer.h"
 #include "SlidingBoxes.h"
 #include "WorstFirst/EngineBench.h"
+#include "WorstFirst/WorstFirst.h"
 
 using namespace meshopt;
 
@@ -210,5 +211,23 @@ TEST(SurfaceRounds, DivisionsInVainEndWhenTheyHaveCostTooMuch)
     const std::size_t undone = rounds.rows("divisions undone").size();
     EXPECT_GE(undone, 3u);
     EXPECT_LT(undone, 6u);
+  }
+}
+
+/// After a division the few cells that it has made worse come first. If these do not reach what
+/// was there before, nothing more is spent on the others.
+TEST(SurfaceRounds, WhatDoesNotBeatTheMeshBeforeADivisionEndsEarly)
+{
+  for (double toBeat : { 0.0, 0.05, 0.8 })
+  {
+    Crossing surface;
+    Rounds rounds(surface);
+    rounds.bench.run.toBeat = toBeat;
+    optimizeWorstFirst<3>(rounds.bench.run);
+    const auto isSeen = [&](const std::string& stage) { return !rounds.rows(stage).empty(); };
+    EXPECT_EQ(isSeen("towards 0.82, pass 1"), toBeat == 0.8);
+    EXPECT_EQ(isSeen("towards 0.30, pass 1"), toBeat < 0.3);
+    EXPECT_EQ(isSeen("towards 0.90, pass 1"), toBeat < 0.3) << "to beat: " << toBeat;
+    EXPECT_LT(sortedQualities(rounds.bench.mesh).front(), 0.8);
   }
 }

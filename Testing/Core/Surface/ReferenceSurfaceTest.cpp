@@ -157,6 +157,35 @@ TEST(ReferenceSurface, AFoldIsRefused)
   EXPECT_FALSE(reference(flat, 0.1).covers(flat, folded));
 }
 
+/// A square of six facets with two nodes inside: if the left one is on the right, two of the facets
+/// are turned over.
+std::vector<Piece> squareWithTwoNodes(double left, double right)
+{
+  const Vec<3> a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0);
+  const Vec<3> p(left, 0.5, 0), q(right, 0.5, 0);
+  std::vector<Piece> pieces;
+  for (const std::array<Vec<3>, 3>& x : std::vector<std::array<Vec<3>, 3>>{
+         { a, p, d }, { a, q, p }, { a, b, q }, { b, c, q }, { c, p, q }, { c, d, p } })
+  {
+    pieces.push_back({ x, 0, 0 });
+  }
+  return pieces;
+}
+
+TEST(ReferenceSurface, AFoldMayBeSmoothedAndNotGrow)
+{
+  const auto flat = squareWithTwoNodes(0.3, 0.7), small = squareWithTwoNodes(0.52, 0.48),
+             large = squareWithTwoNodes(0.6, 0.4);
+  for (double tolerance : { 0.01, 0.2 })
+  {
+    const ReferenceSurface surface = reference(flat, tolerance);
+    EXPECT_TRUE(surface.covers(large, flat));
+    EXPECT_TRUE(surface.covers(large, small));
+    EXPECT_FALSE(surface.covers(small, large));
+    EXPECT_FALSE(surface.covers(flat, small));
+  }
+}
+
 TEST(ReferenceSurface, AThinWallKeepsItsThickness)
 {
   // Two sheets back to back, nearer to each other than the tolerance.

@@ -399,8 +399,8 @@ TEST(SlidingSurface, ASheetInsideOfARegionStaysWithinItsTolerance)
   EXPECT_LE(sampledDistance(surfaceOf(before), surfaceOf(slid.mesh), 4), tolerance);
 }
 
-/// A plate thinner than the tolerance: a facet that looks like its upper side lies at the lower
-/// one. Parts of it are the same points, but look the wrong way where the surface is nearest.
+/// A plate thinner than the tolerance: a facet of its upper side reaches down to the lower one.
+/// Parts of it are the same points, but one looks the wrong way where the surface is nearest.
 TEST(SlidingSurface, TurnedPartsOfAFacetAreRefused)
 {
   constexpr double thickness = 1e-3;
@@ -432,14 +432,12 @@ TEST(SlidingSurface, TurnedPartsOfAFacetAreRefused)
   {
     SurfaceChange<3> change;
     change.gone.push_back(upper);
-    for (Vec<3>& x : change.gone[0].x)
-    {
-      x[2] = isTurned ? 0.0 : thickness;
-    }
-    for (int k : { 0, 1 }) // halves
+    // The centre of the whole is nearer to the upper side, that of one half may be to the lower.
+    change.gone[0].x[2][2] = (isTurned ? -0.2 : 0.4) * thickness;
+    for (int k : { 0, 2 }) // halves
     {
       change.come.push_back(change.gone[0]);
-      change.come[k].x[k] = 0.5 * (change.gone[0].x[0] + change.gone[0].x[1]);
+      change.come.back().x[k] = 0.5 * (change.gone[0].x[0] + change.gone[0].x[2]);
     }
     EXPECT_EQ(plate.surface.allows(change), !isTurned);
   }
