@@ -25,6 +25,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -170,6 +171,7 @@ struct vtkMeshQualityMinMax::Run
   {
     return !this->Self->Controller || this->Self->Controller->GetNumberOfProcesses() == 1;
   }
+  std::string CheckOptions() const;
   std::string FindArrays();
   std::string Measure();
   std::string MeasureOnRanks();
@@ -228,19 +230,40 @@ void vtkMeshQualityMinMax::Run::PassBlock(
 }
 
 //------------------------------------------------------------------------------
-std::string vtkMeshQualityMinMax::Run::FindArrays()
+std::string vtkMeshQualityMinMax::Run::CheckOptions() const
 {
   if (!meshopt::isMeasure(this->Self->GetQualityMeasure()))
   {
     return "QualityMeasure is " + std::to_string(this->Self->GetQualityMeasure()) +
       ", which is none of the known measures.";
   }
+  // The macros of the setters bring numbers into their range, but let NaN pass.
+  const std::pair<const char*, double> numbers[] = { { "Beta", this->Options.Beta },
+    { "DesiredSize", this->Options.DesiredSize },
+    { "TargetQuality", this->Options.TargetQuality } };
+  for (const auto& [name, value] : numbers)
+  {
+    if (std::isnan(value))
+    {
+      return std::string(name) + " is not a number.";
+    }
+  }
+  return {};
+}
+
+//------------------------------------------------------------------------------
+std::string vtkMeshQualityMinMax::Run::FindArrays()
+{
   std::vector<vtkUnstructuredGrid*> grids;
   for (const quality::Block& block : this->Blocks)
   {
     grids.push_back(block.Mesh);
   }
-  std::string error = vtkMeshOptimizeBridge::CheckArraysAreThere(this->Self, grids);
+  std::string error = this->CheckOptions();
+  if (error.empty())
+  {
+    error = vtkMeshOptimizeBridge::CheckArraysAreThere(this->Self, grids);
+  }
   bool hasSizes = this->Options.DesiredSize > 0.0, hasCells = false;
   for (quality::Block& block : this->Blocks)
   {

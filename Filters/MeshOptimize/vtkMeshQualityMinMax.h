@@ -144,9 +144,9 @@ public:
 
   ///@{
   /**
-   * Number of bins of the histogram. >= 1; default 20.
+   * Number of bins of the histogram. 1 to 1 000 000; default 20.
    */
-  vtkSetClampMacro(NumberOfBins, int, 1, VTK_INT_MAX);
+  vtkSetClampMacro(NumberOfBins, int, 1, 1000000);
   vtkGetMacro(NumberOfBins, int);
   ///@}
 

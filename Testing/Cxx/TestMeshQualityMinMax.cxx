@@ -266,6 +266,49 @@ TEST(MeshQualityMinMax, MeasureMustBeOneOfTheTable)
   }
 }
 
+TEST(MeshQualityMinMax, NumbersThatAreNoneAreOneError)
+{
+  Grid grid = MakeRandom(20, 3);
+  using Set = void (vtkMeshQualityMinMax::*)(double);
+  const std::pair<const char*, Set> cases[] = { { "Beta", &vtkMeshQualityMinMax::SetBeta },
+    { "DesiredSize", &vtkMeshQualityMinMax::SetDesiredSize },
+    { "TargetQuality", &vtkMeshQualityMinMax::SetTargetQuality } };
+  for (const auto& [name, set] : cases)
+  {
+    SCOPED_TRACE(name);
+    vtkNew<vtkMeshQualityMinMax> filter;
+    const Messages messages(filter);
+    filter->SetInputData(grid);
+    (filter->*set)(std::nan(""));
+    filter->Update();
+    ASSERT_EQ(messages.Errors.size(), 1u);
+    EXPECT_TRUE(Says(messages.Errors[0], std::string(name) + " is not a number"));
+  }
+}
+
+TEST(MeshQualityMinMax, MetricsBeyondTheRangeOfNumbersAreAnError)
+{
+  Grid grid = MakeRandom(20, 3);
+  vtkNew<vtkDoubleArray> metric;
+  metric->SetName("metric");
+  metric->SetNumberOfComponents(6);
+  metric->SetNumberOfTuples(80);
+  for (int i = 0; i < 6; ++i)
+  {
+    metric->FillComponent(i, i < 3 ? 1.0 : 0.0);
+  }
+  // volumes in it are 0
+  metric->SetTuple6(17, 1e-250, 1e-250, 1e-250, 0, 0, 0);
+  grid->GetPointData()->AddArray(metric);
+  vtkNew<vtkMeshQualityMinMax> filter;
+  const Messages messages(filter);
+  filter->SetInputData(grid);
+  filter->SetMetricArray("metric");
+  filter->Update();
+  ASSERT_EQ(messages.Errors.size(), 1u);
+  EXPECT_TRUE(Says(messages.Errors[0], "at point 17"));
+}
+
 TEST(MeshQualityMinMax, SameBitsWithAnyNumberOfThreads)
 {
   Grid grid = MakeRandom(50000, 4);

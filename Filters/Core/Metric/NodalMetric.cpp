@@ -66,7 +66,8 @@ std::string NodalMetric<D>::set(const SimplexMesh<D>& mesh, const std::vector<do
       about = NodalValues::Tensors;
       std::ostringstream text;
       text << "The metric tensor at point " << p
-           << " is not symmetric, finite and positive definite.";
+           << " is not symmetric, finite and positive definite, with eigenvalues from 1e-200 to "
+              "1e200.";
       return text.str();
     }
   }

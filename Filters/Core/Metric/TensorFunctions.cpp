@@ -126,6 +126,12 @@ bool logarithm(const Tensor<D>& m, Tensor<D>& l)
     return false;
   }
   const Eigen::Vector3d logs = solver.eigenvalues().array().log() + std::log(norm);
+  // In 2D the third direction has the logarithm of the norm, which is no more than the others'.
+  constexpr double most = 460.5; // ln(1e200)
+  if (logs.minCoeff() < -most || logs.maxCoeff() > most)
+  {
+    return false;
+  }
   const Eigen::Matrix3d full = solver.eigenvectors() * logs.asDiagonal() *
     solver.eigenvectors().transpose();
   l = full.topLeftCorner<D, D>();

@@ -19,7 +19,7 @@ Tensor<D> exponential(const Tensor<D>& l);
 
 /// ln(m) of a symmetric positive definite tensor. Returns false, with `l` unchanged, if m is not
 /// finite, not symmetric (to 1e-9 of its norm), or has an eigenvalue that is not positive (to 1e-15
-/// of the greatest).
+/// of the greatest) or outside 1e-200 to 1e200: volumes measured in it would not fit into a double.
 template <int D>
 bool logarithm(const Tensor<D>& m, Tensor<D>& l);
 

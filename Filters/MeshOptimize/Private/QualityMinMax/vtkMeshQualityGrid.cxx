@@ -244,7 +244,7 @@ std::string Grid::ReadMetric(
   {
     std::ostringstream text;
     text << "The metric array '" << array->GetName() << "' is not symmetric, finite and positive "
-         << "definite at point " << firstBad << ".";
+         << "definite, with eigenvalues from 1e-200 to 1e200, at point " << firstBad << ".";
     return text.str();
   }
   return {};
