@@ -40,8 +40,17 @@ SizeStage<D>::SizeStage(Run<D>& run)
 template <int D>
 bool SizeStage<D>::goesOn()
 {
-  return this->run_.clock.goesOn(static_cast<double>(this->round_) / MaximumRounds,
-    [] { return std::string("making edges as long as wanted"); });
+  this->isStopped_ = this->isStopped_ ||
+    !this->run_.clock.goesOn(static_cast<double>(this->round_) / MaximumRounds,
+      [] { return std::string("making edges as long as wanted"); });
+  return !this->isStopped_;
+}
+
+/// To be asked before each edge or node: looks at the clock now and then.
+template <int D>
+bool SizeStage<D>::triesMore()
+{
+  return ++this->tries_ % TriesPerLook == 0 ? this->goesOn() : !this->isStopped_;
 }
 
 template <int D>

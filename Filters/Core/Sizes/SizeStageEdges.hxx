@@ -132,7 +132,8 @@ long SizeStage<D>::split()
   long done = 0, cells = this->mesh().countCells();
   long& cellsAtBrake = this->run_.report.sizes.cellsAtBrake;
   this->collectQueue(true);
-  while (!this->queue_.empty() && this->options_.insertNodes && cellsAtBrake == 0)
+  while (
+    !this->queue_.empty() && this->options_.insertNodes && cellsAtBrake == 0 && this->triesMore())
   {
     const Edge edge = this->queue_.top();
     this->queue_.pop();
@@ -145,10 +146,6 @@ long SizeStage<D>::split()
     // The brake is for good: cellsAtBrake also ends the splitting of later rounds.
     cellsAtBrake = cells > this->mostCells_ ? cells : 0;
     this->swapAround([this](Index c) { this->push(c, true); });
-    if (done % TriesPerLook == 0 && !this->goesOn())
-    {
-      break;
-    }
   }
   return done;
 }
@@ -215,7 +212,7 @@ long SizeStage<D>::contract()
   long done = 0;
   this->collectQueue(false);
   Proposal<D> best;
-  while (!this->queue_.empty() && this->options_.removeNodes)
+  while (!this->queue_.empty() && this->options_.removeNodes && this->triesMore())
   {
     const Edge edge = this->queue_.top();
     this->queue_.pop();
@@ -237,10 +234,6 @@ long SizeStage<D>::contract()
     }
     ++done;
     this->swapAround([this](Index c) { this->push(c, false); });
-    if (done % TriesPerLook == 0 && !this->goesOn())
-    {
-      break;
-    }
   }
   return done;
 }

@@ -137,7 +137,7 @@ void SizeStage<D>::smooth()
 {
   for (int sweep = 0; sweep < Sweeps && this->options_.moveNodes; ++sweep)
   {
-    for (Index v = 0; v < this->mesh().numberOfPointSlots(); ++v)
+    for (Index v = 0; v < this->mesh().numberOfPointSlots() && this->triesMore(); ++v)
     {
       if (!this->mesh().isPointAlive(v))
       {
@@ -160,7 +160,8 @@ template <int D>
 void SizeStage<D>::swapWhatChanged()
 {
   const std::uint32_t since = std::exchange(this->swappedAt_, this->editor_.clock());
-  for (Index c = 0; c < this->mesh().numberOfCellSlots() && this->options_.reconnect; ++c)
+  for (Index c = 0;
+       c < this->mesh().numberOfCellSlots() && this->options_.reconnect && this->triesMore(); ++c)
   {
     const auto isNew = [&](Index p) { return this->mesh().pointData(p).stamp > since; };
     // A swap may put a new cell into this slot: look at it again.

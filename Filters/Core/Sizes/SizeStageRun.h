@@ -57,7 +57,7 @@ constexpr long BrakeSlack = 1000;
 constexpr double MostPredicted = 1e9; // more than ids can number
 /// How far from its middle an edge is split at most: a pseudo-random fraction of its length.
 constexpr double Jitter = 0.1;
-constexpr long TriesPerLook = 256; // changes between two looks at the clock
+constexpr long TriesPerLook = 1024; // edges and nodes between two looks at the clock
 /// An edge is split only if its length is at least this fraction of every edge of the cells around
 /// it.
 constexpr double LongestFirst = 0.7;
@@ -148,6 +148,7 @@ private:
   double length(Index a, Index b) const;
   void record();
   bool goesOn();
+  bool triesMore();
 
   const SimplexMesh<D>& mesh() const { return this->editor_.mesh(); }
   Judge<D, Shape>& judge() { return this->improver_.judge(); }
@@ -163,6 +164,8 @@ private:
   bool tangled_;                      // cells may overlap
 
   int round_ = 0;
+  long tries_ = 0;           // edges and nodes, of all rounds
+  bool isStopped_ = false;   // by the caller, or out of time
   long mostCells_ = 0;       // the brake, see BrakeFactor
   double scale_ = 1.0;       // factor on h*, corrects the count
   double longest_ = Longest; // longer edges are split

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes that cannot be had: kept edges, sharp corners of a metric, metrics that turn too fast.
+// Sizes that cannot be had: kept edges, sharp corners of a metric, metrics that turn too fast, no
+// time.
 #include "Quality/Shape.h"
 #include "SizeRuns.h"
 
@@ -147,6 +148,28 @@ TEST(SizeLimits, SplittingHasABrake)
 
 // In a mesh of some ten triangles one node is a fifth of them: to correct the number to a few
 // percent made the worst element bad, and then the sizes were given up.
+/// A round of a large mesh takes long: what is left of it must not be done first.
+TEST(SizeLimits, NoTimeEndsARoundInItsMidst)
+{
+  const MeshInput<2> in = jitteredGrid<2>(60, 0.3);
+  const auto tried = [&](const Control& control)
+  {
+    long sum = 0;
+    for (const PassRecord& row :
+      optimized<2>(in, NodalMetric<2>(1.0 / 60), options(1.0), false, control).report.history)
+    {
+      sum += row.stage.rfind("sizes", 0) == 0
+        ? row.tried[static_cast<std::size_t>(Operation::NodeMotion)]
+        : 0;
+    }
+    return sum;
+  };
+  Control late;
+  late.deadline = deadlineIn(1e-9);
+  EXPECT_LT(10 * tried(late), tried({}));
+  EXPECT_LT(tried(late), static_cast<long>(in.points.size()) / 3);
+}
+
 TEST(SizeLimits, SmallMeshesGetTheirSizes)
 {
   for (unsigned seed : { 3, 18, 28 })
