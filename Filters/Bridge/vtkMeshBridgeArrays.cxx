@@ -7,6 +7,7 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
@@ -18,13 +19,6 @@ namespace vtkMeshBridge
 {
 namespace
 {
-
-bool IsInteger(vtkDataArray* array)
-{
-  // Characters and bits count as integers, too.
-  const int type = array->GetDataType();
-  return type != VTK_FLOAT && type != VTK_DOUBLE;
-}
 
 bool HasRightComponents(vtkDataArray* array, const ArrayRole& role)
 {
@@ -58,6 +52,21 @@ std::string DescribeComponents(const ArrayRole& role)
 }
 
 } // namespace
+
+//------------------------------------------------------------------------------
+bool HoldsIntegers(vtkDataArray* array)
+{
+  const int type = array->GetDataType();
+  return type != VTK_FLOAT && type != VTK_DOUBLE;
+}
+
+//------------------------------------------------------------------------------
+bool HoldsIds(vtkDataSetAttributes* data, int i)
+{
+  const int attribute = data->IsArrayAnAttribute(i);
+  return attribute == vtkDataSetAttributes::GLOBALIDS ||
+    attribute == vtkDataSetAttributes::PEDIGREEIDS;
+}
 
 //------------------------------------------------------------------------------
 bool IsWanted(vtkAlgorithm* filter, int index)
@@ -106,7 +115,7 @@ std::string CheckArray(vtkAbstractArray* found, const ArrayRole& role)
     "' has ";
   vtkDataArray* array = vtkDataArray::SafeDownCast(found);
   // Also arrays of strings: found by name, but no numbers.
-  if (!array || (role.IsInteger && !IsInteger(array)))
+  if (!array || (role.IsInteger && !HoldsIntegers(array)))
   {
     return title + "values of type " + found->GetDataTypeAsString() + "; " +
       (role.IsInteger ? "integers are needed." : "numbers are needed.");

@@ -14,6 +14,7 @@
 class vtkAbstractArray;
 class vtkAlgorithm;
 class vtkDataArray;
+class vtkDataSetAttributes;
 class vtkUnstructuredGrid;
 
 namespace vtkMeshBridge
@@ -30,6 +31,16 @@ struct ArrayRole
   bool IsInteger;                ///< otherwise any number
   std::array<int, 2> Components; ///< either number; second 0: only the first; { 0, 0 }: any
 };
+
+/**
+ * Whether values have no fractions. Characters and bits count as integers, too.
+ */
+bool HoldsIntegers(vtkDataArray* array);
+
+/**
+ * Whether array `i` names points or cells (global or pedigree ids), rather than telling about them.
+ */
+bool HoldsIds(vtkDataSetAttributes* data, int i);
 
 /**
  * Whether the caller of `filter` asked for the array of this index. ParaView's "None" means no.

@@ -2,6 +2,8 @@
 // The stop reason in words for the user.
 #include "Run/Report.h"
 
+#include "Bound/SurfaceBound.h"
+
 #include <cstdio>
 #include <utility>
 
@@ -55,6 +57,12 @@ std::string describeBound(const Report& report, const char* format)
 std::string describeStop(const Report& report)
 {
   std::string text = toString(report.stopReason);
+  // At its bound no cells would help the worst one, whatever the others need.
+  if (report.stopReason == StopReason::GrowthLimit && report.bound < 1.0 &&
+    report.worstAfter >= CapReached * report.bound)
+  {
+    text = "growth budget used up, and the worst cell is as good as it can be";
+  }
   const auto count = [&](Freedom freedom) { return report.worstNodes[static_cast<int>(freedom)]; };
   // From what moves least to what moves freely. Corners and fixed points are one kind to the
   // reader: neither slides.

@@ -47,6 +47,12 @@ TEST(Report, SaysHowNearTheBoundIsWhereTheSurfaceWasKept)
     report.bound = 0.08;
     EXPECT_EQ(describeStop(report), sentence + "; what is kept allows no more than 0.08");
   }
+  // The worst one is at the bound: more cells would not help it.
+  report.stopReason = StopReason::GrowthLimit;
+  report.worstAfter = report.bound = 0.08;
+  EXPECT_EQ(describeStop(report),
+    "growth budget used up, and the worst cell is as good as it can be; what is kept "
+    "allows no more than 0.08");
   // Where another reason ended the run, the bound is not it.
   for (const StopReason reason : { StopReason::TimeLimit, StopReason::CappedBySurface })
   {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/vtkMeshOptimizeConditions.h"
 
+#include "vtkMeshBridgeArrays.h"
+
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
@@ -82,15 +84,12 @@ void FindConditions(Model<D>& model)
   for (int k = 0; k < data->GetNumberOfArrays(); ++k)
   {
     vtkDataArray* array = data->GetArray(k);
-    const int attribute = data->IsArrayAnAttribute(k);
-    if (!array || attribute == vtkDataSetAttributes::GLOBALIDS ||
-      attribute == vtkDataSetAttributes::PEDIGREEIDS)
+    if (!array || vtkMeshBridge::HoldsIds(data, k))
     {
       continue;
     }
-    const bool isInteger = array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
     // Without points inside, a field of numbers with fractions may well be 0 on some facets.
-    if ((isInteger || !inside.empty()) &&
+    if ((vtkMeshBridge::HoldsIntegers(array) || !inside.empty()) &&
       std::all_of(inside.begin(), inside.end(), [&](Index p) { return IsZero(array, p); }) &&
       IsZeroOnSomeFacet(model.Mesh, array))
     {

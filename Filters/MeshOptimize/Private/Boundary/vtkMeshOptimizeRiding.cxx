@@ -5,6 +5,7 @@
 
 #include "Boundary/vtkMeshOptimizeRidingLines.h"
 
+#include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeValues.h"
 
 #include "vtkCellData.h"
@@ -213,11 +214,8 @@ std::vector<std::pair<Key, Index>> NumberByValues(
   for (int i = 0; i < data->GetNumberOfArrays() && !isChosen; ++i)
   {
     vtkDataArray* array = data->GetArray(i);
-    const int attribute = data->IsArrayAnAttribute(i);
-    const bool isId = attribute == vtkDataSetAttributes::GLOBALIDS ||
-      attribute == vtkDataSetAttributes::PEDIGREEIDS;
-    if (array && array->GetNumberOfComponents() == 1 && array->GetDataType() != VTK_FLOAT &&
-      array->GetDataType() != VTK_DOUBLE && !isId)
+    if (array && array->GetNumberOfComponents() == 1 && vtkMeshBridge::HoldsIntegers(array) &&
+      !vtkMeshBridge::HoldsIds(data, i))
     {
       arrays.push_back(array);
     }

@@ -6,6 +6,8 @@
 #include "Boundary/vtkMeshOptimizeRiding.h"
 #include "Grid/vtkMeshOptimizeTransfer.h"
 
+#include "vtkMeshBridgeArrays.h"
+
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
@@ -36,11 +38,6 @@ constexpr std::size_t MostValues = 4;
 
 using Values = std::vector<double>;
 
-bool IsInteger(vtkDataArray* array)
-{
-  return array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
-}
-
 /**
  * What tells points of one set from those of another: empty where there is none.
  */
@@ -58,7 +55,7 @@ Values ValueOf(vtkDataArray* array, vtkIdType p)
     return {};
   }
   // Numbers with fractions, such as those of a field, tell no sets apart: only 0 and not 0.
-  return IsInteger(array) ? values : Values{ 1.0 };
+  return vtkMeshBridge::HoldsIntegers(array) ? values : Values{ 1.0 };
 }
 
 std::vector<Index> ListSurfacePoints(const SimplexMesh<3>& mesh)
@@ -250,11 +247,9 @@ std::vector<std::uint32_t> FindNodeSets(Model<3>& model)
     for (int k = 0; k < data->GetNumberOfArrays(); ++k)
     {
       vtkDataArray* array = data->GetArray(k);
-      const int attribute = data->IsArrayAnAttribute(k);
       // Ids tell points apart: they are no sets.
-      const bool isId = attribute == vtkDataSetAttributes::GLOBALIDS ||
-        attribute == vtkDataSetAttributes::PEDIGREEIDS;
-      if (array && !isId && (array == model.Arrays.Patch) == (round == 0))
+      if (array && !vtkMeshBridge::HoldsIds(data, k) &&
+        (array == model.Arrays.Patch) == (round == 0))
       {
         NodeSetArray found;
         found.Array = k;

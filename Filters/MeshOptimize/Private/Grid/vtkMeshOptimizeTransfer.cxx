@@ -3,6 +3,7 @@
 // point: a mean of two ids is no id.
 #include "Grid/vtkMeshOptimizeTransfer.h"
 
+#include "vtkMeshBridgeArrays.h"
 #include "vtkMeshBridgeTuples.h"
 
 #include "vtkAbstractArray.h"
@@ -23,7 +24,8 @@ namespace
 
 bool IsFloating(vtkAbstractArray* array)
 {
-  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  vtkDataArray* numbers = vtkDataArray::SafeDownCast(array);
+  return numbers && !vtkMeshBridge::HoldsIntegers(numbers);
 }
 
 bool IsNamed(vtkAbstractArray* array, const char* name)
@@ -133,9 +135,7 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
   for (int i = 0; i < input->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* source = input->GetAbstractArray(i);
-    const int attribute = input->IsArrayAnAttribute(i);
-    const bool isIdentity = attribute == vtkDataSetAttributes::GLOBALIDS ||
-      attribute == vtkDataSetAttributes::PEDIGREEIDS;
+    const bool isIdentity = vtkMeshBridge::HoldsIds(input, i);
     vtkSmartPointer<vtkAbstractArray> array = vtkMeshBridge::Select(
       source, isIdentity ? byIdentity : byPlace);
     if (IsFloating(source) && !isIdentity)
@@ -146,7 +146,7 @@ void TransferPointData(vtkDataSetAttributes* input, const OutputMap& map,
           map.SampledPoints[k]);
       }
     }
-    if (attribute == vtkDataSetAttributes::GLOBALIDS)
+    if (input->IsArrayAnAttribute(i) == vtkDataSetAttributes::GLOBALIDS)
     {
       FillNew(array, map.NumberOfOldPoints, -1.0);
     }
