@@ -69,6 +69,28 @@ bool HoldsIds(vtkDataSetAttributes* data, int i)
 }
 
 //------------------------------------------------------------------------------
+bool IsOfEarlierRun(vtkAbstractArray* array)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  return name == "MeshQuality" || name == "MinimumDihedralAngle";
+}
+
+//------------------------------------------------------------------------------
+int AddBesideOthers(vtkAbstractArray* array, vtkDataSetAttributes* data)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  std::string free = name;
+  while (!free.empty() && data->HasArray(free.c_str()))
+  {
+    free += " "; // for a moment only
+  }
+  array->SetName(free.empty() ? nullptr : free.c_str());
+  const int place = data->AddArray(array);
+  array->SetName(name.empty() ? nullptr : name.c_str());
+  return place;
+}
+
+//------------------------------------------------------------------------------
 bool IsWanted(vtkAlgorithm* filter, int index)
 {
   vtkInformation* wanted = filter->GetInputArrayInformation(index);

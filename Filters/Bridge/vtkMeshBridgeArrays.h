@@ -43,6 +43,17 @@ bool HoldsIntegers(vtkDataArray* array);
 bool HoldsIds(vtkDataSetAttributes* data, int i);
 
 /**
+ * Whether this array of cells is what a run, or vtkMeshQualityMinMax, has added: the qualities of
+ * cells that are others now.
+ */
+bool IsOfEarlierRun(vtkAbstractArray* array);
+
+/**
+ * Adds an array also if there is one of its name, which VTK would replace. Returns its index.
+ */
+int AddBesideOthers(vtkAbstractArray* array, vtkDataSetAttributes* data);
+
+/**
  * Whether the caller of `filter` asked for the array of this index. ParaView's "None" means no.
  */
 bool IsWanted(vtkAlgorithm* filter, int index);

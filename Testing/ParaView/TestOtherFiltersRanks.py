@@ -109,6 +109,24 @@ def test_plane():
     check(compare("plane", f.GetOutput(), f, serial.GetOutput(), serial, 1e-10) > 60, "plane: few values")
 
 
+def test_loose_points():
+    """A rank that has points and no cells, with the array or without, or a triangle where others have tetrahedra."""
+    mesh = mesh_with_solution()
+    serial = metric_on(mesh.whole(), False)
+    for kind in ("with the array", "without", "with a triangle"):
+        grid = mesh.whole()
+        if rank > 0:
+            cells = [[0, 1, 2]] if kind == "with a triangle" else np.zeros((0, 4), int)
+            grid = make_grid(mesh.x[:9], np.array(cells))
+            if kind != "without":
+                add(grid.GetPointData(), "u", mesh.points["u"][:9])
+        f = metric_on(grid)
+        check(f.GetErrorCode() == 0 and f.told == [], f"loose points, {kind}: {f.told}")
+        for figure in RESULTS:
+            a, b = getattr(f, "Get" + figure)(), getattr(serial, "Get" + figure)()
+            check(a == b or abs(a - b) <= 1e-12 * abs(b), f"loose points, {kind}: {figure} {a}, alone {b}")
+
+
 def test_ghosts_and_faces():
     """Copies that ghost flags mark get the values of what they are copies of; a rank with nothing but lines, or nothing, goes along."""
     mesh = mesh_with_solution()

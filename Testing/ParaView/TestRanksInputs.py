@@ -207,6 +207,37 @@ def test_folded():
         check(rank > 0 or "borders" in history(f)["Stage"], f"folded {ids} {options}: no rounds")
 
 
+def points_only(mesh, arrays=()):
+    """Some points of the mesh, and no cells."""
+    grid = make_grid(mesh.x[:40], np.zeros((0, 4), int))
+    for name in arrays:
+        add(grid.GetPointData(), name, mesh.points[name][:40])
+    return grid
+
+
+def test_arrays():
+    """Qualities of an earlier run are left out, arrays that share a name are not; a rank of loose points lacks the others' arrays."""
+    mesh = Mesh(n=6)
+    mesh.points["linear"] = mesh.x @ [1.0, 2.0, 3.0]
+    for name, value in (("MinimumDihedralAngle", 0.5), ("mat", 7), ("load", 3.25)):
+        mesh.values[name] = np.full(len(mesh.cells), value)
+    grid = mesh.piece()
+    grid.GetCellData().GetArray("load").SetName("mat")
+    data = run(grid).GetOutput().GetCellData()
+    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+    found = [(a.GetName(), *a.GetRange()) for a in arrays if a.GetName() in ("mat", "MinimumDihedralAngle")]
+    check(found == [("mat", 7.0, 7.0), ("mat", 3.25, 3.25)], f"arrays: {found}")
+    for names in ([], ["linear"]):
+        f = run(mesh.whole() if rank == 0 else points_only(mesh, names))
+        out = f.GetOutput()
+        check(f.GetErrorCode() == 0 and f.told == [], f"loose points, {names}: {f.told}")
+        linear, x = vtk_to_numpy(out.GetPointData().GetArray("linear")), vtk_to_numpy(out.GetPoints().GetData())
+        used = np.unique(vtk_to_numpy(out.GetCells().GetConnectivityArray()))
+        check(np.abs(linear - x @ [1.0, 2.0, 3.0])[used].max(initial=0) < 1e-12, f"loose points, {names}: data")
+        count = sum(gather(count=np.array([out.GetNumberOfPoints() - len(used)]))["count"])[0]
+        check(count == 40 * (ranks - 1), f"loose points, {names}: {count} of {40 * (ranks - 1)}")
+
+
 def test_copies():
     """Each rank has a mesh of the whole body, with ids or without, or one of its own: no pieces of one mesh. Their borders are kept."""
     for name in ("same", "with ids", "with other cells"):

@@ -24,6 +24,11 @@ constexpr double RoomOfGaps = 0.25;
 /// then farther away each time, since with a large tolerance most of the surface is in reach.
 constexpr double LeastReach = 1e-3, WiderReach = 4.0;
 static_assert(RoomOfWalls <= RoomOfGaps); // room() relies on it
+/// The limits of a point are sought for this part of its motion at first, then for twice as much
+/// each time; no farther once there are more than MostLimits. With a tolerance of many facets'
+/// length a point has thousands, each of which would be compared with all others.
+constexpr double LeastMotion = 1.0 / 64.0;
+constexpr std::size_t MostLimits = 128;
 }
 
 void ReferenceSurface::add(
@@ -205,13 +210,36 @@ std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x, double most) co
   return limits;
 }
 
+std::vector<RoomLimit> ReferenceSurface::fewLimits(const Vec<3>& x, double most) const
+{
+  for (double motion = LeastMotion * most;; motion = std::min(most, 2.0 * motion))
+  {
+    std::vector<RoomLimit> limits = this->limits(x, motion);
+    keepBinding(motion, limits);
+    if (motion == most)
+    {
+      return limits;
+    }
+    if (limits.size() > MostLimits)
+    {
+      // A cube of such motions: all are shorter than `motion`, for which the others do not matter.
+      for (int i = 0; i < 3; ++i)
+      {
+        limits.push_back({ Vec<3>::Unit(i), motion / std::sqrt(3.0), true });
+      }
+      return limits;
+    }
+  }
+}
+
 Vec<3> ReferenceSurface::withinRoom(const Vec<3>& x, const Vec<3>& to, double most) const
 {
   const Vec<3> move = to - x;
   const double off = move.norm();
   // One factor for the whole way: the point stays on the straight line.
   double part = off > most ? most / off : 1.0;
-  for (const RoomLimit& limit : this->limits(x, most))
+  // What is too far for this motion is not looked at.
+  for (const RoomLimit& limit : this->limits(x, std::min(off, most)))
   {
     part = std::min(part, limit.part(move));
   }

@@ -66,6 +66,8 @@ public:
   /// same parts of their distance. Where two sides of a thin region meet at an acute angle, none
   /// faces x: there the same part of the mean thickness.
   std::vector<RoomLimit> limits(const Vec<3>& x, double most) const;
+  /// Those of them that no others imply. Where that would be hundreds, x may move less far instead.
+  std::vector<RoomLimit> fewLimits(const Vec<3>& x, double most) const;
   /// The farthest point on the way from x, a point of the surface, to `to`, that keeps these limits
   /// and is at most `most` away from x.
   Vec<3> withinRoom(const Vec<3>& x, const Vec<3>& to, double most) const;

@@ -207,8 +207,7 @@ void SlidingSurface::addCurves(MeshEditor<3>& editor, const SurfaceDivision& div
     {
       // An edge that is farther from the curve is refused for that: see follows().
       const double most = 1.01 * this->curveRoom();
-      limits.push_back(this->reference_.limits(points[k], most));
-      keepBinding(most, limits.back());
+      limits.push_back(this->reference_.fewLimits(points[k], most));
     }
     SpaceCurve curve(std::move(points), chain.isClosed);
     curve.setLimits(std::move(limits));

@@ -75,18 +75,7 @@ void FillNew(vtkAbstractArray* abstract, vtkIdType first, double value)
 void AddArray(
   vtkDataSetAttributes* input, int index, vtkAbstractArray* array, vtkDataSetAttributes* output)
 {
-  // VTK would replace an array of the same name, and this one's data would be lost.
-  const std::string name = array->GetName() ? array->GetName() : "";
-  const bool isSecond = !name.empty() && output->HasArray(name.c_str());
-  if (isSecond)
-  {
-    array->SetName((name + " " + std::to_string(index)).c_str());
-  }
-  const int place = output->AddArray(array);
-  if (isSecond)
-  {
-    array->SetName(name.c_str());
-  }
+  const int place = vtkMeshBridge::AddBesideOthers(array, output);
   const int attribute = input->IsArrayAnAttribute(index);
   if (attribute >= 0 && attribute != vtkDataSetAttributes::GLOBALIDS)
   {
@@ -182,7 +171,7 @@ void TransferCellData(
   {
     vtkAbstractArray* source = input->GetAbstractArray(i);
     // Those of the input's cells, which are others; the filter adds new ones.
-    if (IsNamed(source, "MeshQuality") || IsNamed(source, "MinimumDihedralAngle"))
+    if (vtkMeshBridge::IsOfEarlierRun(source))
     {
       continue;
     }

@@ -2,6 +2,8 @@
 // Between the parts of a divided mesh and grids, which a run reads and writes.
 #include "Ranks/vtkMeshRanksPart.h"
 
+#include "vtkMeshBridgeArrays.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
@@ -34,7 +36,7 @@ void AddArrays(const Arrays& arrays, const Schema& schema, vtkDataSetAttributes*
 {
   for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    const int place = data->AddArray(arrays[i]);
+    const int place = vtkMeshBridge::AddBesideOthers(arrays[i], data);
     // What is active stays active: colours and later filters go by it.
     if (schema.Attributes[i] >= 0)
     {
@@ -131,6 +133,38 @@ Arrays ReadArrays(vtkDataSetAttributes* data, std::size_t n)
   return arrays;
 }
 
+/**
+ * The arrays of the schema, each at the chosen points or cells. What a rank lacks, which may have
+ * points but no cells, is 0 there.
+ */
+void Choose(vtkDataSetAttributes* data, const Schema& schema, const std::vector<vtkIdType>& chosen,
+  Arrays& arrays)
+{
+  int next = 0; // the schema lists arrays in the order of the grid, which may have others between
+  for (std::size_t a = 0; a < schema.Arrays.size(); ++a)
+  {
+    const char* name = schema.Arrays[a]->GetName();
+    const auto isIt = [&](const char* other)
+    { return name && other ? !std::strcmp(name, other) : name == other; }; // both may have none
+    int i = next;
+    while (i < data->GetNumberOfArrays() && !isIt(data->GetAbstractArray(i)->GetName()))
+    {
+      ++i;
+    }
+    if (i < data->GetNumberOfArrays())
+    {
+      arrays[a] = Select(data->GetAbstractArray(i), chosen);
+      next = i + 1;
+      continue;
+    }
+    arrays[a]->SetNumberOfTuples(static_cast<vtkIdType>(chosen.size()));
+    if (auto numbers = vtkDataArray::SafeDownCast(arrays[a]))
+    {
+      numbers->Fill(0.0);
+    }
+  }
+}
+
 void ReadCells(vtkUnstructuredGrid* grid, Part& part)
 {
   const vtkIdType n = grid->GetNumberOfCells();
@@ -216,25 +250,8 @@ Part ReadPiece(vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& simplice
   part.Home.assign(simplices.size(), 0);
   part.Kept.assign(simplices.size(), 0);
   part.Hint.assign(part.PointIds.size(), -1);
-  const auto choose = [](vtkDataSetAttributes* data, const Schema& schema,
-                        const std::vector<vtkIdType>& chosen, Arrays& arrays)
-  {
-    // The schema lists arrays in the order of the grid, so that one walk finds them all.
-    std::size_t a = 0;
-    for (int i = 0; i < data->GetNumberOfArrays() && a < schema.Arrays.size(); ++i)
-    {
-      vtkAbstractArray* array = data->GetAbstractArray(i);
-      const char* name = schema.Arrays[a]->GetName();
-      // Unnamed arrays match each other: a missing name equals a missing name.
-      if (name && array->GetName() ? !std::strcmp(name, array->GetName())
-                                   : name == array->GetName())
-      {
-        arrays[a++] = Select(array, chosen);
-      }
-    }
-  };
-  choose(grid->GetPointData(), points, pointsOfGrid, part.PointArrays);
-  choose(grid->GetCellData(), cells, simplices, part.CellArrays);
+  Choose(grid->GetPointData(), points, pointsOfGrid, part.PointArrays);
+  Choose(grid->GetCellData(), cells, simplices, part.CellArrays);
   return part;
 }
 

@@ -3,6 +3,8 @@
 // the user go along: what comes out must not depend on the number of ranks.
 #include "Ranks/vtkMeshRanksPart.h"
 
+#include "vtkMeshBridgeArrays.h"
+
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -183,7 +185,7 @@ vtkIdType BytesOf(vtkDataArray* array)
 } // namespace
 
 //------------------------------------------------------------------------------
-Schema Schema::Of(vtkDataSetAttributes* data, const char* without)
+Schema Schema::Of(vtkDataSetAttributes* data, Qualities qualities)
 {
   Schema schema;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
@@ -193,7 +195,8 @@ Schema Schema::Of(vtkDataSetAttributes* data, const char* without)
     // Array names may be missing. An empty name stands for none.
     const std::string name = array->GetName() ? array->GetName() : "";
     // Global ids are those of the part itself, and none of its cells is a ghost.
-    if (attribute != vtkDataSetAttributes::GLOBALIDS && name != without &&
+    const bool isLeftOut = qualities == Qualities::LeftOut && vtkMeshBridge::IsOfEarlierRun(array);
+    if (attribute != vtkDataSetAttributes::GLOBALIDS && !isLeftOut &&
       name != vtkDataSetAttributes::GhostArrayName())
     {
       schema.Arrays.push_back(MakeLike(array));

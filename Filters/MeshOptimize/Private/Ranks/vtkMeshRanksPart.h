@@ -62,8 +62,13 @@ struct Schema
   std::vector<vtkSmartPointer<vtkAbstractArray>> Arrays;
   std::vector<int> Attributes; ///< of vtkDataSetAttributes; -1: none
 
-  /// All arrays but global ids and those of this name.
-  static Schema Of(vtkDataSetAttributes* data, const char* without);
+  enum class Qualities
+  {
+    Listed,
+    LeftOut ///< of cells, in a run: it makes new ones
+  };
+  /// All arrays but global ids and ghost types.
+  static Schema Of(vtkDataSetAttributes* data, Qualities qualities = Qualities::Listed);
   /// Equal if parts of both ranks can be joined: all but the information keys, as bytes.
   Bytes Describe() const;
   /// From such bytes.

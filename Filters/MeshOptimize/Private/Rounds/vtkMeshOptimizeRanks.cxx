@@ -110,7 +110,9 @@ std::string CompareArrays(const Ranks& ranks, vtkUnstructuredGrid* input)
       vtkDataSetAttributes* data = input->GetAttributes(kind);
       // Global ids are no part of a schema, but all ranks must have them, or none.
       Put(arrays, data->GetGlobalIds() != nullptr);
-      const Bytes schema = Schema::Of(data, kind == 1 ? "MeshQuality" : "").Describe();
+      const Bytes schema = Schema::Of(
+        data, kind == 1 ? Schema::Qualities::LeftOut : Schema::Qualities::Listed)
+                             .Describe();
       arrays.insert(arrays.end(), schema.begin(), schema.end());
     }
   }

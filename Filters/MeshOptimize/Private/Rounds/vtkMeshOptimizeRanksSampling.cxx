@@ -84,7 +84,9 @@ public:
   Box GetBox() const
   {
     Box box;
-    for (vtkIdType p = 0; p < this->Grid->GetNumberOfPoints(); ++p)
+    // Where there are no cells, nothing can be sampled: nobody is to ask.
+    const vtkIdType n = this->Grid->GetNumberOfCells() > 0 ? this->Grid->GetNumberOfPoints() : 0;
+    for (vtkIdType p = 0; p < n; ++p)
     {
       double x[3];
       this->Grid->GetPoint(p, x);

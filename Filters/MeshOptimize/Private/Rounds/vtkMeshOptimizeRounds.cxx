@@ -99,8 +99,8 @@ std::string Rounds::Read(
   Bytes schemas;
   if (count > 0)
   {
-    schemas = Schema::Of(input->GetPointData(), "").Describe();
-    const Bytes cells = Schema::Of(input->GetCellData(), "MeshQuality").Describe();
+    schemas = Schema::Of(input->GetPointData()).Describe();
+    const Bytes cells = Schema::Of(input->GetCellData(), Schema::Qualities::LeftOut).Describe();
     schemas.insert(schemas.end(), cells.begin(), cells.end());
   }
   for (const Bytes& bytes : this->All.Gather(schemas))
@@ -116,8 +116,8 @@ std::string Rounds::Read(
   // Described and read again they would lose their information keys.
   if (count > 0) // with the arrays' information keys, which are not sent
   {
-    this->Points = Schema::Of(input->GetPointData(), "");
-    this->Cells = Schema::Of(input->GetCellData(), "MeshQuality");
+    this->Points = Schema::Of(input->GetPointData());
+    this->Cells = Schema::Of(input->GetCellData(), Schema::Qualities::LeftOut);
   }
   this->FirstCell = this->All.Gather(count);
   this->CellsAtFirst = this->All.Sum(static_cast<vtkIdType>(simplices.size()));

@@ -219,7 +219,7 @@ void SendBack(const Ranks& ranks, const Part& whole, vtkUnstructuredGrid* result
       const bool exists = found != whole.PointIds.end() && *found == place;
       place = exists ? found - whole.PointIds.begin() : 0;
     }
-    const Schema schema = Schema::Of(result->GetPointData(), "");
+    const Schema schema = Schema::Of(result->GetPointData());
     const Bytes names = schema.Describe();
     answers[r].insert(answers[r].end(), names.begin(), names.end());
     for (int i = 0; i < result->GetPointData()->GetNumberOfArrays(); ++i)
