@@ -289,7 +289,7 @@ int vtkMeshOptimizeFilter::RequestData(
     CountPieces(outputVector->GetInformationObject(0)),
     CountGhostLevels(outputVector->GetInformationObject(0)) };
   // What all ranks know is told by the first.
-  const bool isTold = bridge::HasRanks(ports) && this->Controller->GetLocalProcessId() > 0;
+  const bool isTold = bridge::HasPieces(ports) && this->Controller->GetLocalProcessId() > 0;
   Results results;
   bridge::Request request;
   std::string error;

@@ -238,6 +238,27 @@ def test_arrays():
         check(count == 40 * (ranks - 1), f"loose points, {names}: {count} of {40 * (ranks - 1)}")
 
 
+def test_kept_borders():
+    """Where borders are kept, errors and results still are those of all ranks, and the first tells them."""
+    mesh = Mesh(n=6)
+    for broken in (False, True):
+        grid = mesh.piece()
+        grid.InsertNextCell(3, 2, [0, 1])  # VTK_LINE: borders are kept
+        if broken and rank == ranks - 1:
+            ids = grid.GetCell(4).GetPointIds()
+            grid.InsertNextCell(10, 4, [ids.GetId(i) for i in range(4)])  # the same tetrahedron again
+        f = run(grid)
+        told = [text for text in f.told if "borders between the ranks' pieces are kept" not in text]
+        check(len({tuple(row) for row in gather(figures=figures_of(f))["figures"]}) == 1, f"kept, {broken}: figures differ by rank")
+        if broken:
+            check(f.GetErrorCode() != 0 and f.GetOutput().GetNumberOfCells() == 0, f"kept: no error, {f.GetOutput().GetNumberOfCells()} cells")
+            check(len(told) == (rank == 0) and all(f"Rank {ranks - 1}: Cells 4 and" in text for text in told), f"kept: {told}")
+            continue
+        q = vtk_to_numpy(f.GetOutput().GetCellData().GetArray("MeshQuality"))
+        worst = min(gather(worst=np.array([np.nanmin(q)]))["worst"])[0]
+        check(abs(worst - f.GetWorstQualityAfter()) < 1e-12, f"kept: worst {f.GetWorstQualityAfter()}, not {worst}")
+
+
 def test_copies():
     """Each rank has a mesh of the whole body, with ids or without, or one of its own: no pieces of one mesh. Their borders are kept."""
     for name in ("same", "with ids", "with other cells"):

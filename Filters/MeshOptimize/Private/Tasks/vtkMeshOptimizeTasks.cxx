@@ -7,6 +7,7 @@
 #include "OneGrid/vtkMeshOptimizeRun.h"
 #include "Ranks/vtkMeshRanksBlocks.h"
 #include "Rounds/vtkMeshOptimizeRanks.h"
+#include "Tasks/vtkMeshOptimizePieces.h"
 #include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeCells.h"
 #include "vtkMeshBridgeControl.h"
@@ -70,7 +71,9 @@ std::vector<vtkUnstructuredGrid*> GridsOf(const std::vector<Task>& tasks)
 std::string CheckRequest(const Request& request, std::vector<Task>& tasks)
 {
   const std::vector<vtkUnstructuredGrid*> grids = GridsOf(tasks);
-  bool hasSizes = false;
+  // Where there are no cells, nothing needs a size: other ranks, or times, may have both.
+  bool hasSizes = std::all_of(grids.begin(), grids.end(),
+    [](vtkUnstructuredGrid* grid) { return grid->GetNumberOfCells() == 0; });
   for (Task& task : tasks)
   {
     const std::string error = FindInputArrays(request.Filter, task.Input, task.Arrays);
@@ -109,22 +112,19 @@ std::string CheckRequest(const Request& request, std::vector<Task>& tasks)
   return error.empty() ? request.Options.check(hasSizes) : error;
 }
 
-/**
- * Whether all ranks have been asked for their pieces of one mesh.
- */
+} // namespace
+
+//------------------------------------------------------------------------------
 bool HasPieces(const Ports& ports)
 {
   return ports.Controller && ports.Controller->GetNumberOfProcesses() > 1 &&
     ports.NumberOfPieces == ports.Controller->GetNumberOfProcesses();
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-bool HasRanks(const Ports& ports) { return ports.OptimizeBorders && HasPieces(ports); }
-
 namespace
 {
+
+bool HasRanks(const Ports& ports) { return ports.OptimizeBorders && HasPieces(ports); }
 
 /**
  * The border of a piece is not a boundary of the mesh, so it cannot slide.
@@ -233,37 +233,13 @@ std::string OptimizeWhole(const Ports& ports, Request& request, std::vector<Task
   return {};
 }
 
-} // namespace
-
-//------------------------------------------------------------------------------
-std::string OptimizeAll(const Ports& ports, Request request, Outcome& outcome)
+/**
+ * Optimizes the grids one after the other. `volumes`: see FindPiecesOfVolumes().
+ */
+std::string OptimizeGrids(const Ports& ports, Request request, std::vector<Task>& tasks,
+  const std::vector<char>& volumes, Outcome& outcome)
 {
-  const std::string unfit = CheckPieces(ports, request);
-  if (!unfit.empty())
-  {
-    return unfit;
-  }
-  std::vector<Task> tasks = ListTasks(request.Filter, ports.Input, ports.Output);
   const bool isComposite = vtkDataObjectTree::SafeDownCast(ports.Input) != nullptr;
-  if (HasRanks(ports))
-  {
-    std::string obstacle;
-    const std::string error = OptimizeWhole(ports, request, tasks, outcome, obstacle);
-    if (!error.empty() || obstacle.empty())
-    {
-      return error;
-    }
-    if (request.Slide)
-    {
-      return "The boundary mode Slide cannot be used on several ranks here: " + obstacle + ".";
-    }
-    if (ports.Controller->GetLocalProcessId() == 0)
-    {
-      vtkWarningWithObjectMacro(
-        request.Filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
-    }
-  }
-  const std::vector<char> volumes = FindPiecesOfVolumes(ports, tasks);
   std::string error = CheckRequest(request, tasks);
   if (!error.empty())
   {
@@ -301,6 +277,51 @@ std::string OptimizeAll(const Ports& ports, Request request, Outcome& outcome)
     outcome.Add(one);
   }
   return {};
+}
+
+} // namespace
+
+//------------------------------------------------------------------------------
+std::string OptimizeAll(const Ports& ports, Request request, Outcome& outcome)
+{
+  const std::string unfit = CheckPieces(ports, request);
+  if (!unfit.empty())
+  {
+    return unfit;
+  }
+  std::vector<Task> tasks = ListTasks(request.Filter, ports.Input, ports.Output);
+  if (HasRanks(ports))
+  {
+    std::string obstacle;
+    const std::string error = OptimizeWhole(ports, request, tasks, outcome, obstacle);
+    if (!error.empty() || obstacle.empty())
+    {
+      return error;
+    }
+    if (request.Slide)
+    {
+      return "The boundary mode Slide cannot be used on several ranks here: " + obstacle + ".";
+    }
+    if (ports.Controller->GetLocalProcessId() == 0)
+    {
+      vtkWarningWithObjectMacro(
+        request.Filter, << "The borders between the ranks' pieces are kept: " << obstacle << ".");
+    }
+  }
+  const std::vector<char> volumes = FindPiecesOfVolumes(ports, tasks);
+  const auto optimize = [&](Outcome& all)
+  { return OptimizeGrids(ports, request, tasks, volumes, all); };
+  if (!HasPieces(ports))
+  {
+    return optimize(outcome);
+  }
+  const std::string error = OptimizePieces(ports.Controller, optimize, outcome);
+  // The field data of a grid alone are figures of the piece so far.
+  if (error.empty() && !vtkDataObjectTree::SafeDownCast(ports.Output))
+  {
+    AddFigures(outcome, ports.Output);
+  }
+  return error;
 }
 
 } // namespace vtkMeshOptimizeBridge

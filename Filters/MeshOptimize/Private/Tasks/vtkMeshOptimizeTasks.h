@@ -32,9 +32,10 @@ struct Ports
 };
 
 /**
- * Whether all ranks have been asked for their pieces of one mesh, and the borders take part.
+ * Whether all ranks have been asked for their pieces of one mesh. Errors and results are then those
+ * of all.
  */
-bool HasRanks(const Ports& ports);
+bool HasPieces(const Ports& ports);
 
 /**
  * Optimizes all grids. Returns an empty string, or a sentence about the first unusable thing.
