@@ -124,4 +124,13 @@ std::string TitleOf(vtkDataObject* input, const Block& block)
                                                 : std::string();
 }
 
+void MakeEmpty(vtkDataObject* output)
+{
+  output->Initialize();
+  if (auto grid = vtkUnstructuredGrid::SafeDownCast(output))
+  {
+    grid->AllocateExact(0, 0);
+  }
+}
+
 } // namespace vtkMeshBridge

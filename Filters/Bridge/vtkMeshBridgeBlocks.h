@@ -30,6 +30,12 @@ struct Block
 };
 
 /**
+ * What an output is after an error. VTK's writer of binary files ends the process at a grid that
+ * has no array of cell types, as Initialize() alone leaves it.
+ */
+void MakeEmpty(vtkDataObject* output);
+
+/**
  * For FillInputPortInformation(): a grid, or a tree of grids.
  */
 void AcceptBlocks(vtkInformation* info);

@@ -312,7 +312,7 @@ int vtkMeshOptimizeFilter::RequestData(
   }
   if (!error.empty())
   {
-    ports.Output->Initialize();
+    vtkMeshBridge::MakeEmpty(ports.Output);
     ports.History->Initialize();
     results = Results();
   }

@@ -6,6 +6,7 @@
 #include "QualityMinMax/vtkMeshQualityRanks.h"
 #include "QualityMinMax/vtkMeshQualityReport.h"
 #include "Request/vtkMeshOptimizeArrays.h"
+#include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeGridView.h"
 #include "vtkMeshBridgeVTKCompat.h"
 
@@ -483,7 +484,7 @@ int vtkMeshQualityMinMax::RequestData(
     run.Options = quality::Options(); // the measure may be none
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
     {
-      vtkDataObject::GetData(outputVector, port)->Initialize();
+      vtkMeshBridge::MakeEmpty(vtkDataObject::GetData(outputVector, port));
     }
     // Returning 0 would make the executive add an error of its own. What all ranks know is told
     // by the first.

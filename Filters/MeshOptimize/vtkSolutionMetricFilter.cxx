@@ -271,7 +271,7 @@ int vtkSolutionMetricFilter::RequestData(
       {
         vtkErrorMacro(<< title << problem);
       }
-      block.Output->Initialize();
+      vtkMeshBridge::MakeEmpty(block.Output);
       outcome = solution::Outcome();
     }
     if (!isTold)

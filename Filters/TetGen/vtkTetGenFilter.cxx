@@ -2,6 +2,7 @@
 // Properties, the call of TetGen, and what its failures mean.
 #include "vtkTetGenFilter.h"
 
+#include "vtkMeshBridgeBlocks.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkTetGenChild.h"
 #include "vtkTetGenExport.h"
@@ -99,6 +100,17 @@ int vtkTetGenFilter::FillInputPortInformation(int port, vtkInformation* info)
  */
 std::string vtkTetGenFilter::CheckOptions()
 {
+  // The macros of the setters bring numbers into their range, but let NaN pass.
+  const std::pair<const char*, double> numbers[] = { { "MaximumVolume", this->MaximumVolume },
+    { "MaximumRadiusEdgeRatio", this->MaximumRadiusEdgeRatio },
+    { "MinimumDihedralAngle", this->MinimumDihedralAngle } };
+  for (const auto& [name, value] : numbers)
+  {
+    if (std::isnan(value))
+    {
+      return std::string(name) + " is not a number.";
+    }
+  }
   if (this->MaximumRadiusEdgeRatio > 0.0 && this->MaximumRadiusEdgeRatio < 1.0)
   {
     std::ostringstream text;
@@ -342,7 +354,7 @@ int vtkTetGenFilter::RequestData(
   {
     vtkWarningMacro(<< "A block of type " << vtkDataObject::GetData(inputVector[0])->GetClassName()
                     << " was skipped: it is not a vtkPolyData.");
-    output->Initialize();
+    vtkMeshBridge::MakeEmpty(output);
     return 1;
   }
   if (input->GetNumberOfPoints() == 0 && input->GetNumberOfCells() == 0)
@@ -364,7 +376,7 @@ int vtkTetGenFilter::RequestData(
     // Returning 0 would make the executive add an error of its own.
     vtkErrorMacro(<< error);
     this->SetErrorCode(vtkErrorCode::UserError);
-    output->Initialize();
+    vtkMeshBridge::MakeEmpty(output);
   }
   return 1;
 }

@@ -327,7 +327,7 @@ int vtkThermoelasticFilter::RequestData(
     }
     else
     {
-      block.Output->Initialize();
+      vtkMeshBridge::MakeEmpty(block.Output);
       history->Initialize();
     }
   }
@@ -360,7 +360,7 @@ void vtkThermoelasticFilter::Solve(const std::string& title, vtkUnstructuredGrid
   {
     this->ErrorCode = vtkErrorCode::UserError;
     vtkErrorMacro(<< title << error);
-    output->Initialize();
+    vtkMeshBridge::MakeEmpty(output);
     history->Initialize();
     // Results of an earlier run must not stay beside an error.
     outcome = bridge::Outcome();

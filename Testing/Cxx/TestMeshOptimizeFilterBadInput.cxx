@@ -285,6 +285,8 @@ TEST_P(MeshOptimizeFilterBadInput, FixedPointArray)
   const auto fixed = [](vtkMeshOptimizeFilter* f) { f->SetFixedPointArray("a"); };
   ExpectError(WithArray<vtkIntArray>(true, "a", 1, 1), { "fixed point array 'a'", "point" }, fixed);
   ExpectError(WithArray<vtkStringArray>(false, "a", 1, 1), { "fixed point array 'a'" }, fixed);
+  ExpectError(WithArray<vtkFloatArray>(false, "a", 1, std::nan("")),
+    { "fixed point array 'a' at point 0 is not a number" }, fixed);
 }
 
 TEST_P(MeshOptimizeFilterBadInput, SizeArray)

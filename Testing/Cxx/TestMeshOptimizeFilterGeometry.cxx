@@ -2,6 +2,7 @@
 // Lines and corners that a boundary of triangles follows: the second input, arrays of corners.
 #include "BoundaryTesting.h"
 
+#include "vtkFeatureEdges.h"
 #include "vtkIntArray.h"
 #include "vtkPolyData.h"
 #include "vtkRegularPolygonSource.h"
@@ -131,6 +132,30 @@ TEST(MeshOptimizeFilterGeometry, PointsOfTheGeometryMayBeTwiceButForRounding)
   filter->Update();
   EXPECT_EQ(messages.Errors, NoMessages);
   EXPECT_LT(OutOfRound(filter->GetOutput()), 1e-4);
+}
+
+/**
+ * The plane of a mesh is no more exact than its coordinates.
+ */
+TEST(MeshOptimizeFilterGeometry, FloatsFarAwayAreInTheirPlane)
+{
+  const auto map = [](double x, double y) {
+    return Point{ { 0.9 * x + 1000.0, 0.3 * x + 0.8 * y + 1000.0, 0.2 * x - y + 1000.0 } };
+  };
+  Grid square = MakeSquare(6, 0.1, map, VTK_FLOAT);
+  vtkNew<vtkPolyData> surface;
+  surface->SetPoints(square->GetPoints());
+  surface->SetPolys(square->GetCells());
+  vtkNew<vtkFeatureEdges> edges;
+  edges->SetInputData(surface);
+  edges->Update();
+  WorstFirst filter;
+  Messages messages(filter);
+  filter->SetInputData(square);
+  filter->SetBoundaryModeToSlide();
+  filter->SetGeometryData(edges->GetOutput());
+  filter->Update();
+  EXPECT_EQ(messages.Errors, NoMessages);
 }
 
 TEST(MeshOptimizeFilterGeometry, CornersOfTheGeometryMustBePointsOfTheMesh)

@@ -141,6 +141,8 @@ TEST(ThermoelasticFilterBadInput, ConstraintArrays)
     With(false, "Constraint", 2, Constant(1.0)), { "constraint array", "one or three are needed" });
   ExpectError(With(false, "PrescribedDisplacement", 3, Constant(1.0)),
     { "prescribed displacements", "no constraint array" });
+  // As vtkTetGenFilter fills in what it does not know.
+  ExpectError(With(false, "Constraint", 1, OneBad), { "constraint 'Constraint' at point 2" });
   Grid held = With(false, "Constraint", 1, Constant(1.0));
   AddArray(held, false, "PrescribedDisplacement", 3, OneBad);
   ExpectError(held, { "prescribed displacement at point 2" });
@@ -176,6 +178,40 @@ TEST(ThermoelasticFilterBadInput, FacetTractionsMustBeOnTheSurface)
   AddCell(facets, VTK_TRIANGLE, { 0, 1, 13 }); // 13 is the centre
   AddArray(facets, true, "FacetTraction", 1, [](const Point&) { return Point{ { 1.0 } }; });
   ExpectError(facets, { "facet traction 'FacetTraction' of cell 48", "no facet of the surface" });
+}
+
+TEST(ThermoelasticFilterBadInput, FacetTractionsMustNotBeThereTwice)
+{
+  Grid facets = MakeBox(2, 0.0);
+  AddCell(facets, VTK_TRIANGLE, { 0, 1, 4 });
+  AddCell(facets, VTK_TRIANGLE, { 4, 1, 0 });
+  AddArray(facets, true, "FacetTraction", 1, [](const Point&) { return Point{ { 1.0 } }; });
+  ExpectError(facets, { "of cell 49", "same facet", "cell 48" });
+}
+
+TEST(ThermoelasticFilterBadInput, TractionsOfAPlaneMustBeInIt)
+{
+  const auto oblique = [](double x, double y) { return Point{ { x, 0.6 * y, 0.8 * y } }; };
+  for (const double across : { 1.0, 0.0 })
+  {
+    Grid square = MakeSquare(3, 0.1, oblique);
+    AddArray(square, false, "Traction", 3,
+      [&](const Point& x)
+      {
+        const double in = x[0] - 0.5; // in equilibrium, along the plane
+        return Point{ { 0.0, 0.6 * in - 0.8 * across, 0.8 * in + 0.6 * across } };
+      });
+    if (across > 0.0)
+    {
+      ExpectError(square, { "traction 'Traction' at point", "across the plane" });
+      continue;
+    }
+    Filter filter = MakeFilter(square);
+    filter->SetRigidMotionToPin();
+    const Messages messages(filter);
+    filter->Update();
+    EXPECT_TRUE(messages.Errors.empty() || !Says(messages.Errors[0], "across the plane"));
+  }
 }
 
 TEST(ThermoelasticFilterBadInput, CellsMustNotBeInvertedOrFlat)

@@ -43,6 +43,8 @@ std::vector<double> densities(
   return sum;
 }
 
+constexpr double LeastSize = 1e-50; ///< its powers fit into a double
+
 /// The h* with which the total error is `fraction` of the present one.
 double sizeForError(
   const std::vector<double>& errors, double greatest, double fraction, double power, double order)
@@ -133,9 +135,18 @@ std::string sizesFromErrors(const SimplexMesh<D>& mesh, const std::vector<double
   // Where there is no error a part of it says nothing: without a wanted number, the present one is
   // kept.
   const bool byError = options.desiredErrorFraction > 0.0 && !result.isZero;
+  const double size = byError
+    ? sizeForError(errors, greatest, options.desiredErrorFraction, power, options.convergenceOrder)
+    : 1.0;
+  if (!(size > LeastSize && size < 1.0 / LeastSize)) // relative to the present elements
+  {
+    std::ostringstream text;
+    text << "For " << options.desiredErrorFraction << " of the error, with a convergence order of "
+         << options.convergenceOrder << ", sizes would be beyond the range of numbers.";
+    return text.str();
+  }
   const ScaledMetric<D> scaled = byError
-    ? scaling.withSize(sizeForError(
-        errors, greatest, options.desiredErrorFraction, power, options.convergenceOrder))
+    ? scaling.withSize(size)
     : scaling.withCount(options.desiredCount > 0.0 ? options.desiredCount : errors.size());
   result.predictedCount = scaled.predictedCount;
   result.isCountReached = scaled.isCountReached;

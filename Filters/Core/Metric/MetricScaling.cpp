@@ -86,11 +86,12 @@ double findZero(F&& value, double start, double highest, double slope, double to
 std::string SizeLimits::check() const
 {
   std::ostringstream text;
-  if (!(this->minimumSize >= 0.0) || !(this->maximumSize >= 0.0) ||
-    !std::isfinite(this->minimumSize) || !std::isfinite(this->maximumSize))
+  // Beyond these, volumes and tensors of such sizes would not fit into a double.
+  const auto isUsable = [](double size) { return size == 0.0 || (size >= 1e-50 && size <= 1e50); };
+  if (!isUsable(this->minimumSize) || !isUsable(this->maximumSize))
   {
-    text << "The limits of the size must be 0 (none) or positive; they are " << this->minimumSize
-         << " and " << this->maximumSize << ".";
+    text << "The limits of the size must be 0 (none) or from 1e-50 to 1e50; they are "
+         << this->minimumSize << " and " << this->maximumSize << ".";
   }
   else if (this->maximumSize > 0.0 && this->minimumSize > this->maximumSize)
   {

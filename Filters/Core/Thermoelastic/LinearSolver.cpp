@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace meshopt::fem
 {
@@ -48,6 +49,9 @@ private:
   Eigen::IncompleteCholesky<double, Eigen::Lower> factor_;
 };
 
+/// Part to which a residual that is computed anew has to fall from one time to the next.
+constexpr double HalvedAtLeast = 0.5;
+
 /// Progress, from the logarithm of the residual.
 double fractionDone(double residual, double tolerance)
 {
@@ -57,16 +61,18 @@ double fractionDone(double residual, double tolerance)
   return std::isfinite(f) ? std::min(1.0, std::max(0.0, f)) : 0.0;
 }
 
-/// The residual comes from the recurrence, as in Eigen; it is not computed again.
+/// The residual comes from the recurrence. Rounding takes it away from the true one, by orders on
+/// very flat elements: so it is computed anew where it would end the iteration, which goes on from
+/// there as long as that helps.
 template <class Preconditioner>
-SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& options,
-  const Control& control, const ProgressSection& section, VectorXd& x)
+SolverReport conjugateGradient(const SparseMatrix& matrix, const VectorXd& b,
+  const SolverOptions& options, const Control& control, const ProgressSection& section, VectorXd& x)
 {
   SolverReport report;
-  const VectorXd& b = system.right;
   const double norm2 = b.squaredNorm();
+  double verified = std::numeric_limits<double>::infinity(); // the last residual computed anew
   const double goal = options.tolerance * options.tolerance;
-  const Preconditioner preconditioner(system.matrix);
+  const Preconditioner preconditioner(matrix);
   // From x = 0: the first residual is the load.
   VectorXd r = b, p(b.size()), z(b.size()), product(b.size());
   // The first direction is that of the preconditioned residual.
@@ -82,7 +88,7 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
       break;
     }
     // By the caller's threads, row by row: the same bits for any number of them.
-    multiply(system.matrix, p, control, product);
+    multiply(matrix, p, control, product);
     const double curvature = p.dot(product);
     const double step = rz / curvature;
     if (!(curvature > 0.0) || !std::isfinite(step))
@@ -98,8 +104,20 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
     report.history.push_back(std::sqrt(residual2));
     if (residual2 < goal)
     {
-      report.status = SolverStatus::Converged;
-      break;
+      multiply(matrix, x, control, product);
+      r = b - product;
+      const double residual = r.norm() / std::sqrt(norm2);
+      report.history.back() = residual;
+      if (residual < options.tolerance || !(residual < HalvedAtLeast * verified))
+      {
+        report.status = residual < options.tolerance ? SolverStatus::Converged
+                                                     : SolverStatus::IterationLimit;
+        break;
+      }
+      verified = residual;
+      preconditioner.apply(r, p);
+      rz = r.dot(p);
+      continue;
     }
     preconditioner.apply(r, z);
     // Conjugate to all directions before, by recurrence with the last one alone.
@@ -117,19 +135,20 @@ SolverReport conjugateGradient(const LinearSystem& system, const SolverOptions& 
 }
 
 /// There are no steps: the history has the residual before and after.
-SolverReport factorize(const LinearSystem& system, const SolverOptions& options, VectorXd& x)
+SolverReport factorize(
+  const SparseMatrix& matrix, const VectorXd& b, const SolverOptions& options, VectorXd& x)
 {
   SolverReport report;
   // 64 bits, since the factor can have far more entries than the matrix.
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
-  const Matrix lower = system.matrix.triangularView<Eigen::Lower>();
+  const Matrix lower = matrix.triangularView<Eigen::Lower>();
   // The order decides about the fill-in: by minimum degree (AMD).
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<std::int64_t>> factor(lower);
   if (factor.info() == Eigen::Success)
   {
-    x = factor.solve(system.right);
+    x = factor.solve(b);
     // Computed anew: a factorization has no recurrence, and its rounding is what one wants to see.
-    report.relativeResidual = (system.right - system.matrix * x).norm() / system.right.norm();
+    report.relativeResidual = (b - matrix * x).norm() / b.norm();
     report.history.push_back(1.0);
     report.history.push_back(report.relativeResidual);
   }
@@ -165,7 +184,7 @@ SolverReport solve(const LinearSystem& system, const SolverOptions& options, con
   const ProgressSection& section, VectorXd& x)
 {
   x = VectorXd::Zero(system.right.size());
-  if (system.right.size() == 0 || system.right.squaredNorm() == 0.0)
+  if (system.right.size() == 0 || (system.right.array() == 0.0).all())
   {
     // Residuals are relative to the load: without one there is nothing to solve.
     SolverReport report;
@@ -173,15 +192,26 @@ SolverReport solve(const LinearSystem& system, const SolverOptions& options, con
     report.history.push_back(0.0);
     return report;
   }
+  // By a power of 2, so that no bit of the solution changes: squares of loads must neither overflow
+  // nor vanish.
+  const double scale = std::exp2(std::ilogb(system.right.cwiseAbs().maxCoeff()));
+  const VectorXd load = system.right / scale;
+  SolverReport report;
   switch (options.solver)
   {
     case Solver::IncompleteCholesky:
-      return conjugateGradient<CholeskyPreconditioner>(system, options, control, section, x);
+      report = conjugateGradient<CholeskyPreconditioner>(
+        system.matrix, load, options, control, section, x);
+      break;
     case Solver::Direct:
-      return factorize(system, options, x);
+      report = factorize(system.matrix, load, options, x);
+      break;
     case Solver::ConjugateGradient:
+      report = conjugateGradient<DiagonalPreconditioner>(
+        system.matrix, load, options, control, section, x);
       break;
   }
-  return conjugateGradient<DiagonalPreconditioner>(system, options, control, section, x);
+  x *= scale;
+  return report;
 }
 }

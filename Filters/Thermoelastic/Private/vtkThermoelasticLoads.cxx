@@ -82,6 +82,32 @@ bool IsFinite(vtkDataArray* array, vtkIdType id)
 }
 
 /**
+ * Whether a load of a mesh in a plane has a part across it, which plane problems do not know.
+ */
+bool IsAcross(const vtkMeshBridge::Frame<3>&, vtkDataArray*, vtkIdType) { return false; }
+bool IsAcross(const vtkMeshBridge::Frame<2>& frame, vtkDataArray* array, vtkIdType id)
+{
+  if (array->GetNumberOfComponents() == 1)
+  {
+    return false; // a pressure
+  }
+  constexpr double slack = 1e-6; // planes across the axes are rounded
+  double value[3];
+  array->GetTuple(id, value);
+  const Vec<3> load(value[0], value[1], value[2]);
+  const double most = load.cwiseAbs().maxCoeff();
+  const Vec<3> across = frame.Axes[0].cross(frame.Axes[1]);
+  return std::fabs(load.dot(across)) > slack * most;
+}
+
+std::string DescribeAcross(vtkDataArray* array, const char* kind, vtkIdType id)
+{
+  return std::string("The traction '") + array->GetName() + "' at " + kind + " " +
+    std::to_string(id) +
+    " has a part across the plane of the mesh. In plane problems nothing can bear that.";
+}
+
+/**
  * Facets whose points all carry a load. Loads without any such facet are an error: a load must not
  * be lost silently.
  */
@@ -107,6 +133,13 @@ std::string AddPointTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
     }
     if (isLoaded)
     {
+      for (const vtkIdType p : ids)
+      {
+        if (IsAcross(model.Frame, array, p))
+        {
+          return DescribeAcross(array, "point", p);
+        }
+      }
       AddLoad<D>(model, facet, array, ids);
       isAnyLoaded = true;
     }
@@ -144,6 +177,7 @@ std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
     // not.
     oriented[sorted(facet)] = facet;
   }
+  std::map<Facet<D>, vtkIdType> loaded; // by which cell
   for (vtkIdType c = 0; c < model.Grid->GetNumberOfCells(); ++c)
   {
     vtkIdType n = 0;
@@ -168,6 +202,16 @@ std::string AddFacetTractions(const std::vector<Facet<D>>& surface, Model<D>& mo
     {
       return title + " has nothing to act on: the cell is no facet of the surface of the " +
         (D == 3 ? "tetrahedra." : "triangles.");
+    }
+    const auto [other, isFirst] = loaded.emplace(found->first, c);
+    if (!isFirst)
+    {
+      return title + " acts on the same facet as that of cell " + std::to_string(other->second) +
+        ".";
+    }
+    if (IsAcross(model.Frame, array, c))
+    {
+      return DescribeAcross(array, "cell", c);
     }
     // One value for the facet, the same at all its corners.
     std::array<vtkIdType, D> same;

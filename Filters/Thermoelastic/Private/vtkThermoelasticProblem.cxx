@@ -128,6 +128,16 @@ void ReadMask(vtkDataArray* mask, vtkIdType p, bool held[3])
   }
 }
 
+bool HasNaN(vtkDataArray* array, vtkIdType p)
+{
+  bool found = false;
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
+  {
+    found |= std::isnan(array->GetComponent(p, i));
+  }
+  return found;
+}
+
 /**
  * Components of the core are components of the grid if the plane is parallel to two axes. Otherwise
  * all components of a point must be held, or none.
@@ -148,6 +158,12 @@ std::string SetConstraints(Model<D>& model)
   {
     bool held[3];
     ReadMask(mask, p, held);
+    // NaN is not 0: a point of which nothing is known, as vtkTetGenFilter makes them, would be kept.
+    if (IsUsed(model, p) && HasNaN(mask, p))
+    {
+      return std::string("The constraint '") + mask->GetName() + "' at point " + std::to_string(p) +
+        " is not a number.";
+    }
     if (!IsUsed(model, p) || (!held[0] && !held[1] && !held[2]))
     {
       continue;

@@ -193,6 +193,12 @@ TEST(ErrorIndicator2, WhatIsUnusableIsNamed)
   options.convergenceOrder = 1.0;
   options.desiredErrorFraction = -1.0;
   EXPECT_NE(complaint().find("error"), std::string::npos);
+  errors.assign(errors.size(), 1.0);
+  for (const double tiny : { 1e-100, 1e-200, 1e-320 })
+  {
+    options.desiredErrorFraction = tiny;
+    EXPECT_NE(complaint().find("beyond the range of numbers"), std::string::npos);
+  }
   options.desiredErrorFraction = 0.0;
   options.limits.gradation = 0.5;
   EXPECT_NE(complaint().find("gradation"), std::string::npos);

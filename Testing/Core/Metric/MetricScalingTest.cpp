@@ -241,7 +241,7 @@ TEST(SizeLimits, WhatIsUnusableIsNamed)
   EXPECT_EQ(check(0, 0, 0, 0), "");
   EXPECT_EQ(check(0.1, 0.1, 1.0, 1.01), "");
   EXPECT_EQ(check(0.1, 0.0, 5.0, 2.0), "");
-  for (const double bad : { -1.0, nan, inf })
+  for (const double bad : { -1.0, nan, inf, 1e100, 1e-100 })
   {
     EXPECT_TRUE(has(check(bad, 0, 0, 0), "limits of the size"));
     EXPECT_TRUE(has(check(0, bad, 0, 0), "limits of the size"));

@@ -19,8 +19,10 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <vector>
 
 namespace vtkMeshOptimizeBridge
@@ -35,7 +37,10 @@ namespace
 
 // How far points of the geometry may be from the plane of the mesh, as a part of the diagonal of
 // their box. Files with single precision are off by 1e-7; what is off by more was meant to be.
-constexpr double InPlane = 1e-6;
+// The same as a part of the greatest coordinate, four roundings of a float: the mesh may have these
+// where the geometry has none, and its plane is no more exact than they are.
+// where the geometry has none, and its plane is no more exact than they are.
+constexpr double OfFloats = 4.0 * FLT_EPSILON;
 // Points nearer to each other than this part of that diagonal were meant to be one. Rounding only:
 // with more, short lines would vanish; with none, lines that meet would not be connected.
 constexpr double SamePlace = 1e-10;
@@ -130,16 +135,23 @@ std::string CheckPoints(
     }
   }
   // Two passes: the tolerance is relative to the box of all points.
+  double greatest = 0.0;
+  for (int i = 0; i < 6; ++i)
+  {
+    greatest = std::max(greatest, std::fabs(box.GetBound(i)));
+  }
+  const double slack = InPlane * box.GetDiagonalLength() + OfFloats * greatest;
   for (std::size_t p = 0; p < used.size(); ++p)
   {
     geometry->GetPoint(static_cast<vtkIdType>(p), x);
     frame.ToGrid(frame.ToCore(x), back);
     const double away = std::hypot(x[0] - back[0], x[1] - back[1], x[2] - back[2]);
-    if (used[p] && away > InPlane * box.GetDiagonalLength())
+    if (used[p] && away > slack)
     {
+      char digits[32];
+      std::snprintf(digits, sizeof digits, "%.3g", away);
       return "Point " + std::to_string(p) +
-        " of the geometry is not in the plane of the mesh, but " + std::to_string(away) +
-        " away from it.";
+        " of the geometry is not in the plane of the mesh, but " + digits + " away from it.";
     }
   }
   return {};

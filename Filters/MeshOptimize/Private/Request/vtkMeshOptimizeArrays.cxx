@@ -11,6 +11,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vtkMeshOptimizeBridge
 {
@@ -54,6 +55,24 @@ vtkAbstractArray* FindInRole(
   return found;
 }
 
+/**
+ * Marks are values that are not 0, which NaN is not, either: but it means that nothing is known.
+ */
+std::string CheckMarks(vtkDataArray* marks, const vtkMeshBridge::ArrayRole& role)
+{
+  const bool mayBeNaN = marks && !vtkMeshBridge::HoldsIntegers(marks);
+  for (vtkIdType p = 0; mayBeNaN && p < marks->GetNumberOfTuples(); ++p)
+  {
+    if (std::isnan(marks->GetComponent(p, 0)))
+    {
+      const char* name = marks->GetName();
+      return std::string("The ") + role.Noun + " '" + (name ? name : "(no name)") + "' at point " +
+        std::to_string(p) + " is not a number.";
+    }
+  }
+  return {};
+}
+
 } // namespace
 
 void ChooseArray(vtkAlgorithm* filter, ArrayIndex index, const char* name)
@@ -81,6 +100,14 @@ std::string FindInputArrays(vtkAlgorithm* filter, vtkUnstructuredGrid* grid, Inp
       return error;
     }
     *targets[i] = vtkDataArray::SafeDownCast(found);
+    if (i == FixedPointArray || i == CornerArray)
+    {
+      const std::string unknown = CheckMarks(*targets[i], role);
+      if (!unknown.empty())
+      {
+        return unknown;
+      }
+    }
     arrays.PatchIsAtPoints |= found && i == PatchArray && !role.OnCells;
   }
   return {};

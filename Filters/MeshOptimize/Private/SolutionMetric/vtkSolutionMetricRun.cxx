@@ -170,10 +170,12 @@ Tensor<3> ToGrid(const Tensor<2>& m, const bridge::Frame<2>& frame)
 {
   const Vec<3> u = frame.Axes[0], v = frame.Axes[1];
   const Vec<3> n = u.cross(v);
-  // Out of the plane nothing is known. The mean keeps the tensor positive definite and in scale.
+  // Out of the plane nothing is known. The mean keeps the tensor positive definite and in scale; of
+  // the scaled tensor, since the determinant itself may not fit into a double.
+  const double scale = m.cwiseAbs().maxCoeff();
+  const double mean = scale > 0.0 ? scale * std::sqrt(Tensor<2>(m / scale).determinant()) : 0.0;
   return m(0, 0) * u * u.transpose() + m(1, 1) * v * v.transpose() +
-    m(0, 1) * (u * v.transpose() + v * u.transpose()) +
-    std::sqrt(m.determinant()) * n * n.transpose();
+    m(0, 1) * (u * v.transpose() + v * u.transpose()) + mean * n * n.transpose();
 }
 
 /**
