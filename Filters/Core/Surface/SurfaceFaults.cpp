@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of kept facets that fold or cross, found by a sweep along x with exact signs; and the test
+// Pairs of kept facets that fold or cross, found by a tree of boxes with exact signs; and the test
 // whether cells can overlap.
 #include "Surface/SurfaceFaults.h"
 
+#include "Mesh/BoxTree.h"
 #include "Mesh/Ids.h"
 #include "Mesh/Predicates.h"
 
@@ -21,7 +22,7 @@ template <int D>
 std::vector<char> neighbourhood(const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
 {
   // Faults come from cells that are bad: far from them the surface is taken for good, which saves
-  // the sweep over all of it.
+  // the search over all of it.
   std::vector<char> isNear(mesh.numberOfCellSlots(), 0);
   for (Index c : cells)
   {
@@ -228,50 +229,6 @@ bool isFaulty(const SimplexMesh<D>& mesh, const Kept<D>& f, const Kept<D>& g,
   }
   return close && isFolded(mesh, f, onlyF, onlyG);
 }
-
-template <int D>
-struct Box
-{
-  Vec<D> low, high;
-  Index facet;
-};
-
-template <int D>
-std::vector<Box<D>> boxes(const SimplexMesh<D>& mesh, const std::vector<Kept<D>>& facets)
-{
-  std::vector<Box<D>> result;
-  for (std::size_t k = 0; k < facets.size(); ++k)
-  {
-    const Vec<D>& x = mesh.point(facets[k].nodes[0]);
-    Box<D> box{ x, x, static_cast<Index>(k) };
-    for (Index p : facets[k].nodes)
-    {
-      box.low = box.low.cwiseMin(mesh.point(p));
-      box.high = box.high.cwiseMax(mesh.point(p));
-    }
-    result.push_back(box);
-  }
-  return result;
-}
-
-/// Orders the boxes along the axis along which all together are the longest, and returns it. Along
-/// the thickness of a plate all would overlap.
-template <int D>
-int sortAlong(std::vector<Box<D>>& boxes)
-{
-  Eigen::AlignedBox<double, D> all;
-  for (const Box<D>& box : boxes)
-  {
-    all.extend(box.low).extend(box.high);
-  }
-  int axis = 0;
-  all.sizes().maxCoeff(&axis);
-  // Ties by number, so that the order of equal boxes does not depend on the library.
-  std::sort(boxes.begin(), boxes.end(),
-    [axis](const Box<D>& a, const Box<D>& b)
-    { return std::tie(a.low[axis], a.facet) < std::tie(b.low[axis], b.facet); });
-  return axis;
-}
 }
 
 /// An end that lies on the other edge is a touch, not a crossing.
@@ -324,7 +281,7 @@ bool facetsCross(const SimplexMesh<3>& mesh, const Facet<3>& f, const Facet<3>& 
   return oneWay(f, ofF, g) || oneWay(g, ofG, f);
 }
 
-/// A sweep: only pairs whose boxes overlap are looked at.
+/// By a tree of boxes: only pairs whose boxes overlap are looked at.
 template <int D>
 std::vector<SurfaceFault<D>> findSurfaceFaults(
   const SimplexMesh<D>& mesh, const std::vector<Index>& cells)
@@ -339,24 +296,29 @@ std::vector<SurfaceFault<D>> findSurfaceFaults(
       faults.push_back({ Fault::NoArea, { f.nodes, f.nodes } });
     }
   }
-  std::vector<Box<D>> sorted = boxes(mesh, facets);
-  const int axis = sortAlong(sorted);
-  for (std::size_t i = 0; i < sorted.size(); ++i)
+  std::vector<BoxTree::Item> items;
+  for (const Kept<D>& f : facets)
   {
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].low[axis] <= sorted[i].high[axis];
-         ++j)
-    {
-      typename Fault::Kind kind;
-      if ((sorted[j].low.array() <= sorted[i].high.array()).all() &&
-        (sorted[i].low.array() <= sorted[j].high.array()).all() &&
-        isFaulty(mesh, facets[sorted[i].facet], facets[sorted[j].facet], kind))
-      {
-        const auto [f, g] = std::minmax(sorted[i].facet, sorted[j].facet);
-        faults.push_back({ kind, { facets[f].nodes, facets[g].nodes } });
-      }
-    }
+    std::array<Vec<D>, D> x;
+    std::transform(
+      f.nodes.begin(), f.nodes.end(), x.begin(), [&](Index p) { return mesh.point(p); });
+    items.push_back({ static_cast<int>(items.size()), BoxTree::around(x) });
   }
-  // By kind and ids: the order of the sweep would change if the body were turned.
+  BoxTree tree;
+  tree.build(items);
+  for (const BoxTree::Item& item : items)
+  {
+    tree.findTouching(item.box,
+      [&](int other)
+      {
+        typename Fault::Kind kind;
+        if (other > item.number && isFaulty(mesh, facets[item.number], facets[other], kind))
+        {
+          faults.push_back({ kind, { facets[item.number].nodes, facets[other].nodes } });
+        }
+      });
+  }
+  // By kind and ids: the order of the search would change if the body were turned.
   std::sort(faults.begin(), faults.end(),
     [](const Fault& a, const Fault& b)
     { return std::tie(a.kind, a.facets) < std::tie(b.kind, b.facets); });

@@ -158,7 +158,7 @@ std::string SetConstraints(Model<D>& model)
   {
     bool held[3];
     ReadMask(mask, p, held);
-    // NaN is not 0: a point of which nothing is known, as vtkTetGenFilter makes them, would be kept.
+    // NaN is not 0: points of which nothing is known, as of vtkTetGenFilter, would be held.
     if (IsUsed(model, p) && HasNaN(mask, p))
     {
       return std::string("The constraint '") + mask->GetName() + "' at point " + std::to_string(p) +

@@ -37,8 +37,8 @@ namespace
 
 // How far points of the geometry may be from the plane of the mesh, as a part of the diagonal of
 // their box. Files with single precision are off by 1e-7; what is off by more was meant to be.
+constexpr double InPlane = 1e-6;
 // The same as a part of the greatest coordinate, four roundings of a float: the mesh may have these
-// where the geometry has none, and its plane is no more exact than they are.
 // where the geometry has none, and its plane is no more exact than they are.
 constexpr double OfFloats = 4.0 * FLT_EPSILON;
 // Points nearer to each other than this part of that diagonal were meant to be one. Rounding only:

@@ -7,6 +7,7 @@
 #include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"
 
+#include "Mesh/Ids.h"
 #include "Surface/SurfaceFaults.h"
 
 #include <algorithm>
@@ -127,21 +128,20 @@ public:
 private:
   const SurfaceFault<D>* FindFacet(Index slot) const
   {
-    for (const SurfaceFault<D>& fault : this->Faults)
+    // Sorted by kind, those without area first, then by points: with many flat faces, to walk over
+    // all of them for each cell would take longer than the run.
+    const auto end = std::partition_point(this->Faults.begin(), this->Faults.end(),
+      [](const SurfaceFault<D>& fault) { return fault.kind == SurfaceFault<D>::NoArea; });
+    const SurfaceFault<D>* first = nullptr;
+    for (int i = 0; i <= D; ++i)
     {
-      // Faults are sorted by kind: those without area come first.
-      if (fault.kind != SurfaceFault<D>::NoArea)
-      {
-        break;
-      }
-      const Facet<D>& f = fault.facets[0];
-      if (std::all_of(
-            f.begin(), f.end(), [&](Index p) { return this->Mesh.localIndex(slot, p) >= 0; }))
-      {
-        return &fault;
-      }
+      const Facet<D> key = meshopt::sortedIds(this->Mesh.facet(slot, i));
+      const auto found = std::lower_bound(this->Faults.begin(), end, key,
+        [](const SurfaceFault<D>& fault, const Facet<D>& f) { return fault.facets[0] < f; });
+      const bool isIt = found != end && found->facets[0] == key;
+      first = isIt && (!first || &*found < first) ? &*found : first;
     }
-    return nullptr;
+    return first;
   }
 
   const SimplexMesh<D>& Mesh;
