@@ -112,7 +112,7 @@ TYPED_TEST(ThermoelasticSolver, SameStepsAsEigen)
     const Eigen::VectorXd y = eigen.solve(system.right);
     EXPECT_EQ(report.status, SolverStatus::Converged);
     EXPECT_EQ(report.iterations, eigen.iterations() + 1);
-    EXPECT_NEAR(report.relativeResidual / eigen.error(), 1.0, 1e-6);
+    EXPECT_NEAR(report.relativeResidual / eigen.error(), 1.0, 1e-3); // Eigen's is not the true one
     EXPECT_LT((x - y).norm(), 1e-12 * y.norm());
     ASSERT_EQ(static_cast<int>(report.history.size()), report.iterations + 1);
     EXPECT_EQ(report.history.front(), 1.0);
@@ -121,7 +121,41 @@ TYPED_TEST(ThermoelasticSolver, SameStepsAsEigen)
     EXPECT_GT(report.history[report.iterations - 1], tolerance);
     EXPECT_NEAR(
       (system.right - system.matrix * x).norm() / system.right.norm() / report.relativeResidual,
-      1.0, 1e-3);
+      1.0, 1e-10);
+  }
+}
+
+// On flat elements the recurrence says 1e-12 where 1e-7 and worse is true.
+TYPED_TEST(ThermoelasticSolver, TheResidualIsTheTrueOne)
+{
+  constexpr int D = TypeParam::dimension;
+  SimplexMesh<D> mesh = box<D>(D == 3 ? 5 : 16, 0.2);
+  MeshEditor<D> editor(mesh);
+  for (Index p = 0; p < mesh.numberOfPointSlots(); ++p)
+  {
+    Vec<D> x = mesh.point(p);
+    x[D - 1] *= 1e-3;
+    editor.movePoint(p, x, mesh.nodes(0)[0]);
+  }
+  const LinearSystem system = systemOf(mesh, hotBox(mesh));
+  for (const Solver solver :
+    { Solver::ConjugateGradient, Solver::IncompleteCholesky, Solver::Direct })
+  {
+    SolverOptions options;
+    options.solver = solver;
+    options.tolerance = 1e-12;
+    Eigen::VectorXd x;
+    const SolverReport report = fem::solve(system, options, {}, {}, x);
+    const double residual = (system.right - system.matrix * x).norm() / system.right.norm();
+    EXPECT_NEAR(report.relativeResidual / residual, 1.0, 0.1);
+    EXPECT_EQ(report.status == SolverStatus::Converged, residual <= options.tolerance);
+    // As if the units were others: no square of a load overflows, and none is lost.
+    for (const double factor : { 0x1p500, 0x1p-500 })
+    {
+      Eigen::VectorXd scaled;
+      fem::solve({ system.matrix, factor * system.right }, options, {}, {}, scaled);
+      EXPECT_EQ(scaled / factor, x);
+    }
   }
 }
 
