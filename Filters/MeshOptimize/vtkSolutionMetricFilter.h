@@ -158,8 +158,8 @@ public:
   ///@{
   /**
    * Shortest and longest wanted edge, in any direction, in units of the coordinates. At a
-   * singularity (the tip of a crack) set MinimumSize: sizes go to zero there. Range >= 0; default
-   * 0: no shortest edge, and the longest is the diagonal of the mesh.
+   * singularity (the tip of a crack) set MinimumSize: sizes go to zero there. 0, or from 1e-50
+   * to 1e50; default 0: no shortest edge, and the longest is the diagonal of the mesh.
    */
   vtkSetClampMacro(MinimumSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MinimumSize, double);
