@@ -51,7 +51,10 @@ private:
     double part = 1.0;
     // Parts of the way that the tolerance allows: parts of a longer way could all end at the same
     // place, which has no tolerance left for the edges there.
-    judge.surface()->placeNear(mesh.place(v), to, to);
+    if (mayGain)
+    {
+      judge.surface()->placeNear(mesh.place(v), to, to);
+    }
     for (int k = 0; k < PartsOfTheWay && mayGain && !done; ++k, part *= 0.5)
     {
       Vec<D> x = from + part * (to - from);

@@ -53,7 +53,8 @@ bool EdgeDivider::findPatch(const Edge& edge, Index& patch, bool& isKept)
       const Facet<3> f = this->mesh().facet(other, i);
       if (this->mesh().isKept(other, i) && hasId(f, edge.a) && hasId(f, edge.b))
       {
-        // The least of its patches, so that it does not matter where the ring begins. None: locked.
+        // The least of its patches, so that it does not matter where the ring begins. Where one of
+        // its facets is locked, mayDivide() refuses.
         isKept = true;
         const Index p = this->mesh().patch(other, i);
         patch = patch == None ? p : std::min(patch, p);

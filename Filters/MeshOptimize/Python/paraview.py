@@ -11,6 +11,7 @@ The buttons of the plugin's toolbar call them. In ParaView's trace each is one l
 """
 import contextlib
 import math
+import re
 
 from paraview import servermanager, simple
 
@@ -169,7 +170,7 @@ def _compare_before_and_after(optimized):
         if count:
             _show_bad(bad, view)
         _show_bars(measure, chart)
-        chart.ChartTitle = f"{name}: worst {measure.MinimumQuality:.4f}, {count} under {BAD}"
+        _title(chart, f"{name}: worst {measure.MinimumQuality:.4f}, {count} under {BAD}")
         views.append(view)
         charts.append(chart)
     bounds = measure.GetDataInformation().GetBounds()
@@ -189,6 +190,11 @@ def _compare_before_and_after(optimized):
     return layout
 
 
+def _title(chart, text):
+    """In letters of which a hundred fit into 800 pixels; a longer line is cut off on both sides."""
+    chart.ChartTitle, chart.ChartTitleFontSize = text, 14
+
+
 def show_histogram(source=None):
     """How many elements have which quality, as bars. Returns the view and the Mesh Quality Min Max filter."""
     source = _source(source)
@@ -196,7 +202,7 @@ def show_histogram(source=None):
         measure = _measured(source)
         chart = simple.CreateView("XYBarChartView")
         _show_bars(measure, chart)
-        chart.ChartTitle = f"worst {measure.MinimumQuality:.4f}, mean {measure.MeanQuality:.4f}"
+        _title(chart, f"worst {measure.MinimumQuality:.4f}, mean {measure.MeanQuality:.4f}")
         _arrange("Histogram", chart)
         _finish(measure, chart)
         return chart, measure
@@ -210,8 +216,8 @@ def show_history(optimized=None):
         optimized.UpdatePropertyInformation()
         chart = simple.CreateView("XYChartView")
         simple.Show(simple.OutputPort(optimized, 1), chart)  # its columns: ParaViewPlugin/Charts.xml
-        chart.ChartTitle = (f"worst {optimized.WorstQualityBefore:.4f} -> {optimized.WorstQualityAfter:.4f}: "
-                            f"{optimized.StopReason}")
+        reason = re.split("[;:]", optimized.StopReason)[0]  # what holds the worst cell has no room here
+        _title(chart, f"worst {optimized.WorstQualityBefore:.4f} -> {optimized.WorstQualityAfter:.4f}: {reason}")
         chart.BottomAxisTitle, chart.LeftAxisTitle = "pass", "quality"
         chart.LeftAxisUseCustomRange, chart.LeftAxisRangeMinimum, chart.LeftAxisRangeMaximum = 1, 0, 1
         chart.LegendLocation = "TopLeft"

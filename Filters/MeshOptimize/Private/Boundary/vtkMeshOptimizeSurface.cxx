@@ -10,6 +10,7 @@
 #include "vtkBoundingBox.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include "Mesh/Ids.h"
@@ -46,16 +47,27 @@ std::vector<std::uint8_t> ReadCorners(vtkDataArray* array, const Cells& cells)
 template <class F>
 void ForTetrahedra(vtkUnstructuredGrid* grid, F&& f)
 {
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  const auto isUsable = [grid](vtkIdType p)
   {
-    if (grid->GetCellType(c) == VTK_TETRA)
+    double x[3] = { 0.0, 0.0, 0.0 };
+    const bool exists = p >= 0 && p < grid->GetNumberOfPoints();
+    if (exists)
+    {
+      grid->GetPoint(p, x);
+    }
+    return exists && std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+  };
+  // The grid has not been checked yet: it may have fewer types than cells.
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  const vtkIdType count = types ? types->GetNumberOfValues() : 0;
+  for (vtkIdType c = 0; c < std::min(grid->GetNumberOfCells(), count); ++c)
+  {
+    if (types->GetValue(c) == VTK_TETRA)
     {
       vtkIdType n = 0;
       const vtkIdType* ids = nullptr;
       grid->GetCellPoints(c, n, ids);
-      const bool isValid = n == 4 &&
-        std::all_of(
-          ids, ids + 4, [&](vtkIdType p) { return p >= 0 && p < grid->GetNumberOfPoints(); });
+      const bool isValid = n == 4 && std::all_of(ids, ids + 4, isUsable);
       if (isValid) // others are reported later
       {
         f(ids);

@@ -113,7 +113,12 @@ void OptimizeZone(
     std::tie(model.Mesh, model.Metric) = *before;
     Request moving = request;
     moving.Options.reconnect = moving.Options.insertNodes = moving.Options.removeNodes = false;
+    const double seconds = outcome.Seconds;
+    const std::int64_t evaluations = outcome.Report.evaluations;
     Optimize<D>(moving, surface, model, outcome);
+    // What the first run has cost counts, too.
+    outcome.Seconds += seconds;
+    outcome.Report.evaluations += evaluations;
   }
   AddLeftOut(rest, outcome);
 }
