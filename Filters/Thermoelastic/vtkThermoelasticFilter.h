@@ -22,10 +22,11 @@
  *   properties of the same names.
  * - point `Constraint`: a component of the displacement is prescribed where this is not 0; three
  *   components, or one for all three. The prescribed value is 0, or that of point
- *   `PrescribedDisplacement`. (In 2D the component across the plane is ignored.)
+ *   `PrescribedDisplacement`. (In 2D the component across the plane is ignored.) NaN is an error.
  * - point `Traction`: force per area along the axes (3 components), or a pressure (1 component,
  *   positive when it pushes). It acts on facets of the surface all of whose points have one that is
- *   not 0, and is linear on them. Tractions without any such facet are an error.
+ *   not 0, and is linear on them. Tractions without any such facet are an error, and in 2D those
+ *   with a part across the plane.
  * - cell `FacetTraction`: the same, constant on a facet. It is read at cells of the input that are
  *   facets of the surface: triangles on tetrahedra, lines on triangles.
  * <b>Constraints</b> come from the arrays and from GeneralizedPlaneStrain; if both prescribe the
