@@ -9,6 +9,7 @@
 #include "vtkSMPTools.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vtkMeshBridge
 {
@@ -20,6 +21,18 @@ int ResolveNumberOfThreads(int wanted)
   vtkSMPTools::LocalScope(vtkSMPTools::Config{ 0, "STDThread", false },
     [&]() { available = vtkSMPTools::GetEstimatedNumberOfThreads(); });
   return wanted > 0 ? wanted : std::max(available, 1);
+}
+
+std::string CheckNumbers(const std::vector<std::pair<const char*, double>>& properties)
+{
+  for (const auto& [name, value] : properties)
+  {
+    if (std::isnan(value))
+    {
+      return std::string(name) + " is not a number.";
+    }
+  }
+  return {};
 }
 
 meshopt::Control MakeControl(

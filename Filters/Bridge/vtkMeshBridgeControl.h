@@ -7,6 +7,10 @@
 
 #include "Base/Control.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 class vtkAlgorithm;
 
 namespace vtkMeshBridge
@@ -16,6 +20,12 @@ namespace vtkMeshBridge
  * The number of threads that `wanted` (0: all) means in this process.
  */
 int ResolveNumberOfThreads(int wanted);
+
+/**
+ * A sentence about the first property that is NaN, or nothing. The macros of VTK's setters bring
+ * numbers into their range, but let NaN pass.
+ */
+std::string CheckNumbers(const std::vector<std::pair<const char*, double>>& properties);
 
 /**
  * Reports progress of the core as the part [first, last] of the filter's progress, and stops the

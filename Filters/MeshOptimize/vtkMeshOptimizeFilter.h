@@ -63,8 +63,7 @@
  * those of the whole; ghost cells of the input are dropped, and made on request. See
  * SetOptimizeBorders(). With it off, each process optimizes its own piece and keeps the piece's
  * surface, so pieces still fit together. Ghost cells then stay as they are, but their originals may
- * have changed: generate ghost cells afterwards, not before. Errors and results are those of all
- * pieces, too; the history is that of the piece.
+ * have changed: generate ghost cells afterwards, not before. The history is that of the piece.
  *
  * <b>Errors.</b> An unusable input, array or option gives one error message that says what is wrong
  * and where; the outputs are then empty and GetErrorCode() is not 0. Unusable are a point id out of

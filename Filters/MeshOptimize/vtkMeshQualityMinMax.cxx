@@ -7,6 +7,7 @@
 #include "QualityMinMax/vtkMeshQualityReport.h"
 #include "Request/vtkMeshOptimizeArrays.h"
 #include "vtkMeshBridgeBlocks.h"
+#include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeGridView.h"
 #include "vtkMeshBridgeVTKCompat.h"
 
@@ -26,7 +27,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -238,18 +238,9 @@ std::string vtkMeshQualityMinMax::Run::CheckOptions() const
     return "QualityMeasure is " + std::to_string(this->Self->GetQualityMeasure()) +
       ", which is none of the known measures.";
   }
-  // The macros of the setters bring numbers into their range, but let NaN pass.
-  const std::pair<const char*, double> numbers[] = { { "Beta", this->Options.Beta },
-    { "DesiredSize", this->Options.DesiredSize },
-    { "TargetQuality", this->Options.TargetQuality } };
-  for (const auto& [name, value] : numbers)
-  {
-    if (std::isnan(value))
-    {
-      return std::string(name) + " is not a number.";
-    }
-  }
-  return {};
+  return vtkMeshBridge::CheckNumbers(
+    { { "Beta", this->Options.Beta }, { "DesiredSize", this->Options.DesiredSize },
+      { "TargetQuality", this->Options.TargetQuality } });
 }
 
 //------------------------------------------------------------------------------

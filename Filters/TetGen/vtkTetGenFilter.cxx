@@ -3,6 +3,7 @@
 #include "vtkTetGenFilter.h"
 
 #include "vtkMeshBridgeBlocks.h"
+#include "vtkMeshBridgeControl.h"
 #include "vtkMeshBridgeVTKCompat.h"
 #include "vtkTetGenChild.h"
 #include "vtkTetGenExport.h"
@@ -100,16 +101,13 @@ int vtkTetGenFilter::FillInputPortInformation(int port, vtkInformation* info)
  */
 std::string vtkTetGenFilter::CheckOptions()
 {
-  // The macros of the setters bring numbers into their range, but let NaN pass.
-  const std::pair<const char*, double> numbers[] = { { "MaximumVolume", this->MaximumVolume },
-    { "MaximumRadiusEdgeRatio", this->MaximumRadiusEdgeRatio },
-    { "MinimumDihedralAngle", this->MinimumDihedralAngle } };
-  for (const auto& [name, value] : numbers)
+  const std::string unusable = vtkMeshBridge::CheckNumbers(
+    { { "MaximumVolume", this->MaximumVolume },
+      { "MaximumRadiusEdgeRatio", this->MaximumRadiusEdgeRatio },
+      { "MinimumDihedralAngle", this->MinimumDihedralAngle } });
+  if (!unusable.empty())
   {
-    if (std::isnan(value))
-    {
-      return std::string(name) + " is not a number.";
-    }
+    return unusable;
   }
   if (this->MaximumRadiusEdgeRatio > 0.0 && this->MaximumRadiusEdgeRatio < 1.0)
   {

@@ -207,6 +207,8 @@ TEST(TetGenFilterBadInput, Options)
   Surface box = MakeBoxSurface(2);
   ExpectError(box, { "MaximumRadiusEdgeRatio is 0.9", "at least 1" },
     [](vtkTetGenFilter* f) { f->SetMaximumRadiusEdgeRatio(0.9); });
+  ExpectError(box, { "MaximumRadiusEdgeRatio is not a number" },
+    [](vtkTetGenFilter* f) { f->SetMaximumRadiusEdgeRatio(std::nan("")); });
 }
 
 TEST(TetGenFilterBadInput, RegionPoints)
