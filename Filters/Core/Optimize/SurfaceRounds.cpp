@@ -41,8 +41,8 @@ constexpr double DivisionsGain = 1.02;
 constexpr int MostDivisions = 16;
 /// Nor if they have cost so many times what the run has before them, by effort, since the
 /// worst quality last rose clearly (SinceRise). Some small solids took thirty times the first part
-/// for a rise of 7 % (fuzz_solids.py, seed 930012). In evaluations of quality. With 4 instead of 8,
-/// a body with a coarse fan (CGAL's hand, nodes numbered in another order) stays at .2 of .5.
+/// for a rise of 7 % (fuzz_solids.py, seed 930012). In evaluations of quality. With 4 in place of 8
+/// a coarse fan of facets (CGAL's hand) may be left, by how the nodes happen to be numbered.
 constexpr double MostPerRise[] = { 2.0, 8.0, 8.0 };
 static_assert(std::size(MostPerRise) == NumberOfEfforts);
 /// What comes of a division is improved up to AimAboveWorst times the worst quality, at least up to

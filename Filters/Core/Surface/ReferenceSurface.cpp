@@ -212,7 +212,9 @@ std::vector<RoomLimit> ReferenceSurface::limits(const Vec<3>& x, double most) co
 
 std::vector<RoomLimit> ReferenceSurface::fewLimits(const Vec<3>& x, double most) const
 {
-  for (double motion = LeastMotion * most;; motion = std::min(most, 2.0 * motion))
+  const double least = LeastMotion * most;
+  // 0 of the smallest numbers: twice that would still be 0.
+  for (double motion = least > 0.0 ? least : most;; motion = std::min(most, 2.0 * motion))
   {
     std::vector<RoomLimit> limits = this->limits(x, motion);
     keepBinding(motion, limits);

@@ -4,6 +4,9 @@
 
 #include "SlidingBoxes.h"
 #include "Surface/NearestInTriangle.h"
+#include "Surface/ReferenceSurface.h"
+
+#include <algorithm>
 
 using namespace meshopt;
 
@@ -150,5 +153,48 @@ TEST(RoomLimit, ThePartOfTheDistanceIsLeft)
     EXPECT_GE(distanceTo(t, x + limit.part(u) * u), (1.0 - share) * distance - 1e-12);
     EXPECT_NEAR(
       distanceTo(t, x + limit.part(5.0 * way) * 5.0 * way), (1.0 - share) * distance, 1e-12);
+  }
+}
+
+/// Among thousands of facets that face it a point gets few limits, which no motion may use to pass
+/// one that has been left out. Where there are few facets, and for the smallest motions, all count.
+TEST(RoomLimit, AmongManyFacetsThereAreFewLimits)
+{
+  TestRandom random(6);
+  for (const int number : { 40, 3000 })
+  {
+    ReferenceSurface surface;
+    for (int k = 0; k < number; ++k)
+    {
+      // Seen from the origin face on: near above it, a few far below it.
+      const bool isBelow = k % 20 == 0;
+      const Vec<3> out = Vec<3>(random(), random(), isBelow ? -1.0 : 1.0).normalized();
+      const Vec<3> a = out.unitOrthogonal(), b = out.cross(a);
+      const Vec<3> x = (isBelow ? 0.35 + 0.05 * random() : 0.035 + 0.015 * random()) * out;
+      surface.add(
+        { Vec<3>(x + 1e-3 * a), Vec<3>(x + 1e-3 * b), Vec<3>(x - 1e-3 * (a + b)) }, 0, true, true);
+    }
+    surface.finish(0.1, 1e-15);
+    const Vec<3> centre = Vec<3>::Zero();
+    for (const double most : { 0.1, 1e-323 })
+    {
+      const std::vector<RoomLimit> all = surface.limits(centre, most),
+                                   few = surface.fewLimits(centre, most);
+      EXPECT_EQ(all.empty(), most < 0.01);
+      EXPECT_LE(few.size(), 400u);
+      EXPECT_LT(few.size(), all.size() + 1);
+      for (int i = 0; i < 1000; ++i)
+      {
+        const Vec<3> u = Vec<3>(random(), random(), random()).normalized() * most * 0.5 *
+          (1.0 + random());
+        const auto isWithin = [&](const std::vector<RoomLimit>& limits)
+        {
+          return std::all_of(limits.begin(), limits.end(),
+            [&](const RoomLimit& limit) { return !(limit.part(u) < 1.0); });
+        };
+        EXPECT_TRUE(!isWithin(few) || isWithin(all));
+        EXPECT_TRUE(number > 40 || isWithin(few) == isWithin(all));
+      }
+    }
   }
 }

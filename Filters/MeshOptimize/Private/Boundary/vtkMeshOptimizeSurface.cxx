@@ -47,16 +47,6 @@ std::vector<std::uint8_t> ReadCorners(vtkDataArray* array, const Cells& cells)
 template <class F>
 void ForTetrahedra(vtkUnstructuredGrid* grid, F&& f)
 {
-  const auto isUsable = [grid](vtkIdType p)
-  {
-    double x[3] = { 0.0, 0.0, 0.0 };
-    const bool exists = p >= 0 && p < grid->GetNumberOfPoints();
-    if (exists)
-    {
-      grid->GetPoint(p, x);
-    }
-    return exists && std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
-  };
   // The grid has not been checked yet: it may have fewer types than cells.
   vtkUnsignedCharArray* types = grid->GetCellTypesArray();
   const vtkIdType count = types ? types->GetNumberOfValues() : 0;
@@ -67,7 +57,9 @@ void ForTetrahedra(vtkUnstructuredGrid* grid, F&& f)
       vtkIdType n = 0;
       const vtkIdType* ids = nullptr;
       grid->GetCellPoints(c, n, ids);
-      const bool isValid = n == 4 && std::all_of(ids, ids + 4, isUsable);
+      const bool isValid = n == 4 &&
+        std::all_of(
+          ids, ids + 4, [&](vtkIdType p) { return p >= 0 && p < grid->GetNumberOfPoints(); });
       if (isValid) // others are reported later
       {
         f(ids);
@@ -164,7 +156,12 @@ std::vector<std::vector<meshopt::Facet<3>>> PrepareSurface(
   {
     for (const meshopt::Facet<3>& face : ListOuterFaces(grids[k]))
     {
-      faces.emplace_back(CornersOf(grids[k], face), k, face);
+      const FaceCorners corners = CornersOf(grids[k], face);
+      // NaN has no place in an order; its point is reported later.
+      if (std::all_of(corners.begin(), corners.end(), [](double x) { return std::isfinite(x); }))
+      {
+        faces.emplace_back(corners, k, face);
+      }
     }
   }
   std::sort(faces.begin(), faces.end());
